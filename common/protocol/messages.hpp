@@ -86,7 +86,8 @@ struct BeginStep {
   std::vector<double> predicted;
   TETHER_FIELDS(time, dt, predicted)
 };
-/// Keep what the last evaluation found, or return to the state before BeginStep. -> StepReport
+/// Keep what the last evaluation found, or return to the state before BeginStep (also when BeginStep or an evaluation
+/// failed, or no evaluation came). -> StepReport
 struct EndStep {
   bool accepted = true;
   TETHER_FIELDS(accepted)
@@ -96,6 +97,10 @@ struct Write {
   std::int64_t step = 0;
   double time = 0;
   TETHER_FIELDS(step, time)
+};
+/// What the partner has cost so far, for the summary. -> Usage
+struct GetUsage {
+  TETHER_FIELDS()
 };
 /// Finish: write what is open, answer, end. -> Ready
 struct Stop {
@@ -129,8 +134,8 @@ struct SolidTangent {
   TETHER_FIELDS(load_change)
 };
 /// Add `correction` (empty: none) to the iterate V of all unknowns, then return the residual of the step's equations under
-/// `load`. After BeginStep the iterate is the solid's own prediction. Unknowns: interface velocities first, in interface
-/// order. -> SolidResidualReply
+/// `load`. After BeginStep the iterate's interface part is (predicted - y0)/dt, the rest the solid's own prediction.
+/// Unknowns: interface velocities first, in interface order. -> SolidResidualReply
 struct SolidResidual {
   std::vector<double> correction, load;
   TETHER_FIELDS(correction, load)
@@ -202,13 +207,17 @@ struct Discrepancy {
   std::vector<double> distances, normals, weights;
   TETHER_FIELDS(distances, normals, weights)
 };
+struct Usage {
+  double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
+  TETHER_FIELDS(cpu_seconds, peak_memory_mb)
+};
 
 #undef TETHER_FIELDS
 
 using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
                                FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual, SolidProduct,
-                               SolidPrecondition, Observe>;
+                               SolidPrecondition, Observe, GetUsage>;
 using ToMaster = std::variant<Hello, Ready, Failure, Interface, State, StepReport, Load, Motion, SolidResidualReply,
-                              Unknowns, Discrepancy>;
+                              Unknowns, Discrepancy, Usage>;
 
 }  // namespace tether::protocol
