@@ -1,0 +1,59 @@
+#include "common/mesh/surface.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace tether {
+
+Vec3 area_vector(const Points& points, const Triangle& t) {
+  const Vec3 a = points.col(t[1]) - points.col(t[0]), b = points.col(t[2]) - points.col(t[0]);
+  return 0.5 * a.cross(b);
+}
+
+Vec3 total_area_vector(const Points& points, const std::vector<Triangle>& triangles) {
+  Vec3 sum = Vec3::Zero();
+  for (const Triangle& t : triangles) sum += area_vector(points, t);
+  return sum;
+}
+
+double total_area(const Points& points, const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  for (const Triangle& t : triangles) sum += area_vector(points, t).norm();
+  return sum;
+}
+
+Vec3 centroid(const Points& points, const std::vector<Triangle>& triangles) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0;
+  for (const Triangle& t : triangles) {
+    const double weight = area_vector(points, t).norm();
+    sum += weight / 3.0 * (points.col(t[0]) + points.col(t[1]) + points.col(t[2]));
+    area += weight;
+  }
+  return sum / area;
+}
+
+Points nodal_normals(const Points& points, const std::vector<Triangle>& triangles) {
+  Points normals = Points::Zero(3, points.cols());
+  for (const Triangle& t : triangles) {
+    const Vec3 normal = area_vector(points, t).normalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 a = points.col(t[(i + 1) % 3]) - points.col(t[i]), b = points.col(t[(i + 2) % 3]) - points.col(t[i]);
+      normals.col(t[i]) += std::atan2(a.cross(b).norm(), a.dot(b)) * normal;
+    }
+  }
+  for (Eigen::Index node = 0; node < normals.cols(); ++node) normals.col(node).normalize();
+  return normals;
+}
+
+Plane plane_of_loop(const Points& loop) {
+  Plane plane{loop.rowwise().mean(), Vec3::Zero()};
+  for (Eigen::Index i = 0; i < loop.cols(); ++i) {
+    const Vec3 a = loop.col(i) - plane.origin, b = loop.col((i + 1) % loop.cols()) - plane.origin;
+    plane.normal += a.cross(b);
+  }
+  plane.normal.normalize();
+  return plane;
+}
+
+}  // namespace tether

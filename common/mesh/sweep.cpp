@@ -1,0 +1,134 @@
+#include "common/mesh/sweep.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.hpp"
+#include "common/mesh/extrude.hpp"
+#include "common/mesh/polar_curve.hpp"
+#include "common/mesh/topology.hpp"
+
+namespace tether {
+
+namespace {
+
+/// A point of the rim between its nodes, linearly; angle as fraction of the full turn.
+Vec3 rim_point(const CrossSection& section, double turn) {
+  const auto around = static_cast<double>(section.rim.cols());
+  const double place = turn * around, floor = std::floor(place);
+  const auto node = static_cast<Eigen::Index>(floor) % section.rim.cols();
+  const double t = place - floor;
+  return (1 - t) * section.rim.col(node) + t * section.rim.col((node + 1) % section.rim.cols());
+}
+
+/// The disc's nodes in a cross-section.
+Points placed(const Disc& disc, const CrossSection& section) {
+  Points points(3, disc.node_count());
+  for (const Disc::Ring& ring : disc.rings)
+    for (int i = 0; i < ring.count; ++i)
+      points.col(ring.node(i)) =
+          section.centre + ring.radius * (rim_point(section, double(i) / ring.count) - section.centre);
+  return points;
+}
+
+Triangle shifted(const Triangle& t, int by) {
+  return {t[0] + by, t[1] + by, t[2] + by};
+}
+
+std::vector<Prism> prisms_between_sections(const Disc& disc, int along) {
+  std::vector<Prism> prisms;
+  for (int i = 0; i < along; ++i)
+    for (const Triangle& t : disc.triangles) {
+      const Triangle b = shifted(t, i * disc.node_count()), a = shifted(b, disc.node_count());
+      prisms.push_back({b[0], b[1], b[2], a[0], a[1], a[2]});
+    }
+  return prisms;
+}
+
+std::vector<Triangle> interface_triangles(const Disc& disc, int along) {
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < along; ++i)
+    for (int j = 0; j < disc.rim().count; ++j) {
+      const int below = i * disc.node_count(), above = below + disc.node_count();
+      const int a = disc.rim().node(j), b = disc.rim().node(j + 1);
+      for (const Triangle& half : split_quadrilateral(a + below, b + below, b + above, a + above))
+        triangles.push_back(half);
+    }
+  return triangles;
+}
+
+void require_positive_volumes(const FluidMesh& fluid) {
+  for (const Tetrahedron& tetrahedron : fluid.tetrahedra)
+    if (const Vec3 at = fluid.points.col(tetrahedron[0]); !(signed_volume(fluid.points, tetrahedron) > 0))
+      throw input_error(
+          "mesh: the swept lumen folds near ({:.4g}, {:.4g}, {:.4g}): cross-sections are too close, too oblique or out "
+          "of order",
+          at[0], at[1], at[2]);
+}
+
+FluidMesh fill(const Disc& disc, const std::vector<CrossSection>& sections) {
+  const int along = static_cast<int>(sections.size()) - 1, nodes = disc.node_count();
+  FluidMesh fluid;
+  fluid.points.resize(3, nodes * (along + 1));
+  for (int i = 0; i <= along; ++i)
+    fluid.points.middleCols(i * nodes, nodes) = placed(disc, sections[static_cast<std::size_t>(i)]);
+  fluid.tetrahedra = split_into_tetrahedra(prisms_between_sections(disc, along));
+  fluid.interface = interface_triangles(disc, along);
+  Patch inlet{"inlet", {}}, outlet{"outlet", {}};
+  for (const Triangle& t : disc.triangles) {
+    inlet.triangles.push_back({t[0], t[2], t[1]});
+    outlet.triangles.push_back(shifted(t, along * nodes));
+  }
+  fluid.inlets = {inlet};
+  fluid.outlets = {outlet};
+  require_positive_volumes(fluid);
+  return fluid;
+}
+
+/// Angle and position of a triangle of the outer wall, from the cross-sections its nodes stand in.
+WallPlace place_on_vessel(const Triangle& triangle, const Disc& disc, int along) {
+  const int around = disc.rim().count, interface_nodes = around * (along + 1);
+  double x = 0, y = 0, position = 0;
+  for (const int node : triangle) {
+    const int on_interface = node % interface_nodes, in_ring = on_interface % around;
+    const int place = in_ring < (around + 1) / 2 ? 2 * in_ring : 2 * (in_ring - (around + 1) / 2) + 1;
+    const double angle = 2 * std::numbers::pi * place / around;
+    x += std::cos(angle);
+    y += std::sin(angle);
+    position += static_cast<double>(on_interface / around) / along / 3;
+  }
+  const double degrees = std::atan2(y, x) * 180 / std::numbers::pi;
+  return {degrees < 0 ? degrees + 360 : degrees, position};
+}
+
+}  // namespace
+
+VesselMesh sweep(const SweepSettings& settings) {
+  const Disc disc = make_disc(settings.disc);
+  VesselMesh vessel;
+  vessel.fluid = fill(disc, cross_sections(settings));
+  vessel.wall = extrude_wall(vessel.fluid, {settings.wall_thickness, settings.layers});
+  if (!settings.regions.empty())
+    vessel.wall.outside =
+        divide_by_regions(vessel.wall.outside.front().triangles, settings.regions,
+                          [&](const Triangle& t) { return place_on_vessel(t, disc, settings.along); });
+  return vessel;
+}
+
+SweepSettings circular_tube_settings(double radius, double length, double thickness, int around, int along,
+                                     int layers) {
+  SweepSettings settings;
+  for (const double z : {0.0, length})
+    settings.sections.push_back(circle(make_frame({0, 0, z}, {0, 0, 1}, settings.angle_origin), radius, 4 * around));
+  settings.wall_thickness = thickness;
+  settings.along = along;
+  settings.layers = layers;
+  settings.disc.around = around;
+  return settings;
+}
+
+VesselMesh circular_tube(double radius, double length, double thickness, int around, int along, int layers) {
+  return sweep(circular_tube_settings(radius, length, thickness, around, along, layers));
+}
+
+}  // namespace tether
