@@ -5,22 +5,34 @@
 #include <variant>
 #include <vector>
 
-/// The messages between a master and its partners (fluid, solid, observation_manager). Plain structs, one variant a direction.
-/// Each lists its fields once, in `fields`: that is the order on the wire (docs/protocol.md).
-/// Arrays of vectors are node by node: x0 y0 z0 x1 y1 z1 ..., nodes in the order of the partner's `Interface` message.
-/// Every request has exactly one reply: the type named beside it, or `Failure`.
+/// The messages between a master and its partners (fluid, solid, observation_manager). Plain structs, one variant a
+/// direction. Each lists its fields once, in `fields`: that is the order on the wire (docs/protocol.md). Arrays of
+/// vectors are node by node: x0 y0 z0 x1 y1 z1 ..., nodes in the order of the partner's `Interface` message. Every
+/// request names its one `Reply`; a partner may always answer `Failure` instead.
 namespace tether::protocol {
 
 inline constexpr std::int64_t version = 1;
 
-#define TETHER_FIELDS(...)                                        \
-  template <class Archive>                                        \
-  void fields(Archive& archive) { archive(__VA_ARGS__); }
+#define TETHER_FIELDS(...)              \
+  template <class Archive>              \
+  void fields(Archive& archive) {       \
+    archive(__VA_ARGS__);               \
+  }                                     \
+  template <class Archive>              \
+  void fields(Archive& archive) const { \
+    archive(__VA_ARGS__);               \
+  }
+
+/// The name that errors and the conformance check use, and the fields in wire order.
+#define TETHER_MESSAGE(Name, ...)                    \
+  static constexpr const char* message_name = #Name; \
+  TETHER_FIELDS(__VA_ARGS__)
 
 /// A number of the partner that the master may set by name.
 struct ParameterInfo {
   std::string name, meaning, unit, transform;
-  double value = 0, absent = 0, lower = 0, upper = 0, prior_deviation = 0;  ///< absent, prior_deviation: NaN if undefined
+  double value = 0, absent = 0, lower = 0, upper = 0,
+         prior_deviation = 0;  ///< absent, prior_deviation: NaN if undefined
   TETHER_FIELDS(name, meaning, unit, transform, value, absent, lower, upper, prior_deviation)
 };
 
@@ -32,13 +44,19 @@ struct ObservableInfo {
 
 // ---- partner -> master, once, unasked -------------------------------------------------------------------------------
 
-/// First message of a partner. `failure` is not empty if its input is wrong: the master then reports it and ends.
-struct Hello {
+/// The first message, sent as soon as the partner has reached MPI and before it reads its case: from now on the master
+/// notices its death. The master answers with Welcome.
+struct Arrival {
   std::int64_t protocol_version = version;
-  std::string role;     ///< "fluid", "solid", "fluid_observation", "solid_observation"
-  std::string program;  ///< name and version, for the summary
+  std::string role;  ///< "fluid", "solid", "fluid_observation", "solid_observation", "fsi_master"
   std::string host;
   std::int64_t pid = 0;
+  TETHER_MESSAGE(Arrival, protocol_version, role, host, pid)
+};
+/// The second message, when the case is read and the partner is ready for requests; or Failure if that did not work,
+/// and the partner ends.
+struct Hello {
+  std::string program;         ///< name and version, for the summary
   bool has_tangent = false;    ///< answers FluidTangent / SolidTangent
   bool has_operators = false;  ///< solid: answers SolidResidual, SolidProduct, SolidPrecondition
   bool has_state = false;      ///< answers GetState, SetState
@@ -46,178 +64,206 @@ struct Hello {
   std::vector<ParameterInfo> parameters;
   std::vector<ObservableInfo> observables;
   std::string effective_case;  ///< its sections of the case as JSON, defaults included
-  std::string failure;
-  TETHER_FIELDS(protocol_version, role, program, host, pid, has_tangent, has_operators, has_state, state_size, unknowns,
-                parameters, observables, effective_case, failure)
-};
-
-// ---- master -> any partner ------------------------------------------------------------------------------------------
-
-/// Answer to Hello. -> Ready
-struct Welcome {
-  std::int64_t protocol_version = version;
-  std::string host;
-  std::int64_t pid = 0;
-  std::string output;  ///< folder for the partner's files
-  TETHER_FIELDS(protocol_version, host, pid, output)
-};
-/// -> Interface
-struct GetInterface {
-  TETHER_FIELDS()
-};
-/// -> Ready
-struct SetParameters {
-  std::vector<std::string> names;
-  std::vector<double> values;
-  TETHER_FIELDS(names, values)
-};
-/// -> State
-struct GetState {
-  TETHER_FIELDS()
-};
-/// -> Ready
-struct SetState {
-  std::vector<double> values;
-  TETHER_FIELDS(values)
-};
-/// Start the step from `time` to `time + dt`; predicted: the interface displacement expected at its end. -> Ready
-struct BeginStep {
-  double time = 0, dt = 0;
-  std::vector<double> predicted;
-  TETHER_FIELDS(time, dt, predicted)
-};
-/// Keep what the last evaluation found, or return to the state before BeginStep (also when BeginStep or an evaluation
-/// failed, or no evaluation came). -> StepReport
-struct EndStep {
-  bool accepted = true;
-  TETHER_FIELDS(accepted)
-};
-/// Write files for viewing under the output folder. -> Ready
-struct Write {
-  std::int64_t step = 0;
-  double time = 0;
-  TETHER_FIELDS(step, time)
-};
-/// What the partner has cost so far, for the summary. -> Usage
-struct GetUsage {
-  TETHER_FIELDS()
-};
-/// Finish: write what is open, answer, end. -> Ready
-struct Stop {
-  std::string reason;
-  TETHER_FIELDS(reason)
-};
-
-// ---- master -> fluid ------------------------------------------------------------------------------------------------
-
-/// Interface displacement and velocity (y1 - y0)/dt at the end of the step. -> Load
-struct FluidEvaluate {
-  std::vector<double> displacement, velocity;
-  TETHER_FIELDS(displacement, velocity)
-};
-/// The same, linearised at the last evaluation. -> Load (the change of the load)
-struct FluidTangent {
-  std::vector<double> velocity_change;
-  TETHER_FIELDS(velocity_change)
-};
-
-// ---- master -> solid ------------------------------------------------------------------------------------------------
-
-/// Nodal forces on the interface: solve the step. -> Motion
-struct SolidEvaluate {
-  std::vector<double> load;
-  TETHER_FIELDS(load)
-};
-/// The same, linearised at the last evaluation. -> Motion (the change of the motion)
-struct SolidTangent {
-  std::vector<double> load_change;
-  TETHER_FIELDS(load_change)
-};
-/// Add `correction` (empty: none) to the iterate V of all unknowns, then return the residual of the step's equations under
-/// `load`. After BeginStep the iterate's interface part is (predicted - y0)/dt, the rest the solid's own prediction.
-/// Unknowns: interface velocities first, in interface order. -> SolidResidualReply
-struct SolidResidual {
-  std::vector<double> correction, load;
-  TETHER_FIELDS(correction, load)
-};
-/// Tangent of the residual (with a plus sign: symmetric positive definite) times a direction. -> Unknowns
-struct SolidProduct {
-  std::vector<double> direction;
-  TETHER_FIELDS(direction)
-};
-/// An approximate inverse of that tangent times a residual; zero where the solid's motion is prescribed. -> Unknowns
-struct SolidPrecondition {
-  std::vector<double> residual;
-  TETHER_FIELDS(residual)
-};
-
-// ---- master -> observation_manager ----------------------------------------------------------------------------------
-
-/// The moving surface at a time. -> Discrepancy
-struct Observe {
-  double time = 0;
-  std::vector<double> points;
-  TETHER_FIELDS(time, points)
+  TETHER_MESSAGE(Hello, program, has_tangent, has_operators, has_state, state_size, unknowns, parameters, observables,
+                 effective_case)
 };
 
 // ---- partner -> master, as replies ----------------------------------------------------------------------------------
 
 struct Ready {
-  TETHER_FIELDS()
+  TETHER_MESSAGE(Ready)
 };
 /// What went wrong; the partner stays reachable and can still answer GetState.
 struct Failure {
   std::string message;
   bool input_wrong = false;  ///< the user's input, not the run
-  TETHER_FIELDS(message, input_wrong)
+  TETHER_MESSAGE(Failure, message, input_wrong)
 };
 struct Interface {
-  std::vector<double> points;            ///< reference positions
-  std::vector<std::int64_t> triangles;   ///< three node indices each, normals out of the fluid
-  std::vector<std::string> region_names; ///< of the outer wall; empty for a fluid
-  std::vector<std::int64_t> regions;     ///< a region per triangle, -1 for none; may be empty
-  TETHER_FIELDS(points, triangles, region_names, regions)
+  std::vector<double> points;             ///< reference positions
+  std::vector<std::int64_t> triangles;    ///< three node indices each, normals out of the fluid
+  std::vector<std::string> region_names;  ///< of the outer wall; empty for a fluid
+  std::vector<std::int64_t> regions;      ///< a region per triangle, -1 for none; may be empty
+  TETHER_MESSAGE(Interface, points, triangles, region_names, regions)
 };
 struct State {
   std::vector<double> values;
-  TETHER_FIELDS(values)
+  TETHER_MESSAGE(State, values)
 };
 struct StepReport {
   std::vector<double> observables;  ///< as announced in Hello
-  TETHER_FIELDS(observables)
+  TETHER_MESSAGE(StepReport, observables)
 };
 struct Load {
   std::vector<double> forces;
-  TETHER_FIELDS(forces)
+  TETHER_MESSAGE(Load, forces)
 };
 struct Motion {
   std::vector<double> displacement, velocity;  ///< velocity: (y1 - y0)/dt
-  TETHER_FIELDS(displacement, velocity)
+  TETHER_MESSAGE(Motion, displacement, velocity)
 };
 struct SolidResidualReply {
-  std::vector<double> residual;  ///< all unknowns: load - internal, inertial and support forces
+  std::vector<double> residual;                ///< all unknowns: load - internal, inertial and support forces
   std::vector<double> displacement, velocity;  ///< of the interface, at the iterate
-  TETHER_FIELDS(residual, displacement, velocity)
+  TETHER_MESSAGE(SolidResidualReply, residual, displacement, velocity)
 };
 struct Unknowns {
   std::vector<double> values;
-  TETHER_FIELDS(values)
+  TETHER_MESSAGE(Unknowns, values)
 };
 struct Discrepancy {
   std::vector<double> distances, normals, weights;
-  TETHER_FIELDS(distances, normals, weights)
+  TETHER_MESSAGE(Discrepancy, distances, normals, weights)
 };
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
-  TETHER_FIELDS(cpu_seconds, peak_memory_mb)
+  TETHER_MESSAGE(Usage, cpu_seconds, peak_memory_mb)
 };
 
+// ---- master -> any partner ------------------------------------------------------------------------------------------
+
+/// Answer to Arrival; the partner now watches its master. No reply: Hello follows.
+struct Welcome {
+  std::int64_t protocol_version = version;
+  std::string host;
+  std::int64_t pid = 0;
+  std::string output;  ///< folder for the partner's files
+  TETHER_MESSAGE(Welcome, protocol_version, host, pid, output)
+};
+/// The reference surface, before the first step.
+struct GetInterface {
+  using Reply = Interface;
+  TETHER_MESSAGE(GetInterface)
+};
+/// Give named numbers of Hello's list new values, from the next step on. An unknown name is a Failure that changes
+/// nothing.
+struct SetParameters {
+  using Reply = Ready;
+  std::vector<std::string> names;
+  std::vector<double> values;
+  TETHER_MESSAGE(SetParameters, names, values)
+};
+/// Everything needed to continue from the end of the last accepted step.
+struct GetState {
+  using Reply = State;
+  TETHER_MESSAGE(GetState)
+};
+/// Continue from such a state.
+struct SetState {
+  using Reply = Ready;
+  std::vector<double> values;
+  TETHER_MESSAGE(SetState, values)
+};
+/// Start the step from `time` to `time + dt`; predicted: the interface displacement expected at its end.
+struct BeginStep {
+  using Reply = Ready;
+  std::int64_t step = 0;  ///< its number, for messages to people
+  double time = 0, dt = 0;
+  std::vector<double> predicted;
+  TETHER_MESSAGE(BeginStep, step, time, dt, predicted)
+};
+/// Keep what the last evaluation found, or return to the state before BeginStep (also when BeginStep or an evaluation
+/// failed, or no evaluation came).
+struct EndStep {
+  using Reply = StepReport;
+  bool accepted = true;
+  TETHER_MESSAGE(EndStep, accepted)
+};
+/// Write files for viewing under the output folder.
+struct Write {
+  using Reply = Ready;
+  std::int64_t step = 0;
+  double time = 0;
+  TETHER_MESSAGE(Write, step, time)
+};
+/// What the partner has cost so far, for the summary.
+struct GetUsage {
+  using Reply = Usage;
+  TETHER_MESSAGE(GetUsage)
+};
+/// Finish: write what is open, answer, end.
+struct Stop {
+  using Reply = Ready;
+  std::string reason;
+  TETHER_MESSAGE(Stop, reason)
+};
+
+// ---- master -> fluid ------------------------------------------------------------------------------------------------
+
+/// Interface displacement and velocity (y1 - y0)/dt at the end of the step.
+struct FluidEvaluate {
+  using Reply = Load;
+  std::vector<double> displacement, velocity;
+  TETHER_MESSAGE(FluidEvaluate, displacement, velocity)
+};
+/// The same, linearised at the last evaluation; the reply is the change of the load.
+struct FluidTangent {
+  using Reply = Load;
+  std::vector<double> velocity_change;
+  TETHER_MESSAGE(FluidTangent, velocity_change)
+};
+
+// ---- master -> solid ------------------------------------------------------------------------------------------------
+
+/// Nodal forces on the interface: solve the step.
+struct SolidEvaluate {
+  using Reply = Motion;
+  std::vector<double> load;
+  TETHER_MESSAGE(SolidEvaluate, load)
+};
+/// The same, linearised at the last evaluation; the reply is the change of the motion.
+struct SolidTangent {
+  using Reply = Motion;
+  std::vector<double> load_change;
+  TETHER_MESSAGE(SolidTangent, load_change)
+};
+/// Add `correction` (empty: none) to the iterate V of all unknowns, then return the residual of the step's equations
+/// under `load`. After BeginStep the iterate's interface part is (predicted - y0)/dt, the rest the solid's own
+/// prediction. Unknowns: interface velocities first, in interface order.
+struct SolidResidual {
+  using Reply = SolidResidualReply;
+  std::vector<double> correction, load;
+  TETHER_MESSAGE(SolidResidual, correction, load)
+};
+/// Tangent of the residual (with a plus sign: symmetric positive definite) times a direction.
+struct SolidProduct {
+  using Reply = Unknowns;
+  std::vector<double> direction;
+  TETHER_MESSAGE(SolidProduct, direction)
+};
+/// An approximate inverse of that tangent times a residual; zero where the solid's motion is prescribed.
+struct SolidPrecondition {
+  using Reply = Unknowns;
+  std::vector<double> residual;
+  TETHER_MESSAGE(SolidPrecondition, residual)
+};
+
+// ---- master -> observation_manager ----------------------------------------------------------------------------------
+
+/// The moving surface at a time.
+struct Observe {
+  using Reply = Discrepancy;
+  double time = 0;
+  std::vector<double> points;
+  TETHER_MESSAGE(Observe, time, points)
+};
+
+#undef TETHER_MESSAGE
 #undef TETHER_FIELDS
 
-using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
-                               FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual, SolidProduct,
-                               SolidPrecondition, Observe, GetUsage>;
-using ToMaster = std::variant<Hello, Ready, Failure, Interface, State, StepReport, Load, Motion, SolidResidualReply,
-                              Unknowns, Discrepancy, Usage>;
+/// Any message in one direction. Its index here is its MPI tag.
+using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write,
+                               Stop, FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual,
+                               SolidProduct, SolidPrecondition, Observe, GetUsage>;
+using ToMaster = std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion,
+                              SolidResidualReply, Unknowns, Discrepancy, Usage>;
+
+/// What each role must be able to answer: a handler for each is asked for at compile time (serve.hpp, which answers
+/// GetUsage itself).
+using ToFluid = std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
+                             FluidEvaluate, FluidTangent>;
+using ToSolid = std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
+                             SolidEvaluate, SolidTangent, SolidResidual, SolidProduct, SolidPrecondition>;
+using ToObservation = std::variant<SetParameters, Write, Stop, Observe>;
 
 }  // namespace tether::protocol

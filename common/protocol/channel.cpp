@@ -1,0 +1,14 @@
+#include "common/protocol/channel.hpp"
+
+namespace tether::protocol {
+
+std::string Peer::describe() const {
+  return pid == 0 ? role : fmt::format("{} (pid {} on {})", role, pid, host);
+}
+
+PeerDied::PeerDied(const Peer& peer) : RunError(fmt::format("{} died while {}", peer.describe(), peer.activity)) {}
+
+PeerSilent::PeerSilent(const Peer& peer, double limit)
+    : RunError(fmt::format("{} gave no sign for {} s while {}", peer.describe(), limit, peer.activity)) {}
+
+}  // namespace tether::protocol

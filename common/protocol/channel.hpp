@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "common/base/effect.hpp"
+#include "common/protocol/packet.hpp"
+
+namespace tether::protocol {
+
+/// The process at the other end of a channel, as errors name it.
+struct Peer {
+  std::string role;
+  std::string host = {};
+  std::int64_t pid = 0;               ///< 0: not known yet, or this process
+  std::string activity = "starting";  ///< what it was last asked to do: "computing step 12 (SolidEvaluate)"
+  /// "solid (pid 1234 on node7)"
+  std::string describe() const;
+};
+
+/// The other process is gone. Its channel must not be used any more.
+struct PeerDied : RunError {
+  explicit PeerDied(const Peer& peer);
+};
+
+/// The other process did not answer within the limit.
+struct PeerSilent : RunError {
+  PeerSilent(const Peer& peer, double limit);
+};
+
+/// Two ends that exchange packets, in order. `send` does not wait for the other end, `receive` does.
+class Channel {
+ public:
+  explicit Channel(Peer peer) : peer_(std::move(peer)) {}
+  virtual ~Channel() = default;
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+
+  virtual void send(Packet packet) = 0;
+  /// Waits at most `limit` seconds. Throws PeerSilent, PeerDied.
+  virtual Packet receive(double limit = infinite) = 0;
+  /// The orderly end: both ends call it after the last packet. Without it the channel is abandoned.
+  virtual void close() = 0;
+
+  Peer& peer() { return peer_; }
+  const Peer& peer() const { return peer_; }
+
+ private:
+  Peer peer_;
+};
+
+}  // namespace tether::protocol

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace tether::protocol {
+
+/// A thread that calls `action` every `interval` seconds until this object is gone: what must happen while the process
+/// computes, or hangs inside MPI.
+class Guard {
+ public:
+  Guard(double interval, std::function<void()> action);
+  ~Guard();
+  Guard(const Guard&) = delete;
+  Guard& operator=(const Guard&) = delete;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tether::protocol

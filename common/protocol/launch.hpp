@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/protocol/partner.hpp"
+
+/// How masters and partners find each other: a master spawns its partners, or one MPMD mpirun line starts everybody.
+/// The same executables work both ways; docs/decisions/0002 tells what was measured.
+namespace tether::protocol {
+
+/// A program to be launched as a partner.
+struct Program {
+  std::string role;                    ///< "fluid"
+  std::string executable;              ///< a path; a name without slash is looked for beside the running program
+  std::vector<std::string> arguments;  ///< the case file, options
+  int processes = 1;                   ///< of a parallel code; only its rank 0 talks
+};
+
+/// The file to execute. Throws InputError if there is none or it may not be executed.
+std::string find_executable(const Program& program);
+
+/// Communicator of a code that has none of its own: the process alone.
+inline constexpr int no_communicator = -1;
+
+/// The membership of this process in the job, from MPI_Init to MPI_Finalize: one per process, first thing in main.
+class Session {
+ public:
+  /// `communicator`: Fortran handle of the processes of one parallel code (MPI_Comm_c2f); only its rank 0 takes the
+  /// role. On an MPMD line this call is collective over MPI_COMM_WORLD.
+  explicit Session(const std::string& role, int communicator = no_communicator);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  bool has_master() const;
+  /// Whether this process talks: rank 0 of its code.
+  bool is_leader() const;
+
+  /// A partner's way to its master, and what it is told on arrival.
+  struct Link {
+    std::unique_ptr<Channel> channel;
+    Welcome welcome;
+  };
+  /// Throws RunError if there is no master.
+  Link connect();
+
+  /// Spawns the programs, or takes those of the same roles from the mpirun line, and welcomes them; they read their
+  /// case at the same time until each is asked for its hello. Waits at most `limit` seconds for each to appear. Throws
+  /// InputError (no such executable, another role or version), PeerDied, PeerSilent.
+  std::vector<Partner> launch(const std::vector<Program>& programs, const std::string& output, double limit = 60);
+
+  /// Ends the job. All channels closed: MPI_Finalize, and returns `exit_code` for main. Otherwise (a partner is dead,
+  /// busy or lost) does not return: ends this process and all it launched within seconds.
+  int end(int exit_code);
+
+  struct Parts;
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tether::protocol

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <mpi.h>
+
+#include "common/protocol/watch.hpp"
+
+/// Only for this room's .cpp files: what needs mpi.h.
+namespace tether::protocol {
+
+/// Throws RunError with MPI's own words if `code` is not MPI_SUCCESS.
+void check_mpi(int code, const char* what);
+
+/// Packets as MPI messages (tag: the packet's kind) to rank 0 of an intercommunicator's other side.
+/// Never blocks inside MPI: a dead peer would hang it.
+class MpiChannel final : public Channel {
+ public:
+  /// The channel becomes the owner of `communicator`; `watch` must outlive it.
+  MpiChannel(Peer peer, MPI_Comm communicator, Watch& watch);
+  ~MpiChannel() override;
+  void send(Packet packet) override;
+  Packet receive(double limit) override;
+  void close() override;
+
+ private:
+  void finish_sending();
+  void wait(MPI_Request& request, double limit);
+
+  MPI_Comm communicator_;
+  Watch& watch_;
+  Bytes outgoing_;
+  MPI_Request sending_ = MPI_REQUEST_NULL;
+};
+
+}  // namespace tether::protocol

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/protocol/channel.hpp"
+
+namespace tether::protocol {
+
+/// A partner answered Failure: it is still reachable, so the step may be retried.
+struct PartnerFailed : RunError {
+  using RunError::RunError;
+};
+
+/// A remote code (fluid, solid, observation_manager) as its master sees it: questions and answers.
+///
+///   const Load load = fluid.ask(FluidEvaluate{displacement, velocity});
+///
+/// or, so that two codes work at the same time: a.send(...); b.send(...); a.receive<Load>(); b.receive<Motion>().
+/// Errors: InputError or PartnerFailed if the partner answers Failure, PeerDied if it is gone; all name role and step.
+class Partner {
+ public:
+  explicit Partner(std::unique_ptr<Channel> channel) : channel_(std::move(channel)) {}
+  Partner(Partner&&) = default;
+  Partner& operator=(Partner&&) = delete;
+  /// Stops the partner if it waits for a request; a busy one is left to the end of the process (Session::end).
+  ~Partner();
+
+  const std::string& role() const { return channel_->peer().role; }
+  const Peer& peer() const { return channel_->peer(); }
+  /// What the partner is and can do. Waits for it the first time, at most `limit` seconds.
+  const Hello& hello(double limit = infinite);
+
+  template <class Request>
+  typename Request::Reply ask(const Request& request) {
+    send(request);
+    return receive<typename Request::Reply>();
+  }
+  template <class Request>
+  void send(const Request& request) {
+    if constexpr (requires { request.step; }) step_ = request.step;
+    post(Request::message_name, pack(request));
+  }
+  template <class Reply>
+  Reply receive() {
+    const Packet packet = take(infinite);
+    if (!holds<Reply>(packet)) reject(packet, Reply::message_name);
+    return unpack<Reply>(packet);
+  }
+  /// Lets the partner finish and end.
+  void stop(const std::string& reason);
+
+ private:
+  enum class Stage { starting, idle, busy, over };
+
+  void post(const char* request_name, Packet packet);
+  Packet take(double limit);
+  /// Throws what the packet means instead of the `expected` reply.
+  [[noreturn]] void reject(const Packet& packet, const char* expected) const;
+
+  std::unique_ptr<Channel> channel_;  // empty after a move
+  Hello hello_;
+  Stage stage_ = Stage::starting;
+  std::int64_t step_ = -1;
+};
+
+}  // namespace tether::protocol

@@ -1,0 +1,64 @@
+#include "common/protocol/run.hpp"
+
+#include <cstdio>
+
+namespace tether::protocol {
+
+namespace {
+
+void tell(const std::string& role, const std::string& message) {
+  fmt::print(stderr, "{}: {}\n", role, message);
+  std::fflush(stderr);
+}
+
+/// The exit code of `body`, its error reported.
+int guarded(const std::string& role, const std::function<void()>& body) {
+  try {
+    body();
+    return exit_done;
+  } catch (const InputError& error) {
+    tell(role, error.what());
+    return exit_input_wrong;
+  } catch (const std::exception& error) {
+    tell(role, error.what());
+    return exit_run_failed;
+  }
+}
+
+}  // namespace
+
+int run_master(const std::string& role, const std::function<void(Session&)>& body) {
+  std::unique_ptr<Session> session;
+  const int code = guarded(role, [&] {
+    session = std::make_unique<Session>(role);
+    body(*session);
+  });
+  return session ? session->end(code) : code;
+}
+
+namespace detail {
+
+int run_partner(const std::string& role, const std::function<void(Channel&, const Welcome&)>& life) {
+  std::unique_ptr<Session> session;
+  bool orphaned = false;
+  const int code = guarded(role, [&] {
+    session = std::make_unique<Session>(role);
+    const auto link = session->connect();
+    try {
+      life(*link.channel, link.welcome);
+    } catch (const PeerDied&) {
+      orphaned = true;  // no message: whoever started the master sees its end
+    }
+  });
+  if (!session) return code;
+  return session->end(orphaned ? exit_run_failed : code);
+}
+
+void refuse(Channel& master) {
+  master.send(pack(current_failure()));
+  master.close();
+}
+
+}  // namespace detail
+
+}  // namespace tether::protocol

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <concepts>
+#include <exception>
+#include <string>
+
+#include "common/base/process.hpp"
+#include "common/protocol/channel.hpp"
+
+namespace tether::protocol {
+
+/// A handler that turns a request into its reply.
+template <class Handler, class Request>
+concept Answers = requires(Handler& handler, const Request& request) {
+  { handler(request) } -> std::same_as<typename Request::Reply>;
+};
+
+namespace detail {
+
+/// The exception being handled, as a reply.
+Failure current_failure();
+
+template <class Handler, class... Requests>
+Packet answer(std::variant<Requests...>*, const Packet& request, Handler& handler) {
+  static_assert((Answers<Handler, Requests> && ...), "a request has no handler, or one with another reply");
+  if (holds<GetUsage>(request)) return pack(Usage{cpu_seconds(), peak_memory_mb()});
+  Packet reply;
+  const bool known = ((holds<Requests>(request) && (reply = pack(handler(unpack<Requests>(request))), true)) || ...);
+  return known ? std::move(reply) : pack(Failure{"does not know " + kind_name<ToPartner>(request.kind)});
+}
+
+}  // namespace detail
+
+/// The reply to one request. `Requests`: ToFluid, ToSolid, ToObservation: each must have a handler, a function
+/// `Request::Reply operator()(const Request&)`. What a handler throws becomes Failure.
+template <class Requests, class Handler>
+Packet answer(const Packet& request, Handler& handler) {
+  try {
+    return detail::answer(static_cast<Requests*>(nullptr), request, handler);
+  } catch (...) {
+    return pack(detail::current_failure());
+  }
+}
+
+/// A partner's life after Welcome: says hello, then answers until Stop. Throws PeerDied if the master is gone.
+template <class Requests, class Handler>
+void serve(Channel& master, const Hello& hello, Handler& handler) {
+  master.send(pack(hello));
+  for (bool stopped = false; !stopped;) {
+    const Packet request = master.receive();
+    stopped = holds<Stop>(request);
+    master.send(answer<Requests>(request, handler));
+  }
+  master.close();
+}
+
+}  // namespace tether::protocol

@@ -1,0 +1,65 @@
+#include "common/protocol/watch.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "common/base/process.hpp"
+
+namespace tether::protocol {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int spins = 50;
+constexpr auto shortest_nap = std::chrono::microseconds(10), longest_nap = std::chrono::microseconds(500);
+constexpr auto look_every = std::chrono::milliseconds(200);
+
+bool is_dead(const Peer& peer) {
+  return peer.pid != 0 && peer.host == host_name() && !is_running(peer.pid);
+}
+
+}  // namespace
+
+void Watch::release(const Peer& peer) {
+  std::erase(peers_, &peer);
+  if (master_ == &peer) guard_.reset();
+}
+
+void Watch::abandon(const Peer& peer) {
+  if (std::erase(peers_, &peer) > 0) abandoned_.push_back(peer);
+}
+
+void Watch::check() const {
+  for (const Peer* peer : peers_)
+    if (is_dead(*peer)) throw PeerDied(*peer);
+}
+
+void Watch::follow(const Peer& master) {
+  master_ = &master;
+  guard_ = std::make_unique<Guard>(0.2, [master] {
+    if (is_dead(master)) _exit(exit_run_failed);
+  });
+}
+
+bool wait_until(const std::function<bool()>& done, const Watch& watch, double limit) {
+  for (int i = 0; i < spins; ++i)
+    if (done()) return true;
+  const auto start = Clock::now();
+  auto look = start + look_every;
+  for (auto nap = shortest_nap; !done(); nap = std::min(2 * nap, longest_nap)) {
+    std::this_thread::sleep_for(nap);
+    const auto now = Clock::now();
+    if (now >= look) {
+      watch.check();
+      look = now + look_every;
+    }
+    if (std::chrono::duration<double>(now - start).count() > limit) return false;
+  }
+  return true;
+}
+
+}  // namespace tether::protocol

@@ -1,0 +1,17 @@
+#include "common/protocol/run.hpp"
+#include "tests/fakes/fake_solid.hpp"
+#include "tests/fakes/misbehave.hpp"
+
+using namespace tether;
+
+int main() {
+  fakes::misbehave("solid", "start");
+  return protocol::run_partner<protocol::ToSolid>("solid", [](const protocol::Welcome&) {
+    fakes::misbehave("solid", "hello");
+    fakes::FakeSolid solid;
+    solid.has_tangent = fakes::option("solid", "tangent") != "no";
+    solid.has_operators = fakes::option("solid", "operators") != "no";
+    solid.has_state = fakes::option("solid", "state") != "no";
+    return fakes::Misbehaving<fakes::FakeSolid>("solid", solid);
+  });
+}
