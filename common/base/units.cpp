@@ -69,6 +69,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+std::string expected(const std::string& unit) { return unit == "1" ? "has none" : "is in " + unit; }
+
 void append_power(std::string& text, const std::string& symbol, int power) {
   if (power == 0) return;
   if (!text.empty()) text += ' ';
@@ -117,10 +119,10 @@ double UnitSystem::quantity(std::string_view text, Dimension dimension) const {
   for (const auto& known : named_units) {
     if (known.symbol != unit) continue;
     if (known.dimension != dimension)
-      throw input_error("'{}': {} is no unit of this field, which is in {}", whole, unit, symbol(dimension));
+      throw input_error("'{}': {} is no unit of this field, which {}", whole, unit, expected(symbol(dimension)));
     return number * known.in_si / in_si(dimension);
   }
-  throw input_error("'{}': unknown unit '{}'; this field is in {}", whole, unit, symbol(dimension));
+  throw input_error("'{}': unknown unit '{}'; this field {}", whole, unit, expected(symbol(dimension)));
 }
 
 double UnitSystem::to_mm(double length) const { return length * in_si(dimension::length) * 1e3; }

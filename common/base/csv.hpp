@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tether {
+
+/// A comma-separated table whose first line names the columns: "time, flow [ml/s]". Lines that are empty or begin with
+/// # are skipped. Cells stay text until a column is asked for.
+class CsvTable {
+ public:
+  /// Throws InputError for a file that cannot be read, has no rows, or a row with another number of cells than there
+  /// are columns.
+  explicit CsvTable(const std::filesystem::path& file);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  std::size_t rows() const { return lines_.size(); }
+  bool has(std::string_view column) const;
+  /// The unit in brackets after a column's name; empty if there is none.
+  std::string unit(std::string_view column) const;
+  /// Throws InputError "file:line: ..." for a missing column or a cell that is not a finite number.
+  std::vector<double> numbers(std::string_view column) const;
+  std::vector<std::string> texts(std::string_view column) const;
+  /// "file:line" of a row, for messages about its values.
+  std::string where(std::size_t row) const;
+
+ private:
+  std::size_t index(std::string_view column) const;
+
+  std::string file_;
+  std::vector<std::string> columns_, units_;
+  std::vector<int> lines_;                       ///< line in the file, per row
+  std::vector<std::vector<std::string>> cells_;  ///< per row
+};
+
+}  // namespace tether
