@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "common/config/fields.hpp"
+
+namespace tether {
+
+/// The duration of a run and its steps.
+struct TimeCase {
+  double step = undefined, end = undefined, start = 0.0;
+  void declare(Fields& f);
+  /// Steps from start to end; the end is reached, or passed by less than a step.
+  int steps() const;
+};
+
+/// What a run writes, beside the tables that it always writes.
+struct OutputCase {
+  int write_every = 10, checkpoint_every = 50;
+  Named<Vec3> points;
+  void declare(Fields& f);
+};
+
+/// What every program reads of a case: the sections that belong to none of them.
+struct CommonCase {
+  std::string name, title, units;
+  TimeCase time;
+  OutputCase output;
+  void declare(Fields& f);
+};
+
+/// The top level of a case file: each section and the program that reads it. Others skip it, all know its name.
+struct TopLevelSection {
+  std::string_view name, meaning;
+};
+std::span<const TopLevelSection> top_level_sections();
+std::string_view meaning_of_section(std::string_view name);
+
+}  // namespace tether

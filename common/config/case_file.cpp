@@ -1,0 +1,89 @@
+#include "common/config/case_file.hpp"
+
+#include "common/base/error.hpp"
+#include "common/config/reader.hpp"
+#include "common/config/rules.hpp"
+
+namespace tether {
+namespace {
+
+/// The unit system must be known before anything else is read. A wrong name is reported later, by the declaration of
+/// `units`.
+UnitSystem units_of(const YamlNode& tree) {
+  const YamlNode* units = tree.find("units");
+  try {
+    return units ? UnitSystem::named(units->text) : UnitSystem::cgs();
+  } catch (const InputError&) {
+    return UnitSystem::cgs();
+  }
+}
+
+}  // namespace
+
+struct CaseFile::Contents {
+  std::filesystem::path path;
+  YamlNode tree;
+  UnitSystem units;
+  Problems problems;
+  Reader reader;
+  CommonCase common;
+
+  explicit Contents(const std::filesystem::path& file)
+      : path(file),
+        tree(read_yaml(file)),
+        units(units_of(tree)),
+        problems(file.string()),
+        reader(tree, file.parent_path(), units, problems) {}
+};
+
+CaseFile::CaseFile(const std::filesystem::path& file) : contents_(std::make_unique<Contents>(file)) {
+  if (contents_->tree.kind == YamlNode::Kind::scalar || contents_->tree.kind == YamlNode::Kind::list)
+    throw input_error("{}:{}: a case file is a section of named fields, such as 'name: tube'", file.string(),
+                      contents_->tree.line);
+  contents_->common.declare(contents_->reader);
+}
+
+CaseFile::~CaseFile() = default;
+
+const CommonCase& CaseFile::common() const {
+  return contents_->common;
+}
+const UnitSystem& CaseFile::units() const {
+  return contents_->units;
+}
+const std::filesystem::path& CaseFile::path() const {
+  return contents_->path;
+}
+Fields& CaseFile::fields() {
+  return contents_->reader;
+}
+bool CaseFile::has(std::string_view section) const {
+  return contents_->tree.find(section) != nullptr;
+}
+
+void CaseFile::finish() {
+  std::vector<std::string> known;
+  for (const auto& section : top_level_sections()) known.emplace_back(section.name);
+  for (const auto& entry : contents_->tree.entries) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    const std::string near = nearest(entry.key, known);
+    contents_->problems.add(
+        entry.line, fmt::format("{}: unknown section; {}", entry.key,
+                                near.empty() ? "known are " + listed(known) : fmt::format("did you mean '{}'?", near)));
+  }
+  contents_->problems.throw_if_any();
+}
+
+std::string CaseFile::where(std::string_view field) const {
+  const YamlNode* node = &contents_->tree;
+  int line = node->line;
+  for (std::size_t begin = 0; node && begin <= field.size();) {
+    const std::size_t end = std::min(field.find('.', begin), field.size());
+    node = node->find(field.substr(begin, end - begin));
+    if (node) line = node->line;
+    begin = end + 1;
+  }
+  return fmt::format("{}:{}: {}", contents_->path.string(), line, field);
+}
+
+}  // namespace tether

@@ -1,0 +1,90 @@
+#include "common/config/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "common/base/process.hpp"
+#include "common/config/case.hpp"
+#include "common/config/describe.hpp"
+
+namespace tether {
+namespace {
+
+std::string reference(const Program& program, const std::string& format) {
+  Describe describe(UnitSystem::cgs());
+  CommonCase common;
+  common.declare(describe);
+  program.declare(describe);
+  return format == "markdown" ? describe.markdown() : describe.text();
+}
+
+/// What was typed, and the format of --describe-config if that was asked.
+struct Typed {
+  CommandLine command;
+  std::string describe_format;
+};
+
+void add_options(CLI::App& app, Typed& typed) {
+  CommandLine& c = typed.command;
+  app.add_option("case", c.case_file, "the case file")->type_name("CASE.yaml");
+  app.add_flag("--validate", c.validate, "check the case and all it refers to, then end");
+  app.add_option("--describe-config", typed.describe_format,
+                 "list every field of the case file that this program reads")
+      ->expected(0, 1)
+      ->default_str("text")
+      ->type_name("[text|markdown]")
+      ->check(CLI::IsMember({"text", "markdown"}));
+  app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
+  app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(CLI::PositiveNumber);
+  app.add_option("--processes", c.processes, "processes to share the work between")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--resume", c.resume, "continue from the last checkpoint in the output folder");
+  app.add_flag("--overwrite", c.overwrite, "replace another case's results in the output folder");
+  app.add_flag("--quiet", c.quiet, "print errors only");
+}
+
+int act(const Program& program, const Typed& typed) {
+  if (!typed.describe_format.empty()) {
+    std::cout << reference(program, typed.describe_format);
+    return exit_done;
+  }
+  if (typed.command.case_file.empty()) throw input_error("which case? Give the path of a case file, or --help");
+  program.validate(typed.command);
+  if (typed.command.validate) {
+    if (!typed.command.quiet) std::cout << typed.command.case_file.string() << ": valid for " << program.name << "\n";
+    return exit_done;
+  }
+  program.run(typed.command);
+  return exit_done;
+}
+
+}  // namespace
+
+int guarded(const std::string& program, const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const InputError& error) {
+    std::cerr << error.what() << std::endl;
+    return exit_input_wrong;
+  } catch (const std::exception& error) {
+    std::cerr << program << ": " << error.what() << std::endl;
+    return exit_run_failed;
+  }
+}
+
+int run_main(int argc, char** argv, const Program& program) {
+  prepare_process();
+  Typed typed;
+  CLI::App app(program.purpose, program.name);
+  add_options(app, typed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_input_wrong;
+  }
+  return guarded(program.name, [&] { return act(program, typed); });
+}
+
+}  // namespace tether

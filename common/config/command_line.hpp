@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/config/fields.hpp"
+
+namespace tether {
+
+/// What the user typed: the same words for every program.
+struct CommandLine {
+  std::filesystem::path case_file;
+  std::filesystem::path output;  ///< empty: out/NAME of the case
+  std::optional<int> steps;      ///< stop after that many, whatever the case says
+  int processes = 0;             ///< to share the work between; 0: the program decides
+  bool validate = false, resume = false, overwrite = false, quiet = false;
+};
+
+/// A program as its main presents it.
+struct Program {
+  std::string name, purpose;
+  /// Declares the sections of the case file that this program reads, beside the common ones.
+  std::function<void(Fields&)> declare;
+  /// Reads the case and what it refers to. Throws InputError.
+  std::function<void(const CommandLine&)> validate;
+  std::function<void(const CommandLine&)> run;
+};
+
+/// Parses the command line, answers --help, --describe-config and --validate, else runs. Returns the exit code: what
+/// the program throws becomes one message on stderr and 2 (the input is wrong) or 1 (the run failed).
+int run_main(int argc, char** argv, const Program& program);
+
+/// Runs `body` under the same rule for messages and exit codes.
+int guarded(const std::string& program, const std::function<int()>& body);
+
+}  // namespace tether

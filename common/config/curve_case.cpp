@@ -1,0 +1,62 @@
+#include "common/config/curve_case.hpp"
+
+#include <fmt/format.h>
+
+#include "common/base/csv.hpp"
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+struct Column {
+  std::string name, unit;  ///< unit: as the case states it, or empty
+  Dimension dimension;
+};
+
+std::vector<double> in_case_units(const CsvTable& table, const Column& column, const UnitSystem& units) {
+  const std::string unit = column.unit.empty() ? table.unit(column.name) : column.unit;
+  std::vector<double> values = table.numbers(column.name);
+  try {
+    const double one = unit.empty() ? 1.0 : units.quantity("1 " + unit, column.dimension);
+    for (double& value : values) value *= one;
+  } catch (const InputError& error) {
+    throw input_error("{}: column '{}': {}", table.where(0), column.name, error.what());
+  }
+  return values;
+}
+
+void check_times(const CsvTable& table, const std::vector<double>& times, double period) {
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] <= times[i - 1])
+      throw input_error("{}: the time {} does not come after {}", table.where(i), times[i], times[i - 1]);
+  if (period > 0.0 && times.back() > times.front() + period * (1.0 + 1e-9))
+    throw input_error("{}: the time {} lies beyond one period of {}", table.where(times.size() - 1), times.back(),
+                      period);
+}
+
+}  // namespace
+
+void CurveCase::declare(Fields& f) {
+  f.number("constant", constant, dimension, range::any, "a value that does not change; instead of a file");
+  f.path("file", file, "comma-separated table whose first line names the columns");
+  f.check(constant.has_value() != !file.empty(), "file", "give either a file or a constant");
+  f.text("time", time, "name of the column of times");
+  f.text("value", value, "name of the column of values");
+  f.text("time_unit", time_unit, "unit of that column, if its heading does not state it as [unit]");
+  f.text("value_unit", value_unit, "unit of that column, if its heading does not state it as [unit]");
+  f.number("period", period, dimension::time, range::positive, "the table repeats after this time");
+  f.number("ramp", ramp, dimension::time, range::not_negative,
+           "time in which the value rises smoothly from zero at t = 0");
+  f.number("scale", scale, dimension::none, range::any, "factor on all values");
+}
+
+Curve CurveCase::load(const UnitSystem& units) const {
+  const CurveShape shape{period.value_or(0.0), ramp, scale};
+  if (constant) return Curve({0.0}, {*constant}, {0.0, ramp, scale});
+  const CsvTable table(file);
+  auto times = in_case_units(table, {time, time_unit, dimension::time}, units);
+  check_times(table, times, shape.period);
+  return Curve(std::move(times), in_case_units(table, {value, value_unit, dimension}, units), shape);
+}
+
+}  // namespace tether

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <map>
+
+#include "common/base/units.hpp"
+#include "common/config/fields.hpp"
+#include "common/config/yaml_tree.hpp"
+
+namespace tether {
+
+/// What is wrong with a file, collected so that the user sees all of it at once.
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+  void add(int line, const std::string& text) { found_.emplace(line, text); }
+  bool empty() const { return found_.empty(); }
+  /// Throws InputError with one line "file:line: text" per problem, in the order of the file.
+  void throw_if_any() const;
+
+ private:
+  std::string file_;
+  std::multimap<int, std::string> found_;
+};
+
+/// Reads declared fields from a YAML tree; everything that breaks a declaration is added to `problems`.
+class Reader : public Fields {
+ public:
+  /// `folder`: what paths are relative to. All references must outlive the reader.
+  Reader(const YamlNode& root, std::filesystem::path folder, const UnitSystem& units, Problems& problems);
+
+  void number(Text name, double& value, Dimension dimension, Range range, Text meaning) override;
+  void number(Text name, std::optional<double>& value, Dimension dimension, Range range, Text meaning) override;
+  void integer(Text name, int& value, IntegerRange range, Text meaning) override;
+  void flag(Text name, bool& value, Text meaning) override;
+  void text(Text name, std::string& value, Text meaning, Need need) override;
+  void choice(Text name, std::string& value, std::span<const Word> words, Text meaning) override;
+  void path(Text name, std::filesystem::path& value, Text meaning, Need need) override;
+  void numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning, Need need) override;
+  void check(bool holds, Text field, Text rule) override;
+
+ protected:
+  bool enter(Text name, Text meaning) override;
+  bool enter_if_given(Text name, Text meaning, bool held) override;
+  void leave() override;
+  std::vector<std::string> entry_names(const std::vector<std::string>& held, Need need) override;
+  bool begin_when(Text field, const std::string& value, std::span<const Text> words) override;
+  void end_when() override;
+
+ private:
+  /// A field as messages name it.
+  struct Field {
+    Text name, meaning;
+    std::string unit;  ///< empty for none
+    bool required = false;
+  };
+  /// A `when` around the fields being read, and whether it holds.
+  struct Condition {
+    bool holds;
+    std::string field, chosen, words;
+  };
+  /// The section being read; `node` is null where the file leaves the section out.
+  struct Section {
+    const YamlNode* node;
+    std::string path;  ///< with its final dot: "solid.support."
+    int line;
+    std::string meaning;
+    std::vector<std::string> known;
+    std::map<std::string, Condition> inapplicable;  ///< field -> where it would apply
+    bool failed = false;
+  };
+  std::string unit(Dimension dimension) const;
+  const Condition* broken_condition() const;
+  const YamlNode* find(const Field& field);
+  const YamlNode* scalar(const Field& field);
+  std::optional<double> quantity(const Field& field, const YamlNode& node, Dimension dimension, const Range& range);
+  void wrong(const Field& field, int line, const std::string& value, const std::string& rule);
+  static std::string only_with(const Condition& condition);
+  void report_unknown(const Section& section);
+
+  std::filesystem::path folder_;
+  const UnitSystem& units_;
+  Problems& problems_;
+  std::vector<Section> sections_;
+  std::vector<Condition> conditions_;
+};
+
+}  // namespace tether

@@ -1,0 +1,92 @@
+#include "common/config/describe.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/config/case.hpp"
+
+namespace tether {
+namespace {
+
+const EffectDeclaration still{"still", "does not move", Place::ring, {}};
+const EffectDeclaration spring{
+    "spring",
+    "pulls back",
+    Place::ring,
+    {{"stiffness", "traction per way", dimension::support_stiffness, range::not_negative, 3, 0}}};
+const EffectDeclaration* const family[] = {&still, &spring};
+
+struct Ring {
+  EffectCase law{"still", {}};
+  void declare(Fields& f) { f.effect(law, family, "how it is held"); }
+};
+
+struct Wall {
+  double density = undefined;
+  Named<Ring> rings;
+  std::optional<TimeCase> window;
+  void declare(Fields& f) {
+    f.number("density", density, dimension::density, range::positive, "mass | volume");
+    f.groups("rings", rings, "end rings by name");
+    f.group("window", window, "a part of the run");
+  }
+};
+
+Describe described() {
+  Describe describe(UnitSystem::cgs());
+  Wall wall;
+  describe.group("solid", wall, "the wall");
+  return describe;
+}
+
+TEST(Describe, ListsEveryFieldWithUnitDefaultRuleAndCondition) {
+  EXPECT_EQ(described().text(), R"(solid  (section)
+    the wall
+solid.density [g/cm3]  (number; must be given; must be positive)
+    mass | volume
+solid.rings  (section)
+    end rings by name
+solid.rings.NAME.type  (choice; default still)
+    how it is held
+      still: does not move
+      spring: pulls back
+solid.rings.NAME.stiffness [g/(cm2 s2)]  (number; default 3; must not be negative; with type: spring)
+    traction per way
+solid.window  (section; may be absent)
+    a part of the run
+solid.window.step [s]  (number; must be given; must be positive)
+    time step
+solid.window.end [s]  (number; must be given)
+    time at which the run ends
+solid.window.start [s]  (number; default 0)
+    time at which the run starts
+)");
+}
+
+TEST(Describe, WritesATablePerSection) {
+  const std::string page = described().markdown();
+  EXPECT_EQ(page.substr(0, page.find("| `solid.rings`")), R"(
+## solid
+
+| field | kind | unit | default | allowed | meaning |
+|---|---|---|---|---|---|
+| `solid` | section |  |  |  | the wall |
+| `solid.density` | number | g/cm3 | must be given | must be positive | mass \| volume |
+)");
+  EXPECT_NE(
+      page.find(
+          "| `solid.rings.NAME.type` | choice |  | default still |  | how it is held<br>`still`: does not move<br>"
+          "`spring`: pulls back |\n"),
+      std::string::npos);
+  EXPECT_NE(page.find("| traction per way (`with type: spring`) |\n"), std::string::npos);
+}
+
+TEST(Describe, CommonFieldsStandUnderOneHeading) {
+  Describe describe(UnitSystem::cgs());
+  CommonCase common;
+  common.declare(describe);
+  EXPECT_EQ(describe.markdown().find("\n## top level\n"), 0u);
+  EXPECT_NE(describe.markdown().find("\n## time\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tether
