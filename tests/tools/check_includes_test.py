@@ -1,0 +1,58 @@
+"""The layering check finds each kind of violation, and nothing in a sound tree."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CHECK = pathlib.Path(__file__).resolve().parents[2] / "tools" / "check_includes.py"
+
+
+def check(files):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            path = pathlib.Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        run = subprocess.run([sys.executable, CHECK, folder], capture_output=True, text=True)
+        return run.returncode, run.stdout.strip()
+
+
+class CheckIncludes(unittest.TestCase):
+    def test_sound_tree(self):
+        code, _ = check({
+            "common/base/a.hpp": "#include <vector>\n",
+            "common/mesh/b.cpp": '#include "common/base/a.hpp"\n#include <CGAL/x.h>\n',
+            "fluid/c.cpp": '#include "common/mesh/b.hpp"\n#include "fluid/d.hpp"\n',
+            "tests/fluid/e.cpp": '#include "fluid/c.hpp"\n#include "solid/f.hpp"\n',
+        })
+        self.assertEqual(code, 0)
+
+    def test_programs_apart(self):
+        self.assertEqual(check({"fluid/a.cpp": '\n#include "solid/b.hpp"\n'}),
+                         (1, "fluid/a.cpp:2: fluid must not include solid (solid/b.hpp)"))
+
+    def test_room_above(self):
+        self.assertEqual(check({"common/base/a.hpp": '#include "common/mesh/b.hpp"\n'}),
+                         (1, "common/base/a.hpp:1: common/base must not include common/mesh (common/mesh/b.hpp)"))
+
+    def test_heavy_header(self):
+        self.assertEqual(check({"fluid/a.hpp": "#include <CLI/CLI.hpp>\n"}),
+                         (1, "fluid/a.hpp:1: <CLI/CLI.hpp> belongs in a .cpp file"))
+
+    def test_mpi(self):
+        self.assertEqual(check({"fluid/a.cpp": "#include <mpi.h>\n", "common/protocol/b.cpp": "#include <mpi.h>\n"}),
+                         (1, "fluid/a.cpp:1: only common/protocol speaks MPI"))
+
+    def test_cycle(self):
+        self.assertEqual(check({"fluid/a.hpp": '#include "fluid/b.hpp"\n', "fluid/b.hpp": '#include "fluid/a.hpp"\n'}),
+                         (1, "cycle: fluid/a.hpp -> fluid/b.hpp -> fluid/a.hpp"))
+
+    def test_unknown_room(self):
+        self.assertEqual(check({"common/attic/a.cpp": ""}),
+                         (1, "common/attic/a.cpp:1: common/attic is not a known room; add it to tools/check_includes.py"))
+
+
+if __name__ == "__main__":
+    unittest.main()
