@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/base/process.hpp"
+#include "common/io/mesh_file.hpp"
+#include "common/io/pvd.hpp"
+#include "common/io/vtu_writer.hpp"
+#include "common/mesh/sweep.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace tether {
+namespace {
+
+/// Written without VTK, read by VTK: points, cells and their order come back.
+TEST(VtuWriter, FileIsReadBackByVtk) {
+  const TemporaryFolder folder;
+  const VesselMesh tube = circular_tube(2, 10, 0.2, 12, 4);
+  const std::vector<Field> fields{Field::vectors("displacement", tube.wall.points),
+                                  Field::scalars("pressure", VectorXd::Ones(tube.wall.points.cols()))};
+  write_vtu(folder / "wall.vtu", tube.wall.points, cells_of(tube.wall), fields);
+  const MeshFile wall = read_mesh_file(folder / "wall.vtu");
+  EXPECT_EQ(wall.points, tube.wall.points);
+  EXPECT_EQ(wall.prisms, tube.wall.prisms);
+
+  Cells cells = cells_of(tube.fluid);
+  cells.triangles = tube.fluid.interface;
+  std::vector<double> part(cells.count(), 7);
+  part.back() = 9;
+  write_vtu(folder / "fluid.vtu", tube.fluid.points, cells, {}, {{"part", 1, part}});
+  const MeshFile fluid = read_mesh_file(folder / "fluid.vtu");
+  EXPECT_EQ(fluid.points, tube.fluid.points);
+  EXPECT_EQ(fluid.tetrahedra, tube.fluid.tetrahedra);
+  EXPECT_EQ(fluid.triangles, tube.fluid.interface);
+  EXPECT_EQ(fluid.triangle_labels.at("part").front(), 7);
+  EXPECT_EQ(fluid.triangle_labels.at("part").back(), 9);
+}
+
+TEST(VtuWriter, AMeshOfThePapersSizeTakesLessThan50Milliseconds) {
+  const TemporaryFolder folder;
+  const VesselMesh tube = circular_tube(2, 10, 0.2, 60, 54);
+  const VectorXd pressure = VectorXd::Ones(tube.fluid.points.cols());
+  const double start = cpu_seconds();
+  write_vtu(folder / "fluid.vtu", tube.fluid.points, cells_of(tube.fluid),
+            {Field::vectors("velocity", tube.fluid.points), Field::scalars("pressure", pressure)});
+  EXPECT_LT(cpu_seconds() - start, 0.05);
+}
+
+TEST(VtuWriter, FailuresAreErrors) {
+  const VesselMesh tube = circular_tube(2, 10, 0.2, 12, 4);
+  EXPECT_THROW(write_vtu("/no/such/folder/x.vtu", tube.fluid.points, cells_of(tube.fluid), {}), RunError);
+  const TemporaryFolder folder;
+  EXPECT_THROW(
+      write_vtu(folder / "x.vtu", tube.fluid.points, cells_of(tube.fluid), {Field::scalars("p", VectorXd::Zero(3))}),
+      InternalError);
+}
+
+TEST(PvdSeries, GrowsAndIsCutOnResuming) {
+  const TemporaryFolder folder;
+  PvdSeries series(folder / "fluid.pvd");
+  for (const int step : {0, 10, 20, 30}) series.add(0.1 * step, fmt::format("fluid/{:06}.vtu", step));
+  PvdSeries resumed = PvdSeries::resumed(folder / "fluid.pvd", 2.0);
+  ASSERT_EQ(resumed.entries().size(), 3u);
+  EXPECT_EQ(resumed.entries()[2].second, "fluid/000020.vtu");
+  resumed.add(0.1 * 30, "fluid/again.vtu");
+  const PvdSeries whole = PvdSeries::resumed(folder / "fluid.pvd", 1e9);
+  ASSERT_EQ(whole.entries().size(), 4u);
+  EXPECT_EQ(whole.entries()[3], (std::pair<double, std::string>(0.1 * 30, "fluid/again.vtu")));
+  EXPECT_TRUE(PvdSeries::resumed(folder / "none.pvd", 1).entries().empty());
+  EXPECT_THROW(PvdSeries::resumed(folder.file("wrong.pvd", "hello"), 1), InputError);
+}
+
+}  // namespace
+}  // namespace tether
