@@ -1,0 +1,53 @@
+#include "fsi_master/convergence.hpp"
+
+#include <cmath>
+
+namespace tether {
+namespace {
+
+int largest_node(const VectorXd& values) {
+  int node = -1;
+  double largest = -1.0;
+  for (Eigen::Index a = 0; a < values.size() / 3; ++a) {
+    const double length = values.segment<3>(3 * a).norm();
+    if (!std::isfinite(length)) return static_cast<int>(a);
+    if (length > largest) {
+      largest = length;
+      node = static_cast<int>(a);
+    }
+  }
+  return node;
+}
+
+}  // namespace
+
+Convergence::Convergence(const CouplingOptions& options, const StepStart& start)
+    : options_(options),
+      floor_(1e-12 * options.size / start.dt * std::sqrt(static_cast<double>(start.displacement.size()) / 3.0)) {}
+
+bool Convergence::may_continue() const {
+  return result_.failure.empty() && !result_.converged && result_.evaluations < options_.max_iterations;
+}
+
+double Convergence::target(const VectorXd& V, const VectorXd& residual) const {
+  return std::max(floor_, options_.tolerance * std::max(V.norm(), (V + residual).norm()));
+}
+
+bool Convergence::reached(const VectorXd& V, const VectorXd& residual) {
+  const double norm = residual.norm(), scale = std::max(V.norm(), (V + residual).norm());
+  ++result_.evaluations;
+  result_.residuals.push_back(scale > 0 ? norm / scale : norm);
+  result_.worst_node = largest_node(residual);
+  if (!std::isfinite(norm)) result_.failure = "a partner answered with numbers that are not finite";
+  result_.converged = norm <= target(V, residual);  // (C.3)
+  return result_.converged;
+}
+
+CouplingResult Convergence::result(Motion motion) && {
+  result_.motion = std::move(motion);
+  if (!result_.converged && result_.failure.empty())
+    result_.failure = fmt::format("not converged to {} after {} evaluations", options_.tolerance, result_.evaluations);
+  return std::move(result_);
+}
+
+}  // namespace tether

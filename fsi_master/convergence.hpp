@@ -1,0 +1,30 @@
+#pragma once
+
+#include "fsi_master/coupling.hpp"
+
+namespace tether {
+
+/// The record of one coupling loop, and its only judge of convergence. With r = S(F(V)) - V on the interface
+///   |r| / max(|V|, |V + r|) <= tolerance                                        (C.3)
+/// or rms(r) dt <= 1e-12 of the vessel's size: a system at rest is converged. All methods are measured alike:
+/// Newton with operators has r = R M r_solid, which is the same to first order (M about J^-1).
+class Convergence {
+ public:
+  Convergence(const CouplingOptions& options, const StepStart& start);
+
+  bool may_continue() const;
+  /// Notes an evaluation at V; true if it converged.
+  bool reached(const VectorXd& V, const VectorXd& residual);
+  void count_krylov(int iterations) { result_.krylov_iterations += iterations; }
+  /// The length of r at which a step whose velocity is V converges [length/time].
+  double target(const VectorXd& V, const VectorXd& residual) const;
+  /// `motion`: of the solid at the last evaluation.
+  CouplingResult result(Motion motion) &&;
+
+ private:
+  const CouplingOptions& options_;
+  double floor_;  ///< of |r| [length/time]
+  CouplingResult result_;
+};
+
+}  // namespace tether

@@ -1,0 +1,50 @@
+#include "fsi_master/iqn_ils.hpp"
+
+namespace tether {
+namespace {
+
+constexpr double relaxation =
+    0.01;  // of the very first correction: with a heavy fluid x~ is far off, its direction is not
+constexpr double filter = 1e-3;
+
+}  // namespace
+
+IqnIls::IqnIls(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
+    : fluid_(fluid), solid_(solid), options_(options), columns_(options.reuse, filter) {}
+
+CouplingResult IqnIls::solve_step(const StepStart& start) {
+  Convergence convergence(options_, start);
+  Motion solid;
+  VectorXd x = start.velocity, r_old, solved_old;
+  if (start.dt != dt_) columns_.forget();  // the derivative of S depends on the step
+  dt_ = start.dt;
+  columns_.begin_step();
+  while (convergence.may_continue()) {
+    solid = solid_.motion(fluid_.load(start.motion(x)).get()).get();  // (C.2)
+    const VectorXd r = solid.velocity - x;
+    if (r_old.size() > 0) columns_.add(r - r_old, solid.velocity - solved_old);
+    if (convergence.reached(x, r)) break;
+    if (columns_.empty())
+      x += relaxation * r;
+    else
+      x = solid.velocity + columns_.correction(r);  // (C.7)
+    r_old = r;
+    solved_old = solid.velocity;
+  }
+  CouplingResult result = std::move(convergence).result(std::move(solid));
+  if (!result.converged) columns_.forget();
+  return result;
+}
+
+std::vector<double> IqnIls::memory() const {
+  std::vector<double> values = columns_.packed();
+  values.push_back(dt_);
+  return values;
+}
+
+void IqnIls::set_memory(const std::vector<double>& values) {
+  columns_.unpack(values.data(), values.data() + values.size() - 1);
+  dt_ = values.back();
+}
+
+}  // namespace tether

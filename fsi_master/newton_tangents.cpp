@@ -1,0 +1,38 @@
+#include "fsi_master/newton_tangents.hpp"
+
+#include "common/linalg/gmres.hpp"
+
+namespace tether {
+namespace {
+
+constexpr int most_iterations = 100;  // of GMRES a correction
+constexpr double just_enough = 0.1;   // share of the tolerance left to a linear solve
+
+}  // namespace
+
+NewtonTangents::NewtonTangents(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
+    : fluid_(fluid), solid_(solid), options_(options) {}
+
+CouplingResult NewtonTangents::solve_step(const StepStart& start) {
+  Convergence convergence(options_, start);
+  Motion solid;
+  VectorXd V = start.velocity;
+  while (convergence.may_continue()) {
+    solid = solid_.motion(fluid_.load(start.motion(V)).get()).get();  // (C.2)
+    const VectorXd residual = solid.velocity - V;
+    if (convergence.reached(V, residual)) break;
+    const auto apply = [this](const VectorXd& dV) { return tangent_times(dV); };
+    VectorXd dV = VectorXd::Zero(V.size());
+    const double target = just_enough * convergence.target(V, residual);
+    convergence.count_krylov(gmres(apply, residual, dV, target, most_iterations).iterations);
+    V += dV;
+  }
+  return std::move(convergence).result(std::move(solid));
+}
+
+/// (1 - dS dF) dV
+VectorXd NewtonTangents::tangent_times(const VectorXd& dV) {
+  return dV - solid_.velocity_change(fluid_.load_change(dV).get()).get();  // (C.6)
+}
+
+}  // namespace tether

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/error.hpp"
+#include "common/base/types.hpp"
+#include "fsi_master/later.hpp"
+
+/// The two codes as the coupling sees them. Vectors are in the order of the master's interface: the solid's nodes,
+/// x0 y0 z0 x1 ...; `message_partners.hpp` speaks to processes, the tests have fakes.
+namespace tether {
+
+/// A partner could not do the step (an inverted mesh, a solve that diverges): another try with a smaller step may
+/// succeed.
+struct StepFailure : RunError {
+  using RunError::RunError;
+};
+
+/// The interface at the end of the step.
+struct Motion {
+  VectorXd displacement;  ///< y1 [length]
+  VectorXd velocity;      ///< V = (y1 - y0)/dt [length/time]
+};
+
+/// Where a step starts: what both codes know before it.
+struct StepStart {
+  double time = 0, dt = 0;
+  VectorXd displacement;  ///< y0
+  VectorXd velocity;      ///< V0 = (y0 - y_-1)/dt of the last converged step: the first guess of V
+
+  VectorXd predicted() const { return displacement + dt * velocity; }  // (C.1)
+  Motion motion(const VectorXd& V) const { return {displacement + dt * V, V}; }
+};
+
+struct Done {};
+
+/// Processor time and memory that a partner has taken so far.
+struct PartnerUsage {
+  double cpu_seconds = 0, peak_memory_mb = 0;
+};
+
+/// What every partner of a coupled step does.
+class StepPartner {
+ public:
+  virtual ~StepPartner() = default;
+  virtual std::string name() const = 0;
+  virtual bool has_tangent() const = 0;
+  virtual bool has_state() const = 0;
+
+  virtual Later<Done> begin_step(const StepStart& start) = 0;
+  /// The partner's observables, in the order it announced.
+  virtual Later<std::vector<double>> end_step(bool accepted) = 0;
+  /// Everything it needs to continue.
+  virtual Later<std::vector<double>> state() = 0;
+  virtual Later<Done> set_state(std::vector<double> values) = 0;
+  virtual Later<Done> write(std::int64_t step, double time) = 0;
+  virtual Later<PartnerUsage> usage() = 0;
+};
+
+/// F: interface motion -> nodal forces [force]; linear in V within a step.
+class FluidPartner : public StepPartner {
+ public:
+  virtual Later<VectorXd> load(const Motion& motion) = 0;
+  /// dF = -A dV, A symmetric positive semi-definite (the added mass over dt).
+  virtual Later<VectorXd> load_change(const VectorXd& velocity_change) = 0;
+};
+
+/// S: nodal forces -> interface motion; and, from a code that announces operators, its equations themselves.
+class SolidPartner : public StepPartner {
+ public:
+  struct Iterate {
+    VectorXd residual;  ///< of all unknowns [force]: load - internal, inertial and support forces
+    Motion motion;      ///< of the interface, at the iterate
+  };
+
+  virtual bool has_operators() const = 0;
+  virtual Later<Motion> motion(const VectorXd& load) = 0;
+  /// Velocity part of dS(load_change).
+  virtual Later<VectorXd> velocity_change(const VectorXd& load_change) = 0;
+
+  /// Adds `correction` (empty: none) to the iterate of all unknowns; interface velocities come first.
+  virtual Later<Iterate> residual(const VectorXd& correction, const VectorXd& load) = 0;
+  /// J v, symmetric positive definite on the free unknowns.
+  virtual Later<VectorXd> product(const VectorXd& direction) = 0;
+  /// About J^-1 r; zero where the motion is prescribed.
+  virtual Later<VectorXd> precondition(const VectorXd& residual) = 0;
+};
+
+}  // namespace tether

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fsi_master/coupling.hpp"
+
+namespace tether {
+
+/// What one full step found and took, its halved parts included.
+struct StepRecord {
+  int evaluations = 0, krylov_iterations = 0;  ///< sums over the parts, failed attempts included
+  int parts = 0;                               ///< converged time steps: 1, more if it was halved
+  double residual = 0;                         ///< (C.3) of the last evaluation
+  std::vector<double> fluid, solid;            ///< observables at its end
+  std::vector<std::string> failures;           ///< of attempts that were repeated with half the step
+};
+
+/// Everything that a run needs to continue from the end of a step.
+struct Snapshot {
+  std::vector<double> fluid, solid;            ///< empty for a code that announces no state
+  std::vector<double> displacement, velocity;  ///< y and (y - y_-1)/dt on the interface
+  std::vector<double> coupling;                ///< memory of the coupling method
+};
+
+/// Advances fluid and solid together: prediction, coupling loop, acceptance; a step that fails is repeated in halves.
+class TimeLoop {
+ public:
+  /// `rest`: reference positions of the interface, x0 y0 z0 x1 ...; the run starts there, unmoved.
+  TimeLoop(FluidPartner& fluid, SolidPartner& solid, Coupling& coupling, VectorXd rest, int halvings);
+
+  /// From `time` to `time + dt`. Throws RunError if even the smallest part fails, with both codes back at `time`.
+  StepRecord advance(double time, double dt);
+
+  const VectorXd& displacement() const { return y_; }
+  Snapshot snapshot();
+  void restore(const Snapshot& snapshot);
+
+ private:
+  bool attempt(double time, double dt, StepRecord& record);
+  bool advance_in_halves(double time, double dt, int level, StepRecord& record);
+  CouplingResult solve(const StepStart& start);
+  void finish(const CouplingResult& result, StepRecord& record);
+  std::string explain(const CouplingResult& result, double time, double dt) const;
+
+  FluidPartner& fluid_;
+  SolidPartner& solid_;
+  Coupling& coupling_;
+  VectorXd rest_, y_, V_;
+  int halvings_;
+};
+
+}  // namespace tether

@@ -1,0 +1,190 @@
+#include "fsi_master/coupling.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/fsi_master/fakes.hpp"
+
+namespace tether {
+namespace {
+
+constexpr double tolerance = 1e-6;
+constexpr double dt = 0.01;
+
+enum class Method { operators, tangents, black_box };
+
+struct Steps {
+  std::vector<CouplingResult> results;
+  Motion last;
+  double evaluations(std::size_t from = 0) const { return mean(from, &CouplingResult::evaluations); }
+  double krylov(std::size_t from = 0) const { return mean(from, &CouplingResult::krylov_iterations); }
+  double mean(std::size_t from, int CouplingResult::*count) const {
+    double sum = 0;
+    for (std::size_t i = from; i < results.size(); ++i) sum += results[i].*count;
+    return sum / static_cast<double>(results.size() - from);
+  }
+};
+
+Steps run(const fake::Vessel& vessel, Method method, int steps, CouplingOptions options = {}) {
+  fake::Fluid fluid(vessel);
+  fake::Solid solid(vessel);
+  solid.operators = method == Method::operators;
+  solid.tangent = method != Method::black_box;
+  const auto coupling = make_coupling("automatic", fluid, solid, options);
+  Steps all;
+  StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+  for (int i = 0; i < steps; ++i) {
+    fluid.begin_step(start).get();
+    solid.begin_step(start).get();
+    all.results.push_back(coupling->solve_step(start));
+    EXPECT_TRUE(all.results.back().converged) << "step " << i << ": " << all.results.back().failure;
+    fluid.end_step(true).get();
+    solid.end_step(true).get();
+    all.last = all.results.back().motion;
+    start = {start.time + dt, dt, all.last.displacement, all.last.velocity};
+  }
+  return all;
+}
+
+/// The step solved to round-off.
+VectorXd exact_velocity(const fake::Vessel& vessel) {
+  CouplingOptions tight;
+  tight.tolerance = 1e-13;
+  tight.max_iterations = 60;
+  return run(vessel, Method::tangents, 1, tight).last.velocity;
+}
+
+class AddedMass : public testing::TestWithParam<fake::Vessel> {};
+
+TEST_P(AddedMass, AllMethodsEndOnTheSameStep) {
+  const VectorXd exact = exact_velocity(GetParam());
+  for (const Method method : {Method::operators, Method::tangents, Method::black_box}) {
+    const VectorXd V = run(GetParam(), method, 1).last.velocity;
+    EXPECT_LT((V - exact).norm(), 10 * tolerance * exact.norm()) << "method " << static_cast<int>(method);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RatiosAndSprings, AddedMass,
+                         testing::Values(fake::Vessel{.ratio = 10}, fake::Vessel{.ratio = 100},
+                                         fake::Vessel{.ratio = 10, .hardening = 2e4},
+                                         fake::Vessel{.ratio = 100, .hardening = 2e4}));
+
+TEST(NewtonKrylov, NeedsTwoEvaluationsOfALinearVessel) {
+  const Steps heavy = run({.ratio = 10}, Method::operators, 60);
+  EXPECT_EQ(heavy.evaluations(), 2.0);
+  EXPECT_LE(heavy.krylov(), 10.0);
+  const Steps heavier = run({.ratio = 100}, Method::operators, 60);
+  EXPECT_LE(heavier.evaluations(), 2.1);
+  EXPECT_LE(heavier.krylov(), 16.0);
+}
+
+TEST(NewtonKrylov, NeedsThreeEvaluationsOfAHardeningVesselWithTheFirstFactorKept) {
+  const Steps steps = run({.ratio = 10, .hardening = 2e4}, Method::operators, 60);
+  EXPECT_LE(steps.evaluations(), 3.0);
+  EXPECT_LE(steps.krylov(), 20.0);
+}
+
+TEST(NewtonTangents, TakeAsManyEvaluationsAsOperators) {
+  const Steps steps = run({.ratio = 10}, Method::tangents, 60);
+  EXPECT_EQ(steps.evaluations(), 2.0);
+  EXPECT_LE(steps.krylov(), 10.0);
+}
+
+TEST(IqnIls, ReusedStepsHalveTheEvaluations) {
+  const auto evaluations = [](int reuse) {
+    CouplingOptions options;
+    options.reuse = reuse;
+    return run({.ratio = 10}, Method::black_box, 60, options).evaluations();
+  };
+  EXPECT_LE(evaluations(0), 10.5);
+  EXPECT_LE(evaluations(5), 6.0);
+  EXPECT_LE(evaluations(10), 4.5);
+}
+
+TEST(Coupling, AVesselAtRestIsConvergedAtOnce) {
+  for (const Method method : {Method::operators, Method::tangents, Method::black_box}) {
+    const fake::Vessel vessel;
+    fake::Fluid fluid(vessel);
+    fake::Solid solid(vessel);
+    solid.operators = method == Method::operators;
+    solid.tangent = method != Method::black_box;
+    const StepStart start{-dt, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};  // pressure sin(0)
+    fluid.begin_step(start).get();
+    solid.begin_step(start).get();
+    const CouplingResult result = make_coupling("automatic", fluid, solid, {})->solve_step(start);
+    EXPECT_TRUE(result.converged);
+    EXPECT_EQ(result.evaluations, 1);
+    EXPECT_EQ(result.krylov_iterations, 0);
+  }
+}
+
+TEST(Coupling, NumbersThatAreNotFiniteEndTheLoopAndNameTheNode) {
+  for (const Method method : {Method::operators, Method::tangents, Method::black_box}) {
+    const fake::Vessel vessel{.stiffness = 0, .clamped = false};
+    fake::Fluid fluid(vessel);
+    fake::Solid solid(vessel);
+    fluid.answers_nan = true;
+    solid.operators = method == Method::operators;
+    solid.tangent = method != Method::black_box;
+    const StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+    fluid.begin_step(start).get();
+    solid.begin_step(start).get();
+    const CouplingResult result = make_coupling("automatic", fluid, solid, {})->solve_step(start);
+    EXPECT_FALSE(result.converged);
+    EXPECT_EQ(result.evaluations, 1);
+    EXPECT_NE(result.failure.find("not finite"), std::string::npos) << result.failure;
+  }
+}
+
+TEST(Coupling, NotConvergingIsAResultWithItsHistory) {
+  CouplingOptions options;
+  options.max_iterations = 3;
+  const fake::Vessel vessel;
+  fake::Fluid fluid(vessel);
+  fake::Solid solid(vessel);
+  const StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+  fluid.begin_step(start).get();
+  solid.begin_step(start).get();
+  const CouplingResult result = make_coupling("iqn_ils", fluid, solid, options)->solve_step(start);
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.residuals.size(), 3u);
+  EXPECT_EQ(result.failure, "not converged to 1e-06 after 3 evaluations");
+  EXPECT_GE(result.worst_node, 0);
+}
+
+TEST(MakeCoupling, ChoosesByWhatTheCodesAnnounce) {
+  const fake::Vessel vessel;
+  fake::Fluid fluid(vessel);
+  fake::Solid solid(vessel);
+  EXPECT_EQ(make_coupling("automatic", fluid, solid, {})->name(), "newton_krylov");
+  EXPECT_EQ(make_coupling("iqn_ils", fluid, solid, {})->name(), "iqn_ils");
+  fluid.tangent = false;
+  EXPECT_EQ(make_coupling("automatic", fluid, solid, {})->name(), "iqn_ils");
+  EXPECT_THROW(make_coupling("newton_krylov", fluid, solid, {}), InputError);
+}
+
+TEST(IqnIls, GoesOnFromItsMemoryBitForBit) {
+  const fake::Vessel vessel{.hardening = 2e4};
+  fake::Fluid fluid(vessel);
+  fake::Solid solid(vessel);
+  CouplingOptions options;
+  const auto first = make_coupling("iqn_ils", fluid, solid, options);
+  StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+  const auto step = [&](Coupling& coupling, bool accept) {
+    fluid.begin_step(start).get();
+    solid.begin_step(start).get();
+    CouplingResult result = coupling.solve_step(start);
+    fluid.end_step(accept).get();
+    solid.end_step(accept).get();
+    return result;
+  };
+  const Motion motion = step(*first, true).motion;
+  start = {dt, dt, motion.displacement, motion.velocity};
+  const auto second = make_coupling("iqn_ils", fluid, solid, options);
+  second->set_memory(first->memory());
+  const CouplingResult a = step(*first, false), b = step(*second, false);
+  EXPECT_EQ(a.residuals, b.residuals);
+  EXPECT_EQ(a.motion.velocity, b.motion.velocity);
+}
+
+}  // namespace
+}  // namespace tether
