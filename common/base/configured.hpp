@@ -1,0 +1,79 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/base/effect.hpp"
+#include "common/base/error.hpp"
+
+namespace tether {
+
+/// What a case says about one effect: which one, and the values it gives. Values left out take their standard.
+struct EffectChoice {
+  std::string type;
+  std::map<std::string, double> values;
+};
+
+/// The entry of a registry by name. Throws InputError that lists the known ones.
+template <class Physics>
+const Registered<Physics>& find_effect(std::span<const Registered<Physics>> registry, const std::string& name) {
+  std::string known;
+  for (const auto& entry : registry) {
+    if (entry.declaration.name == name) return entry;
+    known += (known.empty() ? "" : ", ") + entry.declaration.name;
+  }
+  throw input_error("there is no effect \"{}\"; known are: {}", name, known);
+}
+
+/// An effect with its values: remade when one of them is set, so that the point functions themselves stay constant.
+template <class Physics>
+class Configured {
+ public:
+  /// Throws InputError for an unknown type or name, a value out of range, or one that must be given and is not.
+  Configured(std::span<const Registered<Physics>> registry, const EffectChoice& choice)
+      : entry_(&find_effect(registry, choice.type)) {
+    for (const auto& parameter : declaration().parameters) {
+      const auto given = choice.values.find(parameter.name);
+      values_.push_back(given == choice.values.end() ? parameter.standard : given->second);
+      check(parameter, values_.back());
+    }
+    for (const auto& [name, value] : choice.values) index_of(name);
+    physics_ = entry_->make(values_);
+  }
+
+  const Physics& operator*() const { return *physics_; }
+  const Physics* operator->() const { return physics_.get(); }
+  const EffectDeclaration& declaration() const { return entry_->declaration; }
+  /// In the declaration's order.
+  const std::vector<double>& values() const { return values_; }
+
+  void set(const std::string& name, double value) {
+    const std::size_t index = index_of(name);
+    check(declaration().parameters[index], value);
+    values_[index] = value;
+    physics_ = entry_->make(values_);
+  }
+
+ private:
+  std::size_t index_of(const std::string& name) const {
+    const auto& list = declaration().parameters;
+    const auto found = std::find_if(list.begin(), list.end(), [&](const Parameter& p) { return p.name == name; });
+    if (found == list.end()) throw input_error("{} has no parameter \"{}\"", declaration().name, name);
+    return static_cast<std::size_t>(found - list.begin());
+  }
+  void check(const Parameter& parameter, double value) const {
+    if (value != value) throw input_error("{}.{} must be given", declaration().name, parameter.name);
+    if (!parameter.range.contains(value))
+      throw input_error("{}.{}: {} is out of range", declaration().name, parameter.name, value);
+  }
+
+  const Registered<Physics>* entry_;
+  std::vector<double> values_;
+  std::unique_ptr<Physics> physics_;
+};
+
+}  // namespace tether

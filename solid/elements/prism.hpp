@@ -1,0 +1,54 @@
+#pragma once
+
+#include "common/base/types.hpp"
+#include "solid/elements/strain_samples.hpp"
+
+namespace tether {
+
+/// The default wall element: a six-node solid-shell prism that does not lock. Unknowns are the positions of its nodes
+/// only.
+///
+/// Parent coordinates (xi, eta) on the triangle, zeta in [-1, 1] from the lumen outward. Green-Lagrange strains in
+/// these coordinates, with
+/// - in-plane 11, 22, 12: as they are, at the two Gauss levels zeta = -+1/sqrt(3);
+/// - transverse shear 13, 23: from the edges' midpoints, constant tangential strain along each edge (MITC3: Lee and
+/// Bathe 2004): no shear locking;
+/// - thickness 33: from the three vertical edges (Betsch and Stein 1995): no curvature-thickness locking; its variation
+/// over the triangle
+///   enters only as far as shear resists it, so that a nearly incompressible wall does not lock in its plane;
+/// - one enhanced mode, linear in zeta, of the thickness strain (Buechter, Ramm and Roehl 1994; Simo and Rifai 1990),
+/// eliminated in the
+///   element: no Poisson-thickness and no volumetric locking in bending.
+/// These are twelve numbers, as many as the element has ways to deform.
+struct PrismElement {
+  static constexpr int nodes = 6, samples = 12, points = 6;
+  static constexpr bool enhanced = true;
+  using Cell = Prism;
+  using Positions = Eigen::Matrix<double, 3, nodes>;
+  using Map = Eigen::Matrix<double, 6, samples>;
+
+  explicit PrismElement(const Positions& reference);
+
+  static const StrainSamples<nodes, samples>& strains();
+  double weight(int point) const { return points_[static_cast<std::size_t>(point)].weight; }
+  /// From the samples to the Cartesian strain at a quadrature point. thickness_variation: see `WallLaw`.
+  Map map(int point, double thickness_variation) const;
+  /// Cartesian strain of the enhanced mode at a quadrature point; its integral over the element is zero (patch test).
+  Eigen::Matrix<double, 6, 1> enhanced_mode(int point) const;
+  double volume() const;
+  /// Deformation gradient at the centre for nodal positions x.
+  Mat3 mean_gradient(const Positions& x) const;
+  Eigen::Matrix<double, nodes, nodes> mass() const { return mass_; }
+
+ private:
+  struct Point {
+    double weight;
+    Mat3 contravariant;  ///< columns G^1, G^2, G^3
+    double enhanced;     ///< zeta J0/J
+  };
+  std::array<Point, points> points_;
+  Mat3 centre_contravariant_;  ///< columns G^1, G^2, G^3 at the centre
+  Eigen::Matrix<double, nodes, nodes> mass_;
+};
+
+}  // namespace tether

@@ -1,0 +1,212 @@
+#include "solid/elements/wall_elements.hpp"
+
+#include <Eigen/LU>
+
+#include "common/base/error.hpp"
+#include "solid/elements/element_response.hpp"
+#include "solid/elements/prism.hpp"
+#include "solid/elements/tetrahedron.hpp"
+
+namespace tether {
+namespace {
+
+template <class Element>
+class ElementsOf final : public WallElements {
+ public:
+  static constexpr int nodes = Element::nodes, samples = Element::samples, unknowns = 3 * nodes;
+  using Cell = typename Element::Cell;
+  using Positions = Eigen::Matrix<double, 3, nodes>;
+  using Samples = Eigen::Matrix<double, samples, 1>;
+  using Block = Eigen::Matrix<double, unknowns, unknowns, Eigen::RowMajor>;
+
+  ElementsOf(const std::vector<Cell>& cells, const Points& reference)
+      : cells_(cells), scatter_(static_cast<int>(reference.cols()), 3, std::span<const Cell>(cells_)) {
+    elements_.reserve(cells.size());
+    reference_.reserve(cells.size());
+    for (std::size_t e = 0; e < cells.size(); ++e) {
+      const Positions x = gather(reference, e);
+      elements_.emplace_back(x);
+      reference_.push_back(elements_.back().strains().products(x));
+      for (int q = 0; q < Element::points; ++q)
+        if (!(elements_.back().weight(q) > 0))
+          throw run_error("wall element {} at ({:.4g} {:.4g} {:.4g}) has no positive volume", e, x.row(0).mean(),
+                          x.row(1).mean(), x.row(2).mean());
+    }
+  }
+
+  void static_force(const Points& x, const Material& material, VectorXd& force, SparseMatrix* tangent) const override {
+    const WallLaw law(material);
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const Element& element = elements_[e];
+      const Positions local = gather(x, e);
+      const auto rates = element.strains().rates(local);
+      const Samples s = element.strains().products(local) - reference_[e];
+      if (tangent == nullptr) {
+        scatter(rates * sample_stress(element, s, law), e, force);
+        continue;
+      }
+      const auto response = sample_response(element, s, law);
+      scatter(rates * response.stress, e, force);
+      scatter_.add(*tangent, e, block(element, rates, response.tangent, response.stress, 1.0).data());
+    }
+  }
+
+  void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
+                  SparseMatrix* tangent) const override {
+    const double advance = motion.theta * motion.dt;
+    const WallLaw law(*material.elastic);
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const Element& element = elements_[e];
+      const auto& strains = element.strains();
+      const Positions start = gather(motion.start, e), velocity = gather(motion.velocity, e),
+                      middle = start + advance * velocity;
+      const auto rates = strains.rates(middle);
+      SampleResponse<samples> response = motion.conserve_energy
+                                             ? conserving(e, start, start + motion.dt * velocity, law)
+                                             : at_positions(e, middle, law, tangent != nullptr);
+      Eigen::Matrix<double, samples, samples> viscous;
+      if (material.viscosity > 0) {
+        viscous = viscous_tangent(element, material.viscosity, law.thickness_variation);
+        response.stress += viscous * (rates.transpose() * velocity.reshaped());
+      }
+      scatter(rates * response.stress, e, force);
+      if (tangent == nullptr) continue;
+      Eigen::Matrix<double, samples, samples> by_velocity = advance * response.tangent;
+      if (material.viscosity > 0) by_velocity += viscous;
+      scatter_.add(*tangent, e, block(element, rates, by_velocity, response.stress, advance).data());
+    }
+  }
+
+  double energy(const Points& x, const Material& material) const override {
+    double sum = 0;
+    const WallLaw law(material);
+    for (std::size_t e = 0; e < cells_.size(); ++e)
+      sum += sample_energy(elements_[e], Samples(elements_[e].strains().products(gather(x, e)) - reference_[e]), law);
+    return sum;
+  }
+
+  void add_mass(double density, SparseMatrix& mass) const override {
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const auto scalar = elements_[e].mass();
+      Block local = Block::Zero();
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b)
+          for (int i = 0; i < 3; ++i) local(3 * a + i, 3 * b + i) = density * scalar(a, b);
+      scatter_.add(mass, e, local.data());
+    }
+  }
+
+  double volume() const override {
+    double sum = 0;
+    for (const Element& element : elements_) sum += element.volume();
+    return sum;
+  }
+
+  Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const override;
+  SparseMatrix zero_matrix() const override { return scatter_.zero_matrix(); }
+
+ private:
+  Positions gather(const Points& x, std::size_t e) const {
+    Positions local;
+    for (int a = 0; a < nodes; ++a) local.col(a) = x.col(cells_[e][static_cast<std::size_t>(a)]);
+    return local;
+  }
+
+  void scatter(const Eigen::Matrix<double, unknowns, 1>& local, std::size_t e, VectorXd& force) const {
+    for (int a = 0; a < nodes; ++a)
+      force.segment<3>(3 * cells_[e][static_cast<std::size_t>(a)]) += local.template segment<3>(3 * a);
+  }
+
+  SampleResponse<samples> at_positions(std::size_t e, const Positions& x, const WallLaw& law, bool with_tangent) const {
+    const Samples s = elements_[e].strains().products(x) - reference_[e];
+    if (with_tangent) return sample_response(elements_[e], s, law);
+    SampleResponse<samples> result;
+    result.stress = sample_stress(elements_[e], s, law);
+    return result;
+  }
+
+  /// Gonzalez' discrete gradient (S.6): stress' (s1 - s0) = Phi(s1) - Phi(s0) exactly; tangent: that of the mean
+  /// strain, symmetric.
+  SampleResponse<samples> conserving(std::size_t e, const Positions& x0, const Positions& x1,
+                                     const WallLaw& law) const {
+    const Element& element = elements_[e];
+    const Samples s0 = element.strains().products(x0) - reference_[e],
+                  s1 = element.strains().products(x1) - reference_[e];
+    SampleResponse<samples> result = sample_response(element, Samples(0.5 * (s0 + s1)), law);
+    const Samples change = s1 - s0,
+                  weight = reference_[e].cwiseAbs().array() + 1e-3 * reference_[e].cwiseAbs().maxCoeff();
+    const Samples scaled = change.cwiseQuotient(weight.cwiseProduct(weight));
+    const double size = change.dot(scaled);
+    if (size > 1e-24) {
+      const double defect =
+          sample_energy(element, s1, law) - sample_energy(element, s0, law) - result.stress.dot(change);
+      result.stress += defect / size * scaled;
+    }
+    return result;
+  }
+
+  static Eigen::Matrix<double, samples, samples> viscous_tangent(const Element& element, double viscosity,
+                                                                 double thickness_variation) {
+    Eigen::Matrix<double, samples, samples> sum = Eigen::Matrix<double, samples, samples>::Zero();
+    Voigt halves;
+    halves << 1, 1, 1, 0.5, 0.5, 0.5;  // S = eta de/dt: stress components from 2 E12 ...
+    for (int q = 0; q < Element::points; ++q) {
+      const auto map = element.map(q, thickness_variation);
+      sum += map.transpose() * (viscosity * element.weight(q) * halves).asDiagonal() * map;
+    }
+    return sum;
+  }
+
+  /// B' D B + geometric part, times `scale` on the latter; D is already scaled.
+  static Block block(const Element& element, const typename StrainSamples<nodes, samples>::Rates& rates,
+                     const Eigen::Matrix<double, samples, samples>& d, const Samples& stress, double scale) {
+    const Eigen::Matrix<double, unknowns, samples> product = rates * d;
+    Block result = product * rates.transpose();
+    const Eigen::Matrix<double, nodes, nodes> geometric = scale * element.strains().geometric(stress);
+    for (int a = 0; a < nodes; ++a)
+      for (int b = 0; b < nodes; ++b)
+        for (int i = 0; i < 3; ++i) result(3 * a + i, 3 * b + i) += geometric(a, b);
+    return result;
+  }
+
+  std::vector<Cell> cells_;
+  std::vector<Element> elements_;
+  std::vector<Samples> reference_;  ///< products at the stress-free positions
+  ScatterMap scatter_;
+};
+
+/// sigma = F S F'/J at each quadrature point, averaged; F from U'U = C would lose the rotation, so F comes from the
+/// element's mean gradient.
+template <class Element>
+Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(const Points& x,
+                                                                            const Material& material) const {
+  const WallLaw law(material);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> result(6, static_cast<Eigen::Index>(cells_.size()));
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    const Positions local = gather(x, e);
+    const auto strain =
+        point_strains(elements_[e], Samples(elements_[e].strains().products(local) - reference_[e]), law);
+    const Mat3 f = elements_[e].mean_gradient(local);
+    Mat3 sum = Mat3::Zero();
+    for (int q = 0; q < Element::points; ++q) {
+      const Voigt s =
+          elements_[e].weight(q) / elements_[e].volume() * stress(law.material, strain[static_cast<std::size_t>(q)]);
+      Mat3 tensor;
+      tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+      sum += tensor;
+    }
+    const Mat3 sigma = f * sum * f.transpose() / f.determinant();
+    result.col(static_cast<Eigen::Index>(e)) << sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2),
+        sigma(0, 2);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<WallElements> make_wall_elements(const WallMesh& mesh, const Points& reference) {
+  if (!mesh.prisms.empty()) return std::make_unique<ElementsOf<PrismElement>>(mesh.prisms, reference);
+  return std::make_unique<ElementsOf<TetrahedronElement>>(mesh.tetrahedra, reference);
+}
+
+}  // namespace tether

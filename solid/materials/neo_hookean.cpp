@@ -1,0 +1,33 @@
+#include "solid/materials/isotropic_moduli.hpp"
+#include "solid/materials/registry.hpp"
+
+namespace tether {
+namespace {
+
+const EffectDeclaration declaration{.name = "neo_hookean",
+                                    .meaning = "Rubber-like wall: isochoric neo-Hookean with a volumetric penalty",
+                                    .place = Place::wall,
+                                    .parameters = {young_parameter(), poisson_parameter()}};
+
+/// W = mu/2 (I1 J^-2/3 - 3) + kappa/4 (J^2 - 1 - 2 ln J).
+class NeoHookean final : public Material {
+ public:
+  explicit NeoHookean(std::span<const double> values) : moduli_(IsotropicModuli::from(values)) {}
+  Potential potential(double i1, double, double j) const override {
+    Potential w;
+    add_isochoric(w, moduli_.shear / 2, 0, i1, j);
+    add_volumetric(w, moduli_.bulk, j);
+    return w;
+  }
+
+ private:
+  IsotropicModuli moduli_;
+};
+
+}  // namespace
+
+const Registered<Material> neo_hookean{declaration, [](std::span<const double> values) -> std::unique_ptr<Material> {
+                                         return std::make_unique<NeoHookean>(values);
+                                       }};
+
+}  // namespace tether
