@@ -43,16 +43,25 @@ ScatterMap::ScatterMap(int node_count, int components, std::size_t nodes, std::s
   pattern_.outerIndexPtr()[node_count * c] = position;
   std::fill_n(pattern_.valuePtr(), position, 0.0);
 
-  starts_.reserve(connectivity.size() * nodes);
+  locate(pattern_, connectivity);
+}
+
+void ScatterMap::locate(const SparseMatrix& pattern, std::span<const int> connectivity) {
+  const int c = components_;
+  const int* outer = pattern.outerIndexPtr();
+  const int* inner = pattern.innerIndexPtr();
+  starts_.reserve(connectivity.size() * nodes_);
   strides_.reserve(connectivity.size());
-  for (std::size_t e = 0; e < connectivity.size(); e += nodes)
-    for (std::size_t a = 0; a < nodes; ++a) {
-      const auto node = static_cast<std::size_t>(connectivity[e + a]);
-      const auto& list = lists[node];
-      strides_.push_back(static_cast<int>(list.size()) * c);
-      for (std::size_t b = 0; b < nodes; ++b) {
-        const auto place = std::lower_bound(list.begin(), list.end(), connectivity[e + b]) - list.begin();
-        starts_.push_back(pattern_.outerIndexPtr()[connectivity[e + a] * c] + static_cast<int>(place) * c);
+  for (std::size_t e = 0; e < connectivity.size(); e += nodes_)
+    for (std::size_t a = 0; a < nodes_; ++a) {
+      const int row = connectivity[e + a] * c;
+      const int *begin = inner + outer[row], *end = inner + outer[row + 1];
+      strides_.push_back(outer[row + 1] - outer[row]);
+      for (std::size_t b = 0; b < nodes_; ++b) {
+        const int column = connectivity[e + b] * c;
+        const int* entry = std::lower_bound(begin, end, column);
+        TETHER_ASSERT(entry != end && *entry == column, "no entry ({}, {})", row, column);
+        starts_.push_back(static_cast<int>(entry - inner));
       }
     }
 }

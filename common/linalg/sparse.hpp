@@ -22,6 +22,13 @@ class ScatterMap {
   ScatterMap(int node_count, int components, std::span<const std::array<int, nodes>> elements)
       : ScatterMap(node_count, components, nodes, {elements.empty() ? nullptr : elements[0].data(), nodes * elements.size()}) {}
 
+  /// Elements (a boundary's triangles, say) whose blocks land in a matrix made for others. Throws InternalError where it has no entry.
+  template <std::size_t nodes>
+  ScatterMap(const SparseMatrix& pattern, int components, std::span<const std::array<int, nodes>> elements)
+      : components_(components), nodes_(nodes) {
+    locate(pattern, {elements.empty() ? nullptr : elements[0].data(), nodes * elements.size()});
+  }
+
   int components() const { return components_; }
   /// A zero matrix with this pattern.
   SparseMatrix zero_matrix() const { return pattern_; }
@@ -42,6 +49,8 @@ class ScatterMap {
 
  private:
   ScatterMap(int node_count, int components, std::size_t nodes, std::span<const int> connectivity);
+
+  void locate(const SparseMatrix& pattern, std::span<const int> connectivity);
 
   int components_ = 0;
   std::size_t nodes_ = 0;

@@ -47,7 +47,7 @@ class ElementsOf final : public WallElements {
       }
       const auto response = sample_response(element, s, law);
       scatter(rates * response.stress, e, force);
-      scatter_.add(*tangent, e, block(element, rates, response.tangent, response.stress, 1.0).data());
+      scatter_.add(*tangent, e, block(rates, response.tangent, element.strains().geometric(response.stress)).data());
     }
   }
 
@@ -69,11 +69,13 @@ class ElementsOf final : public WallElements {
         viscous = viscous_tangent(element, material.viscosity, law.thickness_variation);
         response.stress += viscous * (rates.transpose() * velocity.reshaped());
       }
-      scatter(rates * response.stress, e, force);
+      const Eigen::Matrix<double, nodes, nodes> mass = material.density * element.mass();
+      const Positions inertia = gather(motion.acceleration, e) * mass;
+      scatter(rates * response.stress + inertia.reshaped(), e, force);
       if (tangent == nullptr) continue;
       Eigen::Matrix<double, samples, samples> by_velocity = advance * response.tangent;
       if (material.viscosity > 0) by_velocity += viscous;
-      scatter_.add(*tangent, e, block(element, rates, by_velocity, response.stress, advance).data());
+      scatter_.add(*tangent, e, block(rates, by_velocity, advance * strains.geometric(response.stress) + mass / advance).data());
     }
   }
 
@@ -83,17 +85,6 @@ class ElementsOf final : public WallElements {
     for (std::size_t e = 0; e < cells_.size(); ++e)
       sum += sample_energy(elements_[e], Samples(elements_[e].strains().products(gather(x, e)) - reference_[e]), law);
     return sum;
-  }
-
-  void add_mass(double density, SparseMatrix& mass) const override {
-    for (std::size_t e = 0; e < cells_.size(); ++e) {
-      const auto scalar = elements_[e].mass();
-      Block local = Block::Zero();
-      for (int a = 0; a < nodes; ++a)
-        for (int b = 0; b < nodes; ++b)
-          for (int i = 0; i < 3; ++i) local(3 * a + i, 3 * b + i) = density * scalar(a, b);
-      scatter_.add(mass, e, local.data());
-    }
   }
 
   double volume() const override {
@@ -157,15 +148,14 @@ class ElementsOf final : public WallElements {
     return sum;
   }
 
-  /// B' D B + geometric part, times `scale` on the latter; D is already scaled.
-  static Block block(const Element& element, const typename StrainSamples<nodes, samples>::Rates& rates,
-                     const Eigen::Matrix<double, samples, samples>& d, const Samples& stress, double scale) {
+  /// B' D B, and on the diagonal of each pair of nodes' block what does not depend on the direction (geometric part, mass).
+  static Block block(const typename StrainSamples<nodes, samples>::Rates& rates, const Eigen::Matrix<double, samples, samples>& d,
+                     const Eigen::Matrix<double, nodes, nodes>& isotropic) {
     const Eigen::Matrix<double, unknowns, samples> product = rates * d;
     Block result = product * rates.transpose();
-    const Eigen::Matrix<double, nodes, nodes> geometric = scale * element.strains().geometric(stress);
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b < nodes; ++b)
-        for (int i = 0; i < 3; ++i) result(3 * a + i, 3 * b + i) += geometric(a, b);
+        for (int i = 0; i < 3; ++i) result(3 * a + i, 3 * b + i) += isotropic(a, b);
     return result;
   }
 

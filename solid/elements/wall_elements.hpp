@@ -9,19 +9,20 @@
 
 namespace tether {
 
-/// How the internal force of a step is evaluated.
+/// How a step moves the wall. Positions and velocities: one column a node.
 struct StepMotion {
-  const Points& start;     ///< positions at the beginning of the step
-  const Points& velocity;  ///< V = (end - start)/dt
+  const Points& start;         ///< positions at the beginning of the step
+  const Points& velocity;      ///< V = (end - start)/dt
+  const Points& acceleration;  ///< (V - u0)/(theta dt)
   double theta, dt;
-  bool conserve_energy;  ///< discrete gradient between start and end (theta = 1/2), else the stress at start + theta dt
-                         ///< V
+  bool conserve_energy;        ///< discrete gradient between start and end (theta = 1/2), else the stress at start + theta dt V
 };
 
 /// What a wall element is made of.
 struct WallMaterial {
   const Material* elastic;
   double viscosity;  ///< eta_s: S += eta_s de/dt [pressure time]
+  double density;    ///< [mass/volume], of the stress-free wall
 };
 
 /// All elements of the wall, of one kind, built on the stress-free positions. Forces and matrices are by node, then x y
@@ -33,12 +34,10 @@ class WallElements {
   /// Force that the wall exerts against static positions x: f = dPhi/dx (S.2); tangent, if not null, += df/dx (S.3).
   virtual void static_force(const Points& x, const Material& material, VectorXd& force,
                             SparseMatrix* tangent) const = 0;
-  /// The same in a time step (S.5), viscosity included; tangent, if not null, += df/dV.
+  /// The same in a time step (S.5), viscosity and inertia included; tangent, if not null, += df/dV.
   virtual void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
                           SparseMatrix* tangent) const = 0;
   virtual double energy(const Points& x, const Material& material) const = 0;
-  /// mass += density int N_a N_b dV, on each of the three components.
-  virtual void add_mass(double density, SparseMatrix& mass) const = 0;
   virtual double volume() const = 0;
   /// Cauchy stress of each element, averaged over its points: columns 11 22 33 12 23 13.
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const = 0;

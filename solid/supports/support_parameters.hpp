@@ -1,0 +1,29 @@
+#pragma once
+
+#include "common/base/effect.hpp"
+
+namespace tether {
+
+inline Parameter stiffness_parameter(const char* meaning) {
+  return {.name = "stiffness",
+          .meaning = meaning,
+          .dimension = dimension::support_stiffness,
+          .range = range::not_negative,
+          .standard = 0.0,
+          .absent = 0.0,
+          .transform = Transform::log2,
+          .prior_deviation = 1.0};
+}
+
+inline Parameter damping_parameter(const char* meaning) {
+  return {.name = "damping",
+          .meaning = meaning,
+          .dimension = dimension::support_damping,
+          .range = range::not_negative,
+          .standard = 0.0,
+          .absent = 0.0,
+          .transform = Transform::log2,
+          .prior_deviation = 1.0};
+}
+
+}  // namespace tether

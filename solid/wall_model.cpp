@@ -1,0 +1,72 @@
+#include "solid/wall_model.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+#include "solid/materials/registry.hpp"
+
+namespace tether {
+
+std::vector<int> unknowns_of(const std::vector<int>& nodes) {
+  std::vector<int> result;
+  for (int node : nodes)
+    for (int component = 0; component < 3; ++component) result.push_back(3 * node + component);
+  return result;
+}
+
+WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
+                     std::vector<SurfaceSupport> supports)
+    : mesh_(std::move(mesh)),
+      settings_(settings),
+      material_(materials(), settings.material),
+      elements_(make_wall_elements(mesh_, stress_free)),
+      supports_(std::move(supports)),
+      clamped_(unknowns_of(clamped_nodes)) {
+  if (settings.conserve_energy && settings.theta != 0.5)
+    throw input_error("solid.theta: {} with integrator energy_conserving: must be 0.5", settings.theta);
+  const SparseMatrix pattern = elements_->zero_matrix();
+  for (SurfaceSupport& support : supports_) {
+    support.attach(pattern);
+    support.place(mesh_.points);
+  }
+  declare_parameters();
+}
+
+void WallModel::declare_parameters() {
+  const Parameter density{.name = "density", .meaning = "density of the wall", .dimension = dimension::density, .range = range::positive,
+                          .standard = undefined, .absent = undefined, .transform = Transform::log2, .prior_deviation = 0.2};
+  const Parameter viscosity{.name = "viscosity", .meaning = "viscosity of the wall: stress per rate of Green-Lagrange strain",
+                            .dimension = dimension::viscosity, .range = range::not_negative, .standard = 0.0, .absent = 0.0,
+                            .transform = Transform::log2, .prior_deviation = 1.0};
+  parameters_.add({"solid.density", density, [this] { return settings_.density; }, [this](double v) { settings_.density = v; }});
+  parameters_.add({"solid.viscosity", viscosity, [this] { return settings_.viscosity; }, [this](double v) { settings_.viscosity = v; }});
+  parameters_.add_effect("solid.material", material_);
+  for (SurfaceSupport& support : supports_) {
+    const bool ring = std::any_of(mesh_.rings.begin(), mesh_.rings.end(), [&](const Patch& p) { return p.name == support.name(); });
+    parameters_.add_effect((ring ? "solid.rings." : "solid.support.regions.") + support.name(), support.effect());
+  }
+}
+
+void WallModel::place_supports(const Points& displacement) {
+  if (!settings_.support_on_current_area) return;
+  const Points positions = mesh_.points + displacement;
+  for (SurfaceSupport& support : supports_) support.place(positions);
+}
+
+VectorXd WallModel::step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity, double time, double dt,
+                                SparseMatrix* tangent) const {
+  const double advance = settings_.theta * dt;
+  const Points start = mesh_.points + displacement, acceleration = (velocity - start_velocity) / advance;
+  VectorXd forces = VectorXd::Zero(unknowns()), holding = VectorXd::Zero(unknowns());
+  if (tangent != nullptr) std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
+  elements_->step_force({start, velocity, acceleration, settings_.theta, dt, settings_.conserve_energy},
+                        {&*material_, settings_.viscosity, settings_.density}, forces, tangent);
+  const Points middle = displacement + advance * velocity;
+  for (const SurfaceSupport& support : supports_) support.add({middle, velocity, time + advance, advance}, holding, tangent);
+  forces -= holding;
+  for (int unknown : clamped_) forces[unknown] = 0;
+  if (tangent != nullptr) constrain(*tangent, clamped_, tangent->coeff(0, 0));
+  return forces;
+}
+
+}  // namespace tether

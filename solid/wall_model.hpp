@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/base/configured.hpp"
+#include "common/base/parameter_table.hpp"
+#include "solid/elements/wall_elements.hpp"
+#include "solid/surface_support.hpp"
+
+namespace tether {
+
+/// What the wall is, apart from how it moves: geometry, material, surroundings.
+struct WallSettings {
+  EffectChoice material;
+  double density = undefined;       ///< [density]
+  double viscosity = 0.0;           ///< eta_s [pressure time]
+  double theta = 0.5;               ///< of the midpoint rule, 0.5 to 1
+  bool conserve_energy = false;     ///< needs theta = 0.5
+  bool support_on_current_area = false;  ///< areas at the start of each step, else those of the imaged wall
+};
+
+/// Wall with material and supports; all parameters settable by name.
+class WallModel {
+ public:
+  /// `stress_free`: positions without stress (the imaged ones, if there is no prestress). `clamped`: nodes that do not move.
+  WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
+            std::vector<SurfaceSupport> supports);
+
+  const WallMesh& mesh() const { return mesh_; }
+  const WallSettings& settings() const { return settings_; }
+  const WallElements& elements() const { return *elements_; }
+  const Material& material() const { return *material_; }
+  const std::vector<int>& clamped_unknowns() const { return clamped_; }
+  std::vector<SurfaceSupport>& supports() { return supports_; }
+  const ParameterTable& parameters() const { return parameters_; }
+  Eigen::Index unknowns() const { return mesh_.points.size(); }
+
+  /// Areas and normals of the supports for a step that starts at displacement y (S.4).
+  void place_supports(const Points& displacement);
+
+  /// Left side of the step's equations (S.5): inertia, internal and support forces; tangent, if not null, is set to its derivative by V,
+  /// clamped unknowns eliminated. Entries of clamped unknowns are zero.
+  VectorXd step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity, double time, double dt,
+                       SparseMatrix* tangent) const;
+
+ private:
+  void declare_parameters();
+
+  WallMesh mesh_;
+  WallSettings settings_;
+  Configured<Material> material_;
+  std::unique_ptr<WallElements> elements_;
+  std::vector<SurfaceSupport> supports_;
+  std::vector<int> clamped_;
+  ParameterTable parameters_;
+};
+
+/// Unknowns 3 node + component of the nodes.
+std::vector<int> unknowns_of(const std::vector<int>& nodes);
+
+}  // namespace tether
