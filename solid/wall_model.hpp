@@ -26,13 +26,15 @@ class WallModel {
   /// `stress_free`: positions without stress (the imaged ones, if there is no prestress). `clamped`: nodes that do not move.
   WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
             std::vector<SurfaceSupport> supports);
+  WallModel(const WallModel&) = delete;  // the parameter table refers into this object
+  WallModel& operator=(const WallModel&) = delete;
 
   const WallMesh& mesh() const { return mesh_; }
   const WallSettings& settings() const { return settings_; }
   const WallElements& elements() const { return *elements_; }
   const Material& material() const { return *material_; }
   const std::vector<int>& clamped_unknowns() const { return clamped_; }
-  std::vector<SurfaceSupport>& supports() { return supports_; }
+  const std::vector<SurfaceSupport>& supports() const { return supports_; }
   const ParameterTable& parameters() const { return parameters_; }
   Eigen::Index unknowns() const { return mesh_.points.size(); }
 

@@ -1,0 +1,81 @@
+#include "solid/prestress.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <deque>
+
+#include "common/linalg/cholesky.hpp"
+
+namespace tether {
+namespace {
+
+/// Anderson acceleration of x <- x + g(x): the combination of the last steps whose g is smallest.
+class Anderson {
+ public:
+  VectorXd next(const VectorXd& x, const VectorXd& g) {
+    if (last_x_.size() > 0) {
+      dx_.push_front(x - last_x_);
+      dg_.push_front(g - last_g_);
+      if (dx_.size() > depth) dx_.pop_back(), dg_.pop_back();
+    }
+    last_x_ = x;
+    last_g_ = g;
+    VectorXd result = x + g;
+    if (dx_.empty()) return result;
+    Eigen::MatrixXd differences(g.size(), static_cast<Eigen::Index>(dg_.size()));
+    for (std::size_t k = 0; k < dg_.size(); ++k) differences.col(static_cast<Eigen::Index>(k)) = dg_[k];
+    const VectorXd weights = differences.colPivHouseholderQr().solve(g);
+    for (std::size_t k = 0; k < dg_.size(); ++k) result -= weights[static_cast<Eigen::Index>(k)] * (dx_[k] + dg_[k]);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t depth = 6;
+  std::deque<VectorXd> dx_, dg_;
+  VectorXd last_x_, last_g_;
+};
+
+double size_of(const Points& points) { return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff(); }
+
+}  // namespace
+
+VectorXd uniform_pressure_forces(const WallMesh& mesh, const Points& x, double pressure) {
+  VectorXd forces = VectorXd::Zero(x.size());
+  for (const Triangle& t : mesh.interface) {
+    const Vec3 share = pressure / 6 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
+    for (int node : t) forces.segment<3>(3 * node) += share;
+  }
+  return forces;
+}
+
+StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material& material, double pressure, const std::vector<int>& fixed,
+                                           double tolerance, int max_iterations) {
+  const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
+  const double size = size_of(mesh.points);
+  StressFreeResult result;
+  result.positions = mesh.points;
+  Anderson anderson;
+  Cholesky cholesky;
+  while (result.iterations < max_iterations) {
+    const auto wall = make_wall_elements(mesh, result.positions);
+    VectorXd internal = VectorXd::Zero(load.size());
+    SparseMatrix tangent = wall->zero_matrix();
+    wall->static_force(mesh.points, material, internal, &tangent);
+    constrain(tangent, fixed, tangent.coeff(0, 0));
+    if (result.iterations == 0) cholesky.analyze(tangent, 3);
+    cholesky.factor(tangent);
+    VectorXd out_of_balance = load - internal;
+    for (int unknown : fixed) out_of_balance[unknown] = 0;
+    const VectorXd step = -cholesky.solve(out_of_balance);
+    ++result.iterations;
+    result.residual = step.lpNorm<Eigen::Infinity>() / size;
+    if (!std::isfinite(result.residual)) break;
+    result.converged = result.residual <= tolerance;
+    if (result.converged) break;
+    const VectorXd next = anderson.next(result.positions.reshaped(), step);
+    result.positions.reshaped() = next;
+  }
+  return result;
+}
+
+}  // namespace tether

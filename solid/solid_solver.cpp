@@ -1,0 +1,182 @@
+#include "solid/solid_solver.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+/// So many more solves for a correction than when the factor was new, and it has served its time (a new one costs as much as 25 solves).
+constexpr int calls_lost_to_age = 6;
+constexpr double newton_tolerance = 1e-10;  ///< of the correction, relative to the iterate
+constexpr double linear_tolerance = 1e-9;   ///< of each correction's conjugate gradients
+constexpr int most_newton_iterations = 15, most_linear_iterations = 200;
+
+}  // namespace
+
+SolidSolver::SolidSolver(WallModel& model)
+    : model_(model),
+      displacement_(Points::Zero(3, model.mesh().points.cols())),
+      velocity_(displacement_),
+      mean_velocity_(displacement_),
+      iterate_(displacement_),
+      tangent_(model.elements().zero_matrix()) {
+  origin_.displacement = displacement_;
+  origin_.parameters = model.parameters().values();
+}
+
+void SolidSolver::begin_step(double time, double dt) {
+  time_ = time;
+  dt_ = dt;
+  iterate_ = mean_velocity_;
+  evaluations_ = 0;
+  calls_ = most_calls_ = 0;
+  tangent_is_of_this_step_ = false;
+  model_.place_supports(displacement_);
+  renew_factor_if_stale();
+}
+
+VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
+  if (correction.size() > 0) iterate_.reshaped() += correction;
+  calls_ = 0;
+  const bool renew = evaluations_++ % 2 == 0;  // the tangent moves so little in a step that it serves two corrections
+  VectorXd result = -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew ? &tangent_ : nullptr);
+  tangent_is_of_this_step_ = true;
+  result.head(load.size()) += load.reshaped();
+  for (int unknown : model_.clamped_unknowns()) result[unknown] = 0;
+  return result;
+}
+
+VectorXd SolidSolver::product(const VectorXd& direction) { return current_tangent() * direction; }
+
+VectorXd SolidSolver::precondition(const VectorXd& residual) {
+  most_calls_ = std::max(most_calls_, ++calls_);
+  VectorXd rhs = residual;
+  for (int unknown : model_.clamped_unknowns()) rhs[unknown] = 0;
+  return factor_.solve(rhs);
+}
+
+InterfaceMotion SolidSolver::evaluate(const Points& load) {
+  VectorXd correction;
+  for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
+    const VectorXd out_of_balance = residual(correction, load);
+    correction = VectorXd::Zero(out_of_balance.size());
+    const KrylovResult linear = solve_linear(out_of_balance, correction, linear_tolerance);
+    if (!correction.allFinite()) break;
+    const double size = correction.norm(), reference = std::max(iterate_.norm(), 1e-14 * displacement_.norm() / dt_);
+    if (linear.converged && size <= newton_tolerance * reference + 1e-300) {
+      iterate_.reshaped() += correction;
+      tangent_is_of_this_step_ = false;
+      return interface_motion();
+    }
+  }
+  throw run_error("the wall's equations did not converge in {} Newton iterations", most_newton_iterations);
+}
+
+InterfaceMotion SolidSolver::tangent(const Points& load_change) {
+  VectorXd rhs = VectorXd::Zero(iterate_.size()), change = VectorXd::Zero(iterate_.size());
+  rhs.head(load_change.size()) = load_change.reshaped();
+  for (int unknown : model_.clamped_unknowns()) rhs[unknown] = 0;
+  current_tangent();
+  if (!solve_linear(rhs, change, linear_tolerance).converged) throw run_error("the wall's linearised equations did not converge");
+  return interface_part(change);
+}
+
+InterfaceMotion SolidSolver::interface_motion() const {
+  InterfaceMotion motion = interface_part(iterate_.reshaped());
+  motion.displacement += displacement_.leftCols(model_.mesh().interface_nodes);
+  return motion;
+}
+
+InterfaceMotion SolidSolver::interface_part(const VectorXd& velocity) const {
+  const Points v = Eigen::Map<const Points>(velocity.data(), 3, model_.mesh().interface_nodes);
+  return {dt_ * v, v};
+}
+
+void SolidSolver::accept() {
+  const double theta = model_.settings().theta;
+  displacement_ += dt_ * iterate_;
+  velocity_ = (iterate_ - (1 - theta) * velocity_) / theta;
+  mean_velocity_ = iterate_;
+  if (origin_.first_calls == 0) origin_.first_calls = most_calls_;
+  origin_.last_calls = most_calls_;
+  time_ += dt_;
+}
+
+void SolidSolver::rewind() { iterate_ = mean_velocity_; }
+
+std::vector<Vec3> SolidSolver::support_forces() const {
+  std::vector<Vec3> forces;
+  for (const SurfaceSupport& support : model_.supports())
+    forces.push_back(support.resultant({displacement_, mean_velocity_, time_, 0.0}));
+  return forces;
+}
+
+KrylovResult SolidSolver::solve_linear(const VectorXd& rhs, VectorXd& x, double tolerance) {
+  return conjugate_gradients([this](const VectorXd& v) { return product(v); }, [this](const VectorXd& r) { return precondition(r); }, rhs, x,
+                             tolerance, most_linear_iterations);
+}
+
+const SparseMatrix& SolidSolver::current_tangent() {
+  if (!tangent_is_of_this_step_) assemble_tangent();
+  return tangent_;
+}
+
+void SolidSolver::assemble_tangent() {
+  model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, &tangent_);
+  tangent_is_of_this_step_ = true;
+}
+
+void SolidSolver::renew_factor_if_stale() {
+  if (origin_.dt == dt_ && origin_.last_calls <= origin_.first_calls + calls_lost_to_age) return;
+  make_factor({displacement_, dt_, model_.parameters().values(), 0, 0});
+}
+
+/// Factor of the tangent of a step that starts and stays at origin.displacement.
+void SolidSolver::make_factor(const FactorOrigin& origin) {
+  const std::vector<double> now = model_.parameters().values();
+  const auto set_all = [this](const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) model_.parameters().entries()[i].set(values[i]);
+  };
+  const Points still = Points::Zero(3, origin.displacement.cols());
+  set_all(origin.parameters);
+  model_.place_supports(origin.displacement);
+  model_.step_forces(origin.displacement, still, still, time_, origin.dt, &tangent_);
+  model_.place_supports(displacement_);
+  set_all(now);
+  if (!factor_.has_factor()) factor_.analyze(tangent_, 3);
+  factor_.factor(tangent_);
+  tangent_is_of_this_step_ = false;
+  origin_ = origin;
+}
+
+Eigen::Index SolidSolver::state_size() const { return 4 * displacement_.size() + 3 + static_cast<Eigen::Index>(origin_.parameters.size()); }
+
+VectorXd SolidSolver::state() const {
+  VectorXd state(state_size());
+  state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), origin_.displacement.reshaped(), origin_.dt,
+      origin_.first_calls, origin_.last_calls,
+      Eigen::Map<const VectorXd>(origin_.parameters.data(), static_cast<Eigen::Index>(origin_.parameters.size()));
+  return state;
+}
+
+void SolidSolver::set_state(const VectorXd& state) {
+  if (state.size() != state_size()) throw input_error("a solid state of {} numbers was set, expected {}", state.size(), state_size());
+  const Eigen::Index n = displacement_.size();
+  displacement_.reshaped() = state.head(n);
+  velocity_.reshaped() = state.segment(n, n);
+  mean_velocity_.reshaped() = state.segment(2 * n, n);
+  iterate_ = mean_velocity_;
+  FactorOrigin origin;
+  origin.displacement = Eigen::Map<const Points>(state.data() + 3 * n, 3, displacement_.cols());
+  origin.dt = state[4 * n];
+  origin.first_calls = state[4 * n + 1];
+  origin.last_calls = state[4 * n + 2];
+  origin.parameters.assign(state.data() + 4 * n + 3, state.data() + state.size());
+  if (origin.dt > 0 && !factor_.has_factor()) make_factor(origin);  // a factor at hand serves as well, but for the last bits
+  origin_.first_calls = origin.first_calls;
+  origin_.last_calls = origin.last_calls;
+}
+
+}  // namespace tether

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "common/linalg/cholesky.hpp"
+#include "common/linalg/krylov.hpp"
+#include "solid/wall_model.hpp"
+
+namespace tether {
+
+/// Displacement y1 and velocity V = (y1 - y0)/dt of the interface, one column a node.
+struct InterfaceMotion {
+  Points displacement, velocity;
+};
+
+/// The wall in time: midpoint rule (S.5), unknown V on all nodes. The interface's nodes come first.
+/// A step: begin_step, then either `evaluate` (black box) or `residual`, `product`, `precondition` (open), then accept or rewind.
+class SolidSolver {
+ public:
+  explicit SolidSolver(WallModel& model);
+
+  /// The step from `time` to `time + dt`. The first iterate is the velocity of the last accepted step.
+  void begin_step(double time, double dt);
+
+  /// Add `correction` (empty: none) to the iterate and return load - forces, zero on clamped unknowns (S.5). `load`: 3 x interface nodes.
+  VectorXd residual(const VectorXd& correction, const Points& load);
+  /// Tangent of the forces, at an iterate of this step, times a direction: symmetric positive definite.
+  VectorXd product(const VectorXd& direction);
+  /// A kept factor's solve: close to the inverse of `product`; zero on clamped unknowns.
+  VectorXd precondition(const VectorXd& residual);
+
+  /// Solve the step under the load by Newton; each correction by conjugate gradients with the kept factor. Throws RunError if it fails.
+  InterfaceMotion evaluate(const Points& load);
+  /// The same, linearised at the last evaluation.
+  InterfaceMotion tangent(const Points& load_change);
+
+  InterfaceMotion interface_motion() const;
+  void accept();
+  void rewind();
+
+  const Points& displacement() const { return displacement_; }  ///< of the last accepted step
+  const Points& velocity() const { return velocity_; }          ///< u of the last accepted step
+  /// Force of each support on the wall at the end of the last accepted step.
+  std::vector<Vec3> support_forces() const;
+  /// Largest displacement of a node in the last accepted step [length].
+  double largest_displacement() const { return displacement_.colwise().norm().maxCoeff(); }
+
+  /// Everything needed to continue bit for bit: y, u, V of the last step, and what the kept factor was made from.
+  VectorXd state() const;
+  Eigen::Index state_size() const;
+  void set_state(const VectorXd& state);
+
+ private:
+  /// What a factor was made from: it can be made again, bit for bit.
+  struct FactorOrigin {
+    Points displacement;
+    double dt = 0;  ///< 0: there is no factor yet
+    std::vector<double> parameters;
+    double first_calls = 0, last_calls = 0;  ///< of `precondition` for one correction, in the factor's first and latest step
+  };
+
+  const SparseMatrix& current_tangent();
+  void assemble_tangent();
+  void make_factor(const FactorOrigin& origin);
+  void renew_factor_if_stale();
+  KrylovResult solve_linear(const VectorXd& rhs, VectorXd& x, double tolerance);
+  InterfaceMotion interface_part(const VectorXd& velocity) const;
+
+  WallModel& model_;
+  Points displacement_, velocity_, mean_velocity_;  ///< y, u at the start of the step; V of the last accepted step
+  Points iterate_;                                  ///< V
+  double time_ = 0, dt_ = 0;
+  SparseMatrix tangent_;
+  bool tangent_is_of_this_step_ = false;
+  Cholesky factor_;
+  FactorOrigin origin_;
+  int evaluations_ = 0, calls_ = 0, most_calls_ = 0;
+};
+
+}  // namespace tether
