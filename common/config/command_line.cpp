@@ -51,12 +51,9 @@ int act(const Program& program, const Typed& typed) {
     return exit_done;
   }
   if (typed.command.case_file.empty()) throw input_error("which case? Give the path of a case file, or --help");
+  if (!typed.command.validate) return program.run(typed.command);
   program.validate(typed.command);
-  if (typed.command.validate) {
-    if (!typed.command.quiet) std::cout << typed.command.case_file.string() << ": valid for " << program.name << "\n";
-    return exit_done;
-  }
-  program.run(typed.command);
+  if (!typed.command.quiet) std::cout << typed.command.case_file.string() << ": valid for " << program.name << "\n";
   return exit_done;
 }
 

@@ -23,9 +23,10 @@ struct Program {
   std::string name, purpose;
   /// Declares the sections of the case file that this program reads, beside the common ones.
   std::function<void(Fields&)> declare;
-  /// Reads the case and what it refers to. Throws InputError.
+  /// For --validate: reads the case and what it refers to. Throws InputError.
   std::function<void(const CommandLine&)> validate;
-  std::function<void(const CommandLine&)> run;
+  /// Returns the exit code.
+  std::function<int(const CommandLine&)> run;
 };
 
 /// Parses the command line, answers --help, --describe-config and --validate, else runs. Returns the exit code: what

@@ -1,0 +1,49 @@
+#include "common/config/output_folder.hpp"
+
+#include <fstream>
+
+#include "common/base/error.hpp"
+#include "common/config/yaml_tree.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
+
+void check_owner(const fs::path& folder, const std::string& name) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
+  if (!fs::exists(folder / case_as_run)) {
+    if (fs::is_empty(folder)) return;
+    throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
+  }
+  const YamlNode marker = read_yaml(folder / case_as_run);
+  const YamlNode* owner = marker.find("name");
+  if (owner && owner->text == name) return;
+  throw input_error("{}: holds the results of the case '{}'; {}", folder.string(), owner ? owner->text : "?", way_out);
+}
+
+void mark(const fs::path& folder, const fs::path& case_file) {
+  std::ifstream from(case_file);
+  std::ofstream to(folder / case_as_run);
+  to << "# Copy of " << case_file.string() << " as it was when the run started. Its paths are relative to that file.\n";
+  to << from.rdbuf();
+  if (!to) throw input_error("{}: cannot be written to", folder.string());
+}
+
+}  // namespace
+
+fs::path claim_output(const CommandLine& command, const CaseFile& file) {
+  const std::string& name = file.common().name;
+  const fs::path folder = command.output.empty() ? fs::path("out") / name : command.output;
+  if (!command.overwrite) check_owner(folder, name);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw input_error("{}: cannot be made: {}", folder.string(), error.message());
+  mark(folder, file.path());
+  return folder;
+}
+
+}  // namespace tether

@@ -1,0 +1,50 @@
+#include "common/config/output_folder.hpp"
+
+#include "tests/config/case_text.hpp"
+
+namespace tether {
+namespace {
+
+std::string claim(const std::string& name, bool overwrite = false) {
+  const auto path = write_file("case.yaml", "name: " + name + "\nunits: cgs\ntime: {step: 0.1, end: 1}\n");
+  CommandLine command;
+  command.output = test_folder() / "results";
+  command.overwrite = overwrite;
+  return input_error_of([&] { claim_output(command, CaseFile(path)); });
+}
+
+class OutputFolder : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::remove_all(test_folder()); }
+};
+
+TEST_F(OutputFolder, IsMadeAndMayBeUsedAgainByTheSameCase) {
+  EXPECT_EQ(claim("tube"), "no error");
+  std::ofstream(test_folder() / "results" / "summary.json") << "{}";
+  EXPECT_EQ(claim("tube"), "no error");
+  EXPECT_TRUE(std::filesystem::exists(test_folder() / "results" / case_as_run));
+}
+
+TEST_F(OutputFolder, IsRefusedToAnotherCase) {
+  EXPECT_EQ(claim("tube"), "no error");
+  EXPECT_EQ(claim("aorta"),
+            "results: holds the results of the case 'tube'; choose another folder with --output, or give --overwrite");
+  EXPECT_EQ(claim("aorta", true), "no error");
+  EXPECT_EQ(claim("aorta"), "no error") << "it is this case's from then on";
+}
+
+TEST_F(OutputFolder, IsNotTakenFromOtherFiles) {
+  write_file("results", "a file");
+  EXPECT_EQ(claim("tube"), "results: is not a folder");
+  std::filesystem::remove(test_folder() / "results");
+  std::filesystem::create_directories(test_folder() / "results");
+  EXPECT_EQ(claim("tube"), "no error") << "empty";
+  std::filesystem::remove(test_folder() / "results" / case_as_run);
+  std::ofstream(test_folder() / "results" / "thesis.txt") << "precious";
+  EXPECT_EQ(claim("tube"),
+            "results: holds files that are not the results of a run; choose another folder with --output, or give "
+            "--overwrite");
+}
+
+}  // namespace
+}  // namespace tether
