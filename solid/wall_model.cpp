@@ -18,7 +18,7 @@ WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& 
                      std::vector<SurfaceSupport> supports)
     : mesh_(std::move(mesh)),
       settings_(settings),
-      material_(materials(), settings.material),
+      material_(materials(), settings.material, settings.material_values),
       elements_(make_wall_elements(mesh_, stress_free)),
       supports_(std::move(supports)),
       clamped_(unknowns_of(clamped_nodes)) {

@@ -12,7 +12,8 @@ namespace tether {
 
 /// What the wall is, apart from how it moves: geometry, material, surroundings.
 struct WallSettings {
-  EffectChoice material;
+  std::string material;                 ///< a name of `materials()`
+  std::vector<double> material_values;  ///< in its declaration's order
   double density = undefined;       ///< [density]
   double viscosity = 0.0;           ///< eta_s [pressure time]
   double theta = 0.5;               ///< of the midpoint rule, 0.5 to 1

@@ -29,6 +29,14 @@ const Registered<Physics>& find_effect(std::span<const Registered<Physics>> regi
   throw input_error("there is no effect \"{}\"; known are: {}", name, known);
 }
 
+/// The declarations of a registry, for the case file's reader.
+template <class Physics>
+std::vector<const EffectDeclaration*> declarations(std::span<const Registered<Physics>> registry) {
+  std::vector<const EffectDeclaration*> result;
+  for (const auto& entry : registry) result.push_back(&entry.declaration);
+  return result;
+}
+
 /// An effect with its values: remade when one of them is set, so that the point functions themselves stay constant.
 template <class Physics>
 class Configured {
@@ -42,6 +50,14 @@ class Configured {
       check(parameter, values_.back());
     }
     for (const auto& [name, value] : choice.values) index_of(name);
+    physics_ = entry_->make(values_);
+  }
+
+  /// Values in the declaration's order, as the case file's reader leaves them.
+  Configured(std::span<const Registered<Physics>> registry, const std::string& type, std::vector<double> values)
+      : entry_(&find_effect(registry, type)), values_(std::move(values)) {
+    TETHER_ASSERT(values_.size() == declaration().parameters.size(), "{} values for {}", values_.size(), type);
+    for (std::size_t i = 0; i < values_.size(); ++i) check(declaration().parameters[i], values_[i]);
     physics_ = entry_->make(values_);
   }
 

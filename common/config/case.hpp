@@ -14,6 +14,14 @@ struct TimeCase {
   int steps() const;
 };
 
+/// The state in which the vessel was imaged: the run's reference.
+struct ImageCase {
+  double pressure = 0.0;
+  std::string wall = "stress_free";
+  void declare(Fields& f);
+  bool prestressed() const { return wall == "prestressed" && pressure != 0.0; }
+};
+
 /// What a run writes, beside the tables that it always writes.
 struct OutputCase {
   int write_every = 10, checkpoint_every = 50;
@@ -25,6 +33,7 @@ struct OutputCase {
 struct CommonCase {
   std::string name, title, units;
   TimeCase time;
+  ImageCase image;
   OutputCase output;
   void declare(Fields& f);
 };

@@ -1,0 +1,161 @@
+#include "solid/case.hpp"
+
+#include <algorithm>
+
+#include "common/base/csv.hpp"
+#include "common/base/curve.hpp"
+#include "common/base/error.hpp"
+#include "solid/materials/registry.hpp"
+#include "solid/prestress.hpp"
+#include "solid/supports/registry.hpp"
+
+namespace tether {
+namespace {
+
+const EffectDeclaration clamped_ring{.name = "clamped", .meaning = "The ring does not move", .place = Place::ring, .parameters = {}};
+const EffectDeclaration free_ring{.name = "free", .meaning = "Nothing holds the ring", .place = Place::ring, .parameters = {}};
+
+const std::vector<const EffectDeclaration*>& ring_family() {
+  static const std::vector<const EffectDeclaration*> family = [] {
+    std::vector<const EffectDeclaration*> list = declarations(supports());
+    list.insert(list.begin(), {&clamped_ring, &free_ring});
+    return list;
+  }();
+  return family;
+}
+
+template <class Section>
+const Section* named(const Named<Section>& sections, const std::string& name) {
+  for (const auto& [key, section] : sections)
+    if (key == name) return &section;
+  return nullptr;
+}
+
+/// Throws InputError if the case names a patch that the mesh does not have.
+template <class Section>
+void check_names(const Named<Section>& sections, const std::vector<Patch>& patches, const std::string& field, const CaseFile& file) {
+  std::string known;
+  for (const Patch& patch : patches) known += (known.empty() ? "" : ", ") + patch.name;
+  for (const auto& [name, section] : sections)
+    if (std::none_of(patches.begin(), patches.end(), [&name = name](const Patch& p) { return p.name == name; }))
+      throw input_error("{}: the wall has no such part; it has: {}", file.where(field + "." + name), known);
+}
+
+std::vector<int> clamped_nodes(const SolidCase& solid, const WallMesh& mesh) {
+  std::vector<int> nodes;
+  for (const Patch& ring : mesh.rings) {
+    const RingCase* chosen = named(solid.rings, ring.name);
+    if (chosen != nullptr && chosen->effect.type != clamped_ring.name) continue;
+    const std::vector<int> more = nodes_of(ring.triangles);
+    nodes.insert(nodes.end(), more.begin(), more.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh& mesh, const UnitSystem& units) {
+  std::vector<SurfaceSupport> result;
+  for (const Patch& region : mesh.outside)
+    if (const SupportCase* chosen = named(solid.support.regions, region.name))
+      result.emplace_back(region, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values));
+  for (const Patch& ring : mesh.rings) {
+    const RingCase* chosen = named(solid.rings, ring.name);
+    if (chosen == nullptr || chosen->effect.type == clamped_ring.name || chosen->effect.type == free_ring.name) continue;
+    result.emplace_back(ring, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values),
+                        chosen->motion ? chosen->motion->load(units) : TissueMotion{});
+  }
+  return result;
+}
+
+Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const std::vector<int>& clamped, const CaseFile& file) {
+  const ImageCase& image = file.common().image;
+  if (!image.prestressed()) return mesh.points;
+  const Configured<Material> material(materials(), solid.material.type, solid.material.values);
+  StressFreeResult found = stress_free_configuration(mesh, *material, image.pressure, unknowns_of(clamped));
+  if (!found.converged)
+    throw run_error("{}: no stress-free configuration was found in {} iterations (last correction {:.2g} of the size): the wall may be too "
+                    "soft for this pressure",
+                    file.where("image.pressure"), found.iterations, found.residual);
+  return std::move(found.positions);
+}
+
+}  // namespace
+
+void MotionCase::declare(Fields& f) {
+  f.path("file", file, "CSV file with the ring's displacement over time", Need::required);
+  f.text("time", time, "column of the time");
+  f.text("x", x, "column of the displacement along x");
+  f.text("y", y, "column of the displacement along y");
+  f.text("z", z, "column of the displacement along z");
+  f.number("period", period, dimension::time, range::positive, "duration after which the motion repeats; absent: it does not");
+}
+
+TissueMotion MotionCase::load(const UnitSystem& units) const {
+  const CsvTable table(file);
+  const auto column = [&](const std::string& name, Dimension dimension) {
+    std::vector<double> values = table.numbers(name);
+    const std::string unit = table.unit(name);
+    if (!unit.empty())
+      for (double& value : values) value *= units.quantity("1 " + unit, dimension);
+    return values;
+  };
+  const CurveShape shape{.period = period.value_or(0.0)};
+  const auto curve = [&](const std::string& name) { return Curve(column(time, dimension::time), column(name, dimension::length), shape); };
+  return [cx = curve(x), cy = curve(y), cz = curve(z)](double t) { return Vec3(cx(t), cy(t), cz(t)); };
+}
+
+void SupportCase::declare(Fields& f) {
+  static const auto family = declarations(supports());
+  f.effect(effect, family, "how the tissue holds this region");
+}
+
+void RingCase::declare(Fields& f) {
+  f.effect(effect, ring_family(), "how this end ring is held");
+  f.when("type", effect.type, {"visco_elastic", "normal_visco_elastic"},
+         [&] { f.group("motion", motion, "motion of what the ring is tied to: the heart; absent: it rests"); });
+}
+
+void SupportsCase::declare(Fields& f) {
+  f.choice("area", area, {{"reference", "tractions act per area of the imaged wall"}, {"current", "per area at the start of each step"}},
+           "area to which the supports' tractions refer");
+  f.groups("regions", regions, "regions of the outer wall that are held; the others are free");
+}
+
+void SolidCase::declare(Fields& f) {
+  static const auto laws = declarations(materials());
+  f.number("density", density, dimension::density, range::positive, "density of the wall");
+  f.choice("element", element, {{"prism", "solid-shell prism that does not lock"}, {"p1", "linear tetrahedron; it locks in bending"}},
+           "finite element of the wall");
+  struct Law {
+    EffectCase& effect;
+    void declare(Fields& fields) { fields.effect(effect, laws, "hyperelastic law"); }
+  } law{material};
+  f.group("material", law, "elasticity of the wall");
+  f.number("viscosity", viscosity, dimension::viscosity, range::not_negative, "stress per rate of Green-Lagrange strain");
+  f.number("theta", theta, dimension::none, {0.5, 1.0}, "of the midpoint rule: 0.5 has order 2, 0.55 damps high frequencies");
+  f.choice("integrator", integrator,
+           {{"midpoint", "stress at the middle of the step"}, {"energy_conserving", "discrete gradient: conserves energy exactly"}},
+           "how a step evaluates the stress");
+  f.check(integrator == "midpoint" || theta == 0.5, "theta", "must be 0.5 for the integrator energy_conserving");
+  f.group("support", support, "tissue around the wall");
+  f.groups("rings", rings, "end rings of the wall; clamped if not named");
+}
+
+std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
+  check_names(solid.support.regions, mesh.outside, "solid.support.regions", file);
+  check_names(solid.rings, mesh.rings, "solid.rings", file);
+  const WallSettings settings{.material = solid.material.type,
+                              .material_values = solid.material.values,
+                              .density = solid.density,
+                              .viscosity = solid.viscosity,
+                              .theta = solid.theta,
+                              .conserve_energy = solid.integrator == "energy_conserving",
+                              .support_on_current_area = solid.support.area == "current"};
+  const std::vector<int> clamped = clamped_nodes(solid, mesh);
+  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file.units());
+  const Points stress_free = stress_free_positions(solid, mesh, clamped, file);
+  return std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held));
+}
+
+}  // namespace tether

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+
+#include "common/config/case_file.hpp"
+#include "solid/wall_model.hpp"
+
+namespace tether {
+
+/// A measured motion over time, from columns of a CSV file: that of the heart at the inlet ring.
+struct MotionCase {
+  std::filesystem::path file;
+  std::string time = "time", x = "x", y = "y", z = "z";
+  std::optional<double> period;
+  void declare(Fields& f);
+  /// In the case's units. Throws InputError "file:line: ...".
+  TissueMotion load(const UnitSystem& units) const;
+};
+
+/// How a region of the outer wall is held.
+struct SupportCase {
+  EffectCase effect{"visco_elastic", {}};
+  void declare(Fields& f);
+};
+
+/// How an end ring is held: clamped, free, or by a support, which may follow a measured motion.
+struct RingCase {
+  EffectCase effect{"clamped", {}};
+  std::optional<MotionCase> motion;
+  void declare(Fields& f);
+};
+
+struct SupportsCase {
+  std::string area = "reference";
+  Named<SupportCase> regions;
+  void declare(Fields& f);
+};
+
+/// The section `solid` of a case file.
+struct SolidCase {
+  double density = undefined, viscosity = 0.0, theta = 0.5;
+  std::string element = "prism", integrator = "midpoint";
+  EffectCase material;
+  SupportsCase support;
+  Named<RingCase> rings;
+  void declare(Fields& f);
+};
+
+/// The wall of a case, ready to move. Rings that the case does not name are clamped. Throws InputError for names that the mesh does not
+/// have, RunError if no stress-free configuration is found.
+std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file);
+
+}  // namespace tether

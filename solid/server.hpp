@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "common/base/units.hpp"
+#include "common/protocol/messages.hpp"
+#include "solid/solid_solver.hpp"
+
+namespace tether {
+
+class WallSeries;
+
+/// What the solid does with each message (common/protocol). A message without a line here does not compile.
+class SolidServer {
+ public:
+  SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case, std::filesystem::path output);
+  SolidServer(SolidServer&&) noexcept;
+  ~SolidServer();
+
+  protocol::Hello hello() const;
+
+  protocol::Interface operator()(const protocol::GetInterface&);
+  protocol::Ready operator()(const protocol::SetParameters& m);
+  protocol::State operator()(const protocol::GetState&);
+  protocol::Ready operator()(const protocol::SetState& m);
+  protocol::Ready operator()(const protocol::BeginStep& m);
+  protocol::StepReport operator()(const protocol::EndStep& m);
+  protocol::Ready operator()(const protocol::Write& m);
+  protocol::Ready operator()(const protocol::Stop&);
+  protocol::Motion operator()(const protocol::SolidEvaluate& m);
+  protocol::Motion operator()(const protocol::SolidTangent& m);
+  protocol::SolidResidualReply operator()(const protocol::SolidResidual& m);
+  protocol::Unknowns operator()(const protocol::SolidProduct& m);
+  protocol::Unknowns operator()(const protocol::SolidPrecondition& m);
+
+ private:
+  Points interface_points(const std::vector<double>& values, const char* what) const;
+
+  std::unique_ptr<WallModel> model_;
+  std::unique_ptr<SolidSolver> solver_;
+  UnitSystem units_;
+  std::string effective_case_;
+  std::unique_ptr<WallSeries> series_;
+};
+
+}  // namespace tether
