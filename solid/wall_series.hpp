@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "common/io/pvd.hpp"
+#include "solid/solid_solver.hpp"
+
+namespace tether {
+
+/// solid.pvd and the files it lists: displacement [length], velocity, Cauchy stress with its von Mises and hoop-like largest principal value
+/// [pressure], on the imaged positions.
+class WallSeries {
+ public:
+  explicit WallSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Entries at this time or later, left by a run that was stopped, give way.
+  void write(const WallModel& model, const SolidSolver& solver, int step, double time);
+
+ private:
+  std::filesystem::path folder_;
+  std::optional<PvdSeries> series_;
+};
+
+}  // namespace tether
