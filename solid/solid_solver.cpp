@@ -9,8 +9,9 @@ namespace {
 
 /// So many more solves for a correction than when the factor was new, and it has served its time (a new one costs as much as 25 solves).
 constexpr int calls_lost_to_age = 6;
-constexpr double newton_tolerance = 1e-10;  ///< of the correction, relative to the iterate
-constexpr double linear_tolerance = 1e-9;   ///< of each correction's conjugate gradients
+constexpr double newton_tolerance = 1e-9;     ///< of the correction, relative to the iterate
+constexpr double correction_tolerance = 1e-4; ///< of each correction's conjugate gradients: Newton repeats them anyway
+constexpr double tangent_tolerance = 1e-10;   ///< of a linearised answer's
 constexpr int most_newton_iterations = 15, most_linear_iterations = 200;
 
 }  // namespace
@@ -39,10 +40,13 @@ void SolidSolver::begin_step(double time, double dt) {
 
 VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
   if (correction.size() > 0) iterate_.reshaped() += correction;
+  return out_of_balance(load, evaluations_++ % 2 == 0);  // the tangent moves so little in a step that it serves two corrections
+}
+
+VectorXd SolidSolver::out_of_balance(const Points& load, bool renew_tangent) {
   calls_ = 0;
-  const bool renew = evaluations_++ % 2 == 0;  // the tangent moves so little in a step that it serves two corrections
-  VectorXd result = -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew ? &tangent_ : nullptr);
-  tangent_is_of_this_step_ = true;
+  VectorXd result = -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
+  tangent_is_of_this_step_ |= renew_tangent;
   result.head(load.size()) += load.reshaped();
   for (int unknown : model_.clamped_unknowns()) result[unknown] = 0;
   return result;
@@ -58,18 +62,14 @@ VectorXd SolidSolver::precondition(const VectorXd& residual) {
 }
 
 InterfaceMotion SolidSolver::evaluate(const Points& load) {
-  VectorXd correction;
   for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
-    const VectorXd out_of_balance = residual(correction, load);
-    correction = VectorXd::Zero(out_of_balance.size());
-    const KrylovResult linear = solve_linear(out_of_balance, correction, linear_tolerance);
+    VectorXd correction = VectorXd::Zero(iterate_.size());
+    const bool solved = solve_linear(out_of_balance(load, true), correction, correction_tolerance).converged;
     if (!correction.allFinite()) break;
-    const double size = correction.norm(), reference = std::max(iterate_.norm(), 1e-14 * displacement_.norm() / dt_);
-    if (linear.converged && size <= newton_tolerance * reference + 1e-300) {
-      iterate_.reshaped() += correction;
-      tangent_is_of_this_step_ = false;
+    iterate_.reshaped() += correction;
+    tangent_is_of_this_step_ = false;
+    if (solved && correction.norm() <= newton_tolerance * std::max(iterate_.norm(), displacement_.norm() / dt_ * 1e-9))
       return interface_motion();
-    }
   }
   throw run_error("the wall's equations did not converge in {} Newton iterations", most_newton_iterations);
 }
@@ -79,7 +79,7 @@ InterfaceMotion SolidSolver::tangent(const Points& load_change) {
   rhs.head(load_change.size()) = load_change.reshaped();
   for (int unknown : model_.clamped_unknowns()) rhs[unknown] = 0;
   current_tangent();
-  if (!solve_linear(rhs, change, linear_tolerance).converged) throw run_error("the wall's linearised equations did not converge");
+  if (!solve_linear(rhs, change, tangent_tolerance).converged) throw run_error("the wall's linearised equations did not converge");
   return interface_part(change);
 }
 

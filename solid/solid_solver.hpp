@@ -57,6 +57,8 @@ class SolidSolver {
     double first_calls = 0, last_calls = 0;  ///< of `precondition` for one correction, in the factor's first and latest step
   };
 
+  /// load - forces at the iterate, zero on clamped unknowns.
+  VectorXd out_of_balance(const Points& load, bool renew_tangent);
   const SparseMatrix& current_tangent();
   void assemble_tangent();
   void make_factor(const FactorOrigin& origin);
