@@ -1,0 +1,134 @@
+#include "common/base/child_process.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+constexpr int cannot_execute = 127;
+
+/// A file in memory: what a child writes into it is read when the child has ended.
+class Capture {
+ public:
+  Capture() : descriptor_(memfd_create("capture", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw run_error("no memory for the output of a program: {}", std::strerror(errno));
+  }
+  ~Capture() { close(descriptor_); }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  std::string text() const {
+    std::string all(static_cast<std::size_t>(lseek(descriptor_, 0, SEEK_END)), '\0');
+    std::size_t have = 0;
+    for (ssize_t count = 1; count > 0 && have < all.size();
+         have += static_cast<std::size_t>(std::max<ssize_t>(count, 0)))
+      count = pread(descriptor_, all.data() + have, all.size() - have, static_cast<off_t>(have));
+    return all;
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// In the child: becomes the program, or ends with `cannot_execute` and the error number in `failure`.
+[[noreturn]] void execute(const Command& command, int failure) {
+  for (const auto& [name, value] : command.environment) setenv(name.c_str(), value.c_str(), 1);
+  std::vector<char*> words;
+  for (const auto& word : command.words) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  execvp(words.front(), words.data());
+  const int number = errno;
+  if (write(failure, &number, sizeof number) < 0) _exit(cannot_execute);
+  _exit(cannot_execute);
+}
+
+/// Forks; the child runs `prepare` and becomes the program. Returns the child's pid.
+pid_t start(const Command& command, const std::function<void()>& prepare) {
+  std::array<int, 2> failure{};
+  if (pipe2(failure.data(), O_CLOEXEC) != 0) throw run_error("no pipe: {}", std::strerror(errno));
+  const pid_t pid = fork();
+  if (pid == 0) {
+    prepare();
+    execute(command, failure[1]);
+  }
+  close(failure[1]);
+  int number = 0;
+  const bool failed = pid < 0 || read(failure[0], &number, sizeof number) > 0;
+  close(failure[0]);
+  if (failed && pid > 0) waitpid(pid, nullptr, 0);
+  if (failed)
+    throw run_error("{} cannot be started: {}", command.words.front(), std::strerror(pid < 0 ? errno : number));
+  return pid;
+}
+
+int exit_code_of(pid_t pid) {
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+volatile std::sig_atomic_t foreground_child = 0;
+
+void forward(int signal) {
+  if (foreground_child > 0) kill(foreground_child, signal);
+}
+
+/// While this lives, the signals that end a program go to the child.
+class Forwarding {
+ public:
+  Forwarding() {
+    struct sigaction action {};
+    action.sa_handler = forward;
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &before_[i]);
+  }
+  ~Forwarding() {
+    foreground_child = 0;
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
+  }
+
+ private:
+  static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> before_{};
+};
+
+/// In the child: a process group of its own, so that Ctrl-C reaches it once, through its parent; no input.
+void detach_from_terminal() {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  setpgid(0, 0);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+}
+
+}  // namespace
+
+ChildEnd capture(const Command& command) {
+  const Capture output, errors;
+  const pid_t pid = start(command, [&] {
+    dup2(output.descriptor(), STDOUT_FILENO);
+    dup2(errors.descriptor(), STDERR_FILENO);
+  });
+  const int code = exit_code_of(pid);
+  return {code, output.text(), errors.text()};
+}
+
+int run_in_foreground(const Command& command) {
+  const Forwarding forwarding;
+  const pid_t pid = start(command, detach_from_terminal);
+  foreground_child = pid;
+  return exit_code_of(pid);
+}
+
+}  // namespace tether

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tether {
+
+/// A program to run: its path (or a name to be looked for in PATH), its arguments, and what to add to the environment.
+struct Command {
+  std::vector<std::string> words;
+  std::vector<std::pair<std::string, std::string>> environment;
+};
+
+/// How a program ended and what it wrote.
+struct ChildEnd {
+  int exit_code = 0;  ///< 128 + signal if a signal ended it
+  std::string output, errors;
+};
+
+/// Runs a program to its end and keeps what it writes to stdout and stderr. Throws RunError if it cannot be started.
+ChildEnd capture(const Command& command);
+
+/// Runs a program to its end in this process's place: it writes where this process writes, reads nothing, gets the
+/// signals INT, TERM and HUP that this process gets, and TERM if this process dies. Returns its exit code. One at a
+/// time.
+int run_in_foreground(const Command& command);
+
+}  // namespace tether

@@ -1,0 +1,55 @@
+#include "common/base/child_process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+Command shell(const std::string& script) {
+  return {{"/bin/sh", "-c", script}, {}};
+}
+
+TEST(Capture, KeepsOutputErrorsAndExitCode) {
+  const ChildEnd end = capture(shell("echo told; echo wrong >&2; exit 3"));
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_EQ(end.output, "told\n");
+  EXPECT_EQ(end.errors, "wrong\n");
+}
+
+TEST(Capture, KeepsMoreThanAPipeHolds) {
+  EXPECT_EQ(capture(shell("head -c 300000 /dev/zero | tr '\\0' x; echo y >&2")).output, std::string(300000, 'x'));
+}
+
+TEST(Capture, TellsASignalFromAnExitCode) {
+  EXPECT_EQ(capture(shell("kill -KILL $$")).exit_code, 128 + SIGKILL);
+}
+
+TEST(Capture, AddsToTheEnvironment) {
+  EXPECT_EQ(capture({{"/bin/sh", "-c", "echo $COLOUR"}, {{"COLOUR", "red"}}}).output, "red\n");
+}
+
+TEST(Capture, NamesAProgramThatCannotBeStarted) {
+  try {
+    capture({{"/no/such/program"}, {}});
+    FAIL() << "no error";
+  } catch (const RunError& error) {
+    EXPECT_STREQ(error.what(), "/no/such/program cannot be started: No such file or directory");
+  }
+}
+
+TEST(RunInForeground, ReturnsTheExitCode) {
+  EXPECT_EQ(run_in_foreground(shell("exit 0")), 0);
+  EXPECT_EQ(run_in_foreground(shell("exit 2")), 2);
+  EXPECT_EQ(run_in_foreground(shell("cat")), 0) << "there is nothing to read";
+}
+
+TEST(RunInForeground, HandsSignalsOn) {
+  EXPECT_EQ(run_in_foreground(shell("trap 'exit 7' TERM; sleep 0.2; kill -TERM $PPID; sleep 1; sleep 1; exit 1")), 7);
+}
+
+}  // namespace
+}  // namespace tether
