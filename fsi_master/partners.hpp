@@ -26,6 +26,7 @@ struct Motion {
 
 /// Where a step starts: what both codes know before it.
 struct StepStart {
+  std::int64_t step = 0;  ///< its number, for messages to people
   double time = 0, dt = 0;
   VectorXd displacement;  ///< y0
   VectorXd velocity;      ///< V0 = (y0 - y_-1)/dt of the last converged step: the first guess of V

@@ -24,13 +24,14 @@ TimeLoop::TimeLoop(FluidPartner& fluid, SolidPartner& solid, Coupling& coupling,
       V_(VectorXd::Zero(rest_.size())),
       halvings_(halvings) {}
 
-StepRecord TimeLoop::advance(double time, double dt) {
+StepRecord TimeLoop::advance(std::int64_t step, double time, double dt) {
+  step_ = step;
   StepRecord record;
   if (attempt(time, dt, record)) return record;
   const Snapshot before = snapshot();
   if (advance_in_halves(time, dt, 1, record)) return record;
   restore(before);
-  throw run_error("{}", fmt::join(record.failures, "\n  then "));
+  throw StepFailure(fmt::format("step {} failed: {}", step, fmt::join(record.failures, "\n  then ")));
 }
 
 bool TimeLoop::advance_in_halves(double time, double dt, int level, StepRecord& record) {
@@ -43,7 +44,7 @@ bool TimeLoop::advance_in_halves(double time, double dt, int level, StepRecord& 
 
 /// One time step of both codes. If it fails they are back where it began.
 bool TimeLoop::attempt(double time, double dt, StepRecord& record) {
-  const StepStart start{time, dt, y_, V_};  // V_ is (y0 - y_-1)/dt, not the midpoint velocity, which rings (C.1)
+  const StepStart start{step_, time, dt, y_, V_};  // V_ is (y0 - y_-1)/dt, not the midpoint velocity, which rings (C.1)
   const CouplingResult result = solve(start);
   finish(result, record);
   if (!result.converged) record.failures.push_back(explain(result, time, dt));

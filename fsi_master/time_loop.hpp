@@ -30,8 +30,9 @@ class TimeLoop {
   /// `rest`: reference positions of the interface, x0 y0 z0 x1 ...; the run starts there, unmoved.
   TimeLoop(FluidPartner& fluid, SolidPartner& solid, Coupling& coupling, VectorXd rest, int halvings);
 
-  /// From `time` to `time + dt`. Throws RunError if even the smallest part fails, with both codes back at `time`.
-  StepRecord advance(double time, double dt);
+  /// Step number `step`, from `time` to `time + dt`. Throws StepFailure if even the smallest part fails, with both
+  /// codes back at `time`.
+  StepRecord advance(std::int64_t step, double time, double dt);
 
   const VectorXd& displacement() const { return y_; }
   Snapshot snapshot();
@@ -49,6 +50,7 @@ class TimeLoop {
   Coupling& coupling_;
   VectorXd rest_, y_, V_;
   int halvings_;
+  std::int64_t step_ = 0;
 };
 
 }  // namespace tether

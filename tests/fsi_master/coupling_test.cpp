@@ -31,7 +31,7 @@ Steps run(const fake::Vessel& vessel, Method method, int steps, CouplingOptions 
   solid.tangent = method != Method::black_box;
   const auto coupling = make_coupling("automatic", fluid, solid, options);
   Steps all;
-  StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+  StepStart start{0, 0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
   for (int i = 0; i < steps; ++i) {
     fluid.begin_step(start).get();
     solid.begin_step(start).get();
@@ -40,7 +40,7 @@ Steps run(const fake::Vessel& vessel, Method method, int steps, CouplingOptions 
     fluid.end_step(true).get();
     solid.end_step(true).get();
     all.last = all.results.back().motion;
-    start = {start.time + dt, dt, all.last.displacement, all.last.velocity};
+    start = {i + 1, start.time + dt, dt, all.last.displacement, all.last.velocity};
   }
   return all;
 }
@@ -107,7 +107,7 @@ TEST(Coupling, AVesselAtRestIsConvergedAtOnce) {
     fake::Solid solid(vessel);
     solid.operators = method == Method::operators;
     solid.tangent = method != Method::black_box;
-    const StepStart start{-dt, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};  // pressure sin(0)
+    const StepStart start{0, -dt, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};  // pressure sin(0)
     fluid.begin_step(start).get();
     solid.begin_step(start).get();
     const CouplingResult result = make_coupling("automatic", fluid, solid, {})->solve_step(start);
@@ -125,7 +125,7 @@ TEST(Coupling, NumbersThatAreNotFiniteEndTheLoopAndNameTheNode) {
     fluid.answers_nan = true;
     solid.operators = method == Method::operators;
     solid.tangent = method != Method::black_box;
-    const StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+    const StepStart start{0, 0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
     fluid.begin_step(start).get();
     solid.begin_step(start).get();
     const CouplingResult result = make_coupling("automatic", fluid, solid, {})->solve_step(start);
@@ -141,7 +141,7 @@ TEST(Coupling, NotConvergingIsAResultWithItsHistory) {
   const fake::Vessel vessel;
   fake::Fluid fluid(vessel);
   fake::Solid solid(vessel);
-  const StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+  const StepStart start{0, 0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
   fluid.begin_step(start).get();
   solid.begin_step(start).get();
   const CouplingResult result = make_coupling("iqn_ils", fluid, solid, options)->solve_step(start);
@@ -168,7 +168,7 @@ TEST(IqnIls, GoesOnFromItsMemoryBitForBit) {
   fake::Solid solid(vessel);
   CouplingOptions options;
   const auto first = make_coupling("iqn_ils", fluid, solid, options);
-  StepStart start{0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
+  StepStart start{0, 0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
   const auto step = [&](Coupling& coupling, bool accept) {
     fluid.begin_step(start).get();
     solid.begin_step(start).get();
@@ -178,7 +178,7 @@ TEST(IqnIls, GoesOnFromItsMemoryBitForBit) {
     return result;
   };
   const Motion motion = step(*first, true).motion;
-  start = {dt, dt, motion.displacement, motion.velocity};
+  start = {1, dt, dt, motion.displacement, motion.velocity};
   const auto second = make_coupling("iqn_ils", fluid, solid, options);
   second->set_memory(first->memory());
   const CouplingResult a = step(*first, false), b = step(*second, false);

@@ -16,7 +16,7 @@ struct Coupled {
         solid(vessel),
         coupling(make_coupling(method, fluid, solid, {})),
         loop(fluid, solid, *coupling, VectorXd::Ones(vessel.wet()), halvings) {}
-  StepRecord advance(int step) { return loop.advance(step * dt, dt); }
+  StepRecord advance(int step) { return loop.advance(step, step * dt, dt); }
   fake::Fluid fluid;
   fake::Solid solid;
   std::unique_ptr<Coupling> coupling;
@@ -51,7 +51,7 @@ TEST(TimeLoop, HalvedStepsFollowTheSolutionOfHalfSteps) {
   std::vector<std::pair<double, double>> begun;
   halved.fluid.trouble = noting(begun, [](double, double step) { return step == dt; });
   halved.advance(0);
-  for (int i = 0; i < 2; ++i) fine.loop.advance(i * dt / 2, dt / 2);
+  for (int i = 0; i < 2; ++i) fine.loop.advance(i, i * dt / 2, dt / 2);
   EXPECT_EQ(halved.loop.displacement(), fine.loop.displacement());
 }
 
@@ -77,7 +77,7 @@ TEST(TimeLoop, FailureNamesStepHistoryAndNodeAndRestoresTheLastGoodState) {
     FAIL() << "no error";
   } catch (const RunError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("time 0.01 s, step 0.01 s: a partner answered with numbers that are not finite; residuals nan; "
+    EXPECT_NE(text.find("step 1 failed: time 0.01 s, step 0.01 s: a partner answered with numbers that are not finite; residuals nan; "
                         "worst at interface node "),
               std::string::npos)
         << text;

@@ -1,0 +1,162 @@
+#include "fsi_master/application.hpp"
+
+#include "common/base/process.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/echo.hpp"
+#include "common/config/output_folder.hpp"
+#include "common/protocol/run.hpp"
+#include "fsi_master/coupling_case.hpp"
+#include "fsi_master/message_partners.hpp"
+#include "fsi_master/run_program.hpp"
+#include "fsi_master/summary.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using protocol::Partner;
+
+constexpr const char* program_name = "fsi_master " TETHER_VERSION;
+
+/// A case file and the section of it that the master reads.
+struct MasterCase {
+  explicit MasterCase(const fs::path& path) : file(path) {
+    file.read("coupling", coupling);
+    file.finish();
+  }
+  CaseFile file;
+  CouplingCase coupling;
+};
+
+protocol::Program partner_program(const char* role, const std::string& executable, const CaseFile& file) {
+  return {role, executable, {fs::absolute(file.path()).string()}};
+}
+
+RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
+  const CommonCase& common = master.file.common();
+  RunPlan plan;
+  plan.units = master.file.units();
+  plan.start = common.time.start;
+  plan.dt = common.time.step;
+  plan.last_step = command.steps.value_or(common.time.steps());
+  plan.write_every = common.output.write_every;
+  plan.checkpoint_every = common.output.checkpoint_every;
+  plan.points = common.output.points;
+  plan.resume = command.resume;
+  plan.quiet = command.quiet;
+  return plan;
+}
+
+/// Without --resume nothing of an earlier run may be taken for this one's.
+void remove_old_results(const fs::path& output) {
+  for (const char* name : {"summary.json", "timeseries.csv", "fluid.pvd", "solid.pvd", "checkpoint", "checkpoint.new",
+                           "checkpoint.previous"})
+    fs::remove_all(output / name);
+}
+
+InterfaceMap map_of(const CouplingCase& coupling, const InterfaceSurface& fluid, const InterfaceSurface& solid) {
+  const double size = diagonal(solid.points);
+  if (coupling.mapping == "match")
+    return InterfaceMap::match(fluid, solid, coupling.mapping_distance.value_or(1e-5 * size));
+  return InterfaceMap::nearest_triangle(fluid, solid, coupling.mapping_distance.value_or(0.02 * size));
+}
+
+std::string own_sections(MasterCase& master) {
+  Echo echo;
+  CommonCase common = master.file.common();
+  common.declare(echo);
+  echo.group("coupling", master.coupling, {});
+  return echo.json();
+}
+
+void warn_without_state(const StepPartner& partner, bool quiet) {
+  if (!partner.has_state() && !quiet)
+    fmt::print("{} announces no state: this run cannot be resumed, nor used for identification\n", partner.name());
+}
+
+/// What the three processes have cost so far.
+std::vector<ProcessCost> costs(Crew& crew, const std::vector<Partner*>& partners) {
+  return {{"fsi_master", program_name, {cpu_seconds(), peak_memory_mb()}},
+          {"fluid", partners[0]->hello().program, crew.fluid.usage().get()},
+          {"solid", partners[1]->hello().program, crew.solid.usage().get()}};
+}
+
+void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner& solid_process) {
+  const InterfaceSurface solid_surface = ask_interface(solid_process), fluid_surface = ask_interface(fluid_process);
+  MessageSolid solid(solid_process);
+  MessageFluid fluid(fluid_process, map_of(master.coupling, fluid_surface, solid_surface));
+  const CouplingOptions options{master.coupling.tolerance, master.coupling.max_iterations, master.coupling.reuse,
+                                diagonal(solid_surface.points)};
+  const auto coupling = make_coupling(master.coupling.method, fluid, solid, options);
+  warn_without_state(fluid, plan.quiet);
+  warn_without_state(solid, plan.quiet);
+  const std::string fluid_case = fluid_process.hello().effective_case,
+                    solid_case = solid_process.hello().effective_case;
+  plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, solid_surface.points);
+
+  Crew crew{fluid,
+            solid,
+            *coupling,
+            solid_surface.points,
+            fluid_process.hello().observables,
+            solid_process.hello().observables};
+  Simulation simulation(plan, crew, master.coupling.halvings);
+  const auto before = costs(crew, {&fluid_process, &solid_process});
+  simulation.run();
+  RunFacts facts{master.file.common().name,
+                 master.file.common().title,
+                 fs::absolute(master.file.path()).string(),
+                 coupling->name(),
+                 costs(crew, {&fluid_process, &solid_process}),
+                 merged_json({own_sections(master), fluid_case, solid_case})};
+  for (std::size_t i = 0; i < before.size(); ++i)
+    facts.processes[i].loop_cpu_seconds = facts.processes[i].usage.cpu_seconds - before[i].usage.cpu_seconds;
+  write_summary(plan, simulation, facts);
+}
+
+int run(const CommandLine& command) {
+  return protocol::run_master("fsi_master", [&command](protocol::Session& session) {
+    MasterCase master(command.case_file);
+    RunPlan plan = plan_of(master, command);
+    plan.output = fs::absolute(claim_output(command, master.file));
+    if (!plan.resume) remove_old_results(plan.output);
+    const auto& programs = master.coupling.programs;
+    std::vector<Partner> partners = session.launch(
+        {partner_program("fluid", programs.fluid, master.file), partner_program("solid", programs.solid, master.file)},
+        plan.output.string());
+    for (Partner& partner : partners) partner.hello();
+    simulate(master, plan, partners[0], partners[1]);
+    for (Partner& partner : partners) partner.stop("the run is done");
+  });
+}
+
+/// Our own programs check their sections of the case as well; of a foreign one only the file is looked for.
+void validate(const CommandLine& command) {
+  const MasterCase master(command.case_file);
+  const auto& programs = master.coupling.programs;
+  for (const auto& [role, name] : {std::pair("fluid", programs.fluid), std::pair("solid", programs.solid)}) {
+    const std::string executable = protocol::find_executable({role, name, {}});
+    if (fs::path(name).has_parent_path()) continue;
+    const ProgramEnd end = run_program(executable, {command.case_file.string(), "--validate", "--quiet"});
+    const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
+    if (end.exit_code == exit_input_wrong) throw InputError(message);
+    if (end.exit_code != exit_done) throw run_error("{} --validate ended with {}: {}", name, end.exit_code, message);
+  }
+}
+
+}  // namespace
+
+Program fsi_master_program() {
+  Program program;
+  program.name = "fsi_master";
+  program.purpose = "Simulates a vessel: launches fluid and solid and brings them to agree at every time step.";
+  program.declare = [](Fields& fields) {
+    CouplingCase coupling;
+    fields.group("coupling", coupling, meaning_of_section("coupling"));
+  };
+  program.validate = validate;
+  program.run = run;
+  return program;
+}
+
+}  // namespace tether

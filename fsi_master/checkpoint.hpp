@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "fsi_master/statistics.hpp"
+#include "fsi_master/time_loop.hpp"
+
+namespace tether {
+
+/// All that a run needs to go on from the end of a step as if it had never stopped.
+struct Checkpoint {
+  std::int64_t step = 0;          ///< steps done; also the rows of timeseries.csv
+  std::uint64_t fingerprint = 0;  ///< of the case and the interface
+  Snapshot snapshot;
+  RunStatistics statistics;
+  std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
+};
+
+/// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed
+/// to the disk and renamed; the one before stays as checkpoint.previous. Throws RunError if the disk refuses.
+void write_checkpoint(const std::filesystem::path& output, const Checkpoint& checkpoint);
+
+/// The newest complete checkpoint in OUTPUT. Throws InputError: none, damaged, of another case or mesh (fingerprint),
+/// or without a code's state.
+Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
+
+/// FNV-1a over bytes, in words of eight.
+std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed = 14695981039346656037ull);
+
+/// Names a case and its mesh: the codes' effective cases (JSON) and the interface. What may change between a run and
+/// its continuation does not count: folders of files, the end of the run, output, coupling.
+std::uint64_t fingerprint(const std::vector<std::string>& effective_cases, double dt, const Points& interface);
+
+}  // namespace tether

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "common/config/fields.hpp"
+
+namespace tether {
+
+/// The section `coupling` of a case: how fluid and wall are brought to agree, and who they are.
+struct CouplingCase {
+  struct Programs {
+    std::string fluid = "fluid", solid = "solid";
+    void declare(Fields& f);
+  };
+  std::string method = "automatic", mapping = "match";
+  double tolerance = 1e-6;
+  int max_iterations = 30, reuse = 10, halvings = 3;
+  std::optional<double> mapping_distance;
+  Programs programs;
+  void declare(Fields& f);
+};
+
+}  // namespace tether

@@ -1,0 +1,211 @@
+#include "fsi_master/message_partners.hpp"
+
+namespace tether {
+namespace {
+
+using protocol::Partner;
+
+/// Sends now; receives, and converts the reply, when it is got. A step that the partner cannot do becomes StepFailure.
+template <class Request, class Convert>
+auto ask_later(Partner& partner, const Request& request, Convert convert) {
+  using Reply = typename Request::Reply;
+  using Result = std::invoke_result_t<Convert, Reply>;
+  partner.send(request);
+  return Later<Result>(std::function<Result()>([&partner, convert] {
+    try {
+      return convert(partner.receive<Reply>());
+    } catch (const protocol::PartnerFailed& failure) {
+      throw StepFailure(failure.what());
+    }
+  }));
+}
+
+Done done(const protocol::Ready&) {
+  return {};
+}
+std::vector<double> packed(const VectorXd& v) {
+  return {v.begin(), v.end()};
+}
+VectorXd unpacked(const std::vector<double>& v) {
+  return Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+}
+
+// What both partners are asked in the same words.
+
+Later<std::vector<double>> ask_end_step(Partner& partner, bool accepted) {
+  const std::size_t announced = partner.hello().observables.size();
+  return ask_later(partner, protocol::EndStep{accepted}, [&partner, announced](protocol::StepReport report) {
+    if (report.observables.size() != announced)
+      throw run_error("{} reports {} observables after announcing {}", partner.role(), report.observables.size(),
+                      announced);
+    return std::move(report.observables);
+  });
+}
+
+Later<std::vector<double>> ask_state(Partner& partner) {
+  return ask_later(partner, protocol::GetState{}, [](protocol::State state) { return std::move(state.values); });
+}
+
+Later<Done> tell_state(Partner& partner, std::vector<double> values) {
+  return ask_later(partner, protocol::SetState{std::move(values)}, done);
+}
+
+Later<Done> tell_write(Partner& partner, std::int64_t step, double time) {
+  return ask_later(partner, protocol::Write{step, time}, done);
+}
+
+Later<PartnerUsage> ask_usage(Partner& partner) {
+  return ask_later(partner, protocol::GetUsage{}, [](const protocol::Usage& usage) {
+    return PartnerUsage{usage.cpu_seconds, usage.peak_memory_mb};
+  });
+}
+
+void check_size(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
+  if (static_cast<Eigen::Index>(values.size()) != size)
+    throw run_error("{} sent {} numbers where {} belong", partner.role(), values.size(), size);
+}
+
+VectorXd sized(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
+  check_size(values, size, partner);
+  return unpacked(values);
+}
+
+}  // namespace
+
+InterfaceSurface ask_interface(Partner& partner) {
+  const auto message = partner.ask(protocol::GetInterface{});
+  const auto nodes = static_cast<std::int64_t>(message.points.size() / 3);
+  if (message.points.size() % 3 != 0 || message.triangles.size() % 3 != 0 || nodes == 0)
+    throw run_error("{}: interface of {} coordinates and {} triangle corners", partner.role(), message.points.size(),
+                    message.triangles.size());
+  InterfaceSurface surface{Eigen::Map<const Points>(message.points.data(), 3, nodes), {}};
+  for (std::size_t i = 0; i < message.triangles.size(); i += 3) {
+    Triangle triangle;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::int64_t node = message.triangles[i + corner];
+      if (node < 0 || node >= nodes)
+        throw run_error("{}: interface triangle with node {} of {}", partner.role(), node, nodes);
+      triangle[corner] = static_cast<int>(node);
+    }
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+// ---- fluid ----------------------------------------------------------------------------------------------------------
+
+std::string MessageFluid::name() const {
+  return "the fluid (" + partner_.hello().program + ")";
+}
+bool MessageFluid::has_tangent() const {
+  return partner_.hello().has_tangent;
+}
+bool MessageFluid::has_state() const {
+  return partner_.hello().has_state;
+}
+
+Later<Done> MessageFluid::begin_step(const StepStart& start) {
+  return ask_later(partner_, protocol::BeginStep{start.step, start.time, start.dt, map_.to_fluid(start.predicted())},
+                   done);
+}
+Later<std::vector<double>> MessageFluid::end_step(bool accepted) {
+  return ask_end_step(partner_, accepted);
+}
+Later<std::vector<double>> MessageFluid::state() {
+  return ask_state(partner_);
+}
+Later<Done> MessageFluid::set_state(std::vector<double> values) {
+  return tell_state(partner_, std::move(values));
+}
+Later<Done> MessageFluid::write(std::int64_t step, double time) {
+  return tell_write(partner_, step, time);
+}
+Later<PartnerUsage> MessageFluid::usage() {
+  return ask_usage(partner_);
+}
+
+Later<VectorXd> MessageFluid::load(const Motion& motion) {
+  return ask_later(partner_,
+                   protocol::FluidEvaluate{map_.to_fluid(motion.displacement), map_.to_fluid(motion.velocity)},
+                   [this](const protocol::Load& load) { return received(load); });
+}
+
+Later<VectorXd> MessageFluid::load_change(const VectorXd& velocity_change) {
+  return ask_later(partner_, protocol::FluidTangent{map_.to_fluid(velocity_change)},
+                   [this](const protocol::Load& load) { return received(load); });
+}
+
+VectorXd MessageFluid::received(const protocol::Load& load) const {
+  check_size(load.forces, 3 * map_.fluid_nodes(), partner_);
+  return map_.to_solid(load.forces);
+}
+
+// ---- solid ----------------------------------------------------------------------------------------------------------
+
+std::string MessageSolid::name() const {
+  return "the solid (" + partner_.hello().program + ")";
+}
+bool MessageSolid::has_tangent() const {
+  return partner_.hello().has_tangent;
+}
+bool MessageSolid::has_operators() const {
+  return partner_.hello().has_operators;
+}
+bool MessageSolid::has_state() const {
+  return partner_.hello().has_state;
+}
+
+Later<Done> MessageSolid::begin_step(const StepStart& start) {
+  return ask_later(partner_, protocol::BeginStep{start.step, start.time, start.dt, packed(start.predicted())}, done);
+}
+Later<std::vector<double>> MessageSolid::end_step(bool accepted) {
+  return ask_end_step(partner_, accepted);
+}
+Later<std::vector<double>> MessageSolid::state() {
+  return ask_state(partner_);
+}
+Later<Done> MessageSolid::set_state(std::vector<double> values) {
+  return tell_state(partner_, std::move(values));
+}
+Later<Done> MessageSolid::write(std::int64_t step, double time) {
+  return tell_write(partner_, step, time);
+}
+Later<PartnerUsage> MessageSolid::usage() {
+  return ask_usage(partner_);
+}
+
+Later<Motion> MessageSolid::motion(const VectorXd& load) {
+  return ask_later(partner_, protocol::SolidEvaluate{packed(load)},
+                   [this, size = load.size()](const protocol::Motion& motion) {
+                     return Motion{sized(motion.displacement, size, partner_), sized(motion.velocity, size, partner_)};
+                   });
+}
+
+Later<VectorXd> MessageSolid::velocity_change(const VectorXd& load_change) {
+  return ask_later(partner_, protocol::SolidTangent{packed(load_change)},
+                   [this, size = load_change.size()](const protocol::Motion& motion) {
+                     return sized(motion.velocity, size, partner_);
+                   });
+}
+
+Later<SolidPartner::Iterate> MessageSolid::residual(const VectorXd& correction, const VectorXd& load) {
+  return ask_later(partner_, protocol::SolidResidual{packed(correction), packed(load)},
+                   [this, size = load.size()](const protocol::SolidResidualReply& reply) {
+                     return Iterate{unpacked(reply.residual),
+                                    {sized(reply.displacement, size, partner_), sized(reply.velocity, size, partner_)}};
+                   });
+}
+
+Later<VectorXd> MessageSolid::product(const VectorXd& direction) {
+  return ask_later(
+      partner_, protocol::SolidProduct{packed(direction)},
+      [this, size = direction.size()](const protocol::Unknowns& reply) { return sized(reply.values, size, partner_); });
+}
+
+Later<VectorXd> MessageSolid::precondition(const VectorXd& residual) {
+  return ask_later(
+      partner_, protocol::SolidPrecondition{packed(residual)},
+      [this, size = residual.size()](const protocol::Unknowns& reply) { return sized(reply.values, size, partner_); });
+}
+
+}  // namespace tether

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <utility>
+
+#include "common/protocol/partner.hpp"
+#include "fsi_master/interface_map.hpp"
+#include "fsi_master/partners.hpp"
+
+namespace tether {
+
+/// The reference surface that a partner announces. Throws RunError if its numbers do not fit together.
+InterfaceSurface ask_interface(protocol::Partner& partner);
+
+/// A fluid in another process. Its vectors are mapped from and to the solid's interface nodes.
+class MessageFluid : public FluidPartner {
+ public:
+  MessageFluid(protocol::Partner& partner, InterfaceMap map) : partner_(partner), map_(std::move(map)) {}
+  std::string name() const override;
+  bool has_tangent() const override;
+  bool has_state() const override;
+
+  Later<Done> begin_step(const StepStart& start) override;
+  Later<std::vector<double>> end_step(bool accepted) override;
+  Later<std::vector<double>> state() override;
+  Later<Done> set_state(std::vector<double> values) override;
+  Later<Done> write(std::int64_t step, double time) override;
+  Later<PartnerUsage> usage() override;
+
+  Later<VectorXd> load(const Motion& motion) override;
+  Later<VectorXd> load_change(const VectorXd& velocity_change) override;
+
+ private:
+  VectorXd received(const protocol::Load& load) const;
+
+  protocol::Partner& partner_;
+  InterfaceMap map_;
+};
+
+/// A solid in another process; its interface nodes are the master's.
+class MessageSolid : public SolidPartner {
+ public:
+  explicit MessageSolid(protocol::Partner& partner) : partner_(partner) {}
+  std::string name() const override;
+  bool has_tangent() const override;
+  bool has_operators() const override;
+  bool has_state() const override;
+
+  Later<Done> begin_step(const StepStart& start) override;
+  Later<std::vector<double>> end_step(bool accepted) override;
+  Later<std::vector<double>> state() override;
+  Later<Done> set_state(std::vector<double> values) override;
+  Later<Done> write(std::int64_t step, double time) override;
+  Later<PartnerUsage> usage() override;
+
+  Later<Motion> motion(const VectorXd& load) override;
+  Later<VectorXd> velocity_change(const VectorXd& load_change) override;
+  Later<Iterate> residual(const VectorXd& correction, const VectorXd& load) override;
+  Later<VectorXd> product(const VectorXd& direction) override;
+  Later<VectorXd> precondition(const VectorXd& residual) override;
+
+ private:
+  protocol::Partner& partner_;
+};
+
+}  // namespace tether

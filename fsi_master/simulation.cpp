@@ -1,0 +1,145 @@
+#include "fsi_master/simulation.hpp"
+
+#include <chrono>
+
+namespace tether {
+namespace {
+
+std::vector<FollowedNode> nearest_nodes(const Named<Vec3>& points, const Points& interface) {
+  std::vector<FollowedNode> followed;
+  for (const auto& [name, position] : points) {
+    Eigen::Index node = 0;
+    const double squared = (interface.colwise() - position).colwise().squaredNorm().minCoeff(&node);
+    followed.push_back({name, static_cast<int>(node), std::sqrt(squared)});
+  }
+  return followed;
+}
+
+VectorXd flat(const Points& points) {
+  return Eigen::Map<const VectorXd>(points.data(), points.size());
+}
+
+double seconds_since(std::chrono::steady_clock::time_point moment) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
+}
+
+}  // namespace
+
+Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
+    : plan_(std::move(plan)),
+      crew_(std::move(crew)),
+      loop_(crew_.fluid, crew_.solid, crew_.coupling, flat(crew_.interface), halvings),
+      followed_(nearest_nodes(plan_.points, crew_.interface)),
+      series_(plan_.output / "timeseries.csv", columns(), plan_.units) {}
+
+void Simulation::run() {
+  begin();
+  progress_.emplace(first_step_, plan_.last_step, plan_.units, plan_.quiet);
+  std::int64_t step = first_step_;
+  try {
+    for (; step < plan_.last_step; ++step) advance(step);
+  } catch (const StepFailure& failure) {
+    save(step);
+    progress_->end_line();
+    throw run_error("{}\nThe state after {} steps is in {}", failure.what(), step,
+                    (plan_.output / "checkpoint").string());
+  } catch (...) {
+    progress_->end_line();
+    throw;
+  }
+  if (plan_.last_step > first_step_) save(plan_.last_step);
+}
+
+void Simulation::begin() {
+  if (!plan_.resume) {
+    series_.start();
+    return write_files(0);
+  }
+  const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
+  loop_.restore(checkpoint.snapshot);
+  statistics_ = checkpoint.statistics;
+  first_step_ = checkpoint.step;
+  series_.resume(checkpoint.step);
+}
+
+void Simulation::advance(std::int64_t step) {
+  const auto begun = std::chrono::steady_clock::now();
+  const StepRecord done = loop_.advance(step + 1, plan_.time_at(step), plan_.dt);
+  if ((step + 1) % plan_.write_every == 0 || step + 1 == plan_.last_step) write_files(step + 1);
+  record(step + 1, done, seconds_since(begun));
+  if ((step + 1) % plan_.checkpoint_every == 0 && step + 1 < plan_.last_step) save(step + 1);
+}
+
+void Simulation::record(std::int64_t step, const StepRecord& record, double seconds) {
+  statistics_.evaluations.add(record.evaluations);
+  statistics_.krylov_iterations.add(record.krylov_iterations);
+  statistics_.max_displacement = std::max(statistics_.max_displacement, largest_displacement());
+  statistics_.repeated_steps += record.parts > 1 ? 1 : 0;
+  statistics_.wall_seconds += seconds;
+  note_fluid(record.fluid);
+  series_.append(row(step, record));
+  progress_->show({step, plan_.time_at(step), record.evaluations, pressure_now_, largest_displacement()});
+}
+
+/// Takes the mass balance and the pressures out of the fluid's observables, which it names as docs/protocol.md says.
+void Simulation::note_fluid(const std::vector<double>& observables) {
+  pressure_now_ = {};
+  for (std::size_t i = 0; i < observables.size(); ++i) {
+    const std::string& name = crew_.fluid_observables[i].name;
+    if (name == "mass_balance_error")
+      statistics_.mass_balance_error = std::max(statistics_.mass_balance_error, std::abs(observables[i]));
+    if (name == "pressure" || name.ends_with(".pressure")) pressure_now_.add(observables[i]);
+  }
+  if (pressure_now_.empty()) return;
+  statistics_.pressure.add(pressure_now_.min);
+  statistics_.pressure.add(pressure_now_.max);
+}
+
+std::vector<Column> Simulation::columns() const {
+  const std::string length = plan_.units.symbol(dimension::length);
+  std::vector<Column> columns{{"time", "s"}};
+  for (const auto& info : crew_.fluid_observables) columns.push_back({"fluid." + info.name, info.unit});
+  for (const auto& info : crew_.solid_observables) columns.push_back({"solid." + info.name, info.unit});
+  for (const auto& point : followed_)
+    for (const char* part : {"x", "y", "z", "length"})
+      columns.push_back({"point." + point.name + ".displacement_" + part, length});
+  columns.push_back({"interface.max_displacement", length});
+  for (const char* name : {"evaluations", "krylov_iterations", "residual", "parts"})
+    columns.push_back({std::string("coupling.") + name, ""});
+  return columns;
+}
+
+/// In the order of `columns`.
+std::vector<double> Simulation::row(std::int64_t step, const StepRecord& record) const {
+  std::vector<double> row{plan_.time_at(step)};
+  row.insert(row.end(), record.fluid.begin(), record.fluid.end());
+  row.insert(row.end(), record.solid.begin(), record.solid.end());
+  for (const auto& point : followed_) {
+    const Vec3 y = displacement_of(point.node);
+    row.insert(row.end(), {y(0), y(1), y(2), y.norm()});
+  }
+  row.insert(row.end(),
+             {largest_displacement(), static_cast<double>(record.evaluations),
+              static_cast<double>(record.krylov_iterations), record.residual, static_cast<double>(record.parts)});
+  return row;
+}
+
+double Simulation::largest_displacement() const {
+  return Eigen::Map<const Points>(loop_.displacement().data(), 3, crew_.interface.cols()).colwise().norm().maxCoeff();
+}
+
+void Simulation::write_files(std::int64_t step) {
+  auto fluid = crew_.fluid.write(step, plan_.time_at(step));
+  auto solid = crew_.solid.write(step, plan_.time_at(step));
+  fluid.get();
+  solid.get();
+}
+
+void Simulation::save(std::int64_t step) {
+  std::string without_state;
+  if (!crew_.fluid.has_state()) without_state = crew_.fluid.name();
+  if (!crew_.solid.has_state()) without_state += (without_state.empty() ? "" : " and ") + crew_.solid.name();
+  write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state});
+}
+
+}  // namespace tether

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/base/units.hpp"
+#include "common/config/fields.hpp"
+#include "common/protocol/messages.hpp"
+#include "fsi_master/checkpoint.hpp"
+#include "fsi_master/progress.hpp"
+#include "fsi_master/time_series.hpp"
+
+namespace tether {
+
+/// What is simulated for how long, and what of it is kept.
+struct RunPlan {
+  UnitSystem units = UnitSystem::cgs();
+  double start = 0, dt = 0;    ///< [s]
+  std::int64_t last_step = 0;  ///< steps of the whole run, those before a resume included
+  int write_every = 10, checkpoint_every = 50;
+  std::filesystem::path output;
+  std::uint64_t fingerprint = 0;
+  bool resume = false, quiet = false;
+  Named<Vec3> points;  ///< their displacement is recorded
+
+  double time_at(std::int64_t step) const { return start + static_cast<double>(step) * dt; }
+};
+
+/// A named point and the interface node that stands for it.
+struct FollowedNode {
+  std::string name;
+  int node = 0;
+  double distance = 0;  ///< between the two [length]
+};
+
+/// The codes and the method of a run, and what they announced.
+struct Crew {
+  FluidPartner& fluid;
+  SolidPartner& solid;
+  Coupling& coupling;
+  Points interface;  ///< reference positions of the master's interface nodes
+  std::vector<protocol::ObservableInfo> fluid_observables, solid_observables;
+};
+
+/// A direct simulation: steps, table, files for viewing, checkpoints, progress.
+class Simulation {
+ public:
+  Simulation(RunPlan plan, Crew crew, int halvings);
+
+  /// From the start, or from the checkpoint, to the last step. Throws RunError if a step fails for good; the last good
+  /// state is then on the disk.
+  void run();
+
+  const RunStatistics& statistics() const { return statistics_; }
+  const std::vector<FollowedNode>& followed() const { return followed_; }
+  std::int64_t first_step() const { return first_step_; }
+
+ private:
+  void begin();
+  void advance(std::int64_t step);
+  void record(std::int64_t step, const StepRecord& record, double seconds);
+  std::vector<double> row(std::int64_t step, const StepRecord& record) const;
+  std::vector<Column> columns() const;
+  void note_fluid(const std::vector<double>& observables);
+  void write_files(std::int64_t step);
+  void save(std::int64_t step);
+  Vec3 displacement_of(int node) const { return loop_.displacement().segment<3>(3 * node); }
+  double largest_displacement() const;
+
+  RunPlan plan_;
+  Crew crew_;
+  TimeLoop loop_;
+  std::vector<FollowedNode> followed_;
+  TimeSeries series_;
+  RunStatistics statistics_;
+  Extent pressure_now_;
+  std::int64_t first_step_ = 0;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace tether

@@ -1,0 +1,89 @@
+#include "fsi_master/summary.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace tether {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json mean_max(const MeanMax& m) {
+  return {{"mean", m.mean()}, {"max", m.max}};
+}
+
+Json pressure_range(const Extent& pressure, const UnitSystem& units) {
+  if (pressure.empty()) return nullptr;
+  return {{"min", pressure.min},
+          {"max", pressure.max},
+          {"unit", units.symbol(dimension::pressure)},
+          {"min_mmHg", units.to_mmhg(pressure.min)},
+          {"max_mmHg", units.to_mmhg(pressure.max)}};
+}
+
+Json processes(const std::vector<ProcessCost>& all, double PartnerUsage::*member) {
+  Json json;
+  double total = 0;
+  for (const auto& process : all) {
+    json[process.name] = process.usage.*member;
+    total += process.usage.*member;
+  }
+  json["total"] = total;
+  return json;
+}
+
+void add_costs(Json& json, const RunFacts& facts, const RunStatistics& s, double steps_now) {
+  double loop = 0;
+  for (const auto& process : facts.processes) loop += process.loop_cpu_seconds;
+  json["wall_seconds"] = s.wall_seconds;
+  json["seconds_per_step"] = s.evaluations.count > 0 ? s.wall_seconds / s.evaluations.count : 0.0;
+  json["cpu_seconds_per_step"] = steps_now > 0 ? loop / steps_now : 0.0;
+  json["cpu_seconds"] = processes(facts.processes, &PartnerUsage::cpu_seconds);
+  json["peak_memory_mb"] = processes(facts.processes, &PartnerUsage::peak_memory_mb);
+}
+
+void add_results(Json& json, const RunPlan& plan, const Simulation& simulation) {
+  const RunStatistics& s = simulation.statistics();
+  json["coupling_iterations"] = mean_max(s.evaluations);
+  json["krylov_iterations"] = mean_max(s.krylov_iterations);
+  json["repeated_steps"] = s.repeated_steps;
+  json["mass_balance_error_max"] = s.mass_balance_error;
+  json["pressure"] = pressure_range(s.pressure, plan.units);
+  json["max_displacement"] = s.max_displacement;
+  json["max_displacement_mm"] = plan.units.to_mm(s.max_displacement);
+  for (const auto& point : simulation.followed())
+    json["points"][point.name] = {{"interface_node", point.node}, {"distance_to_node", point.distance}};
+}
+
+}  // namespace
+
+void write_summary(const RunPlan& plan, const Simulation& simulation, const RunFacts& facts) {
+  Json json{{"case", facts.case_name}, {"title", facts.title}, {"case_file", facts.case_file}};
+  json["units"] = {{"system", plan.units.name()},
+                   {"length", plan.units.symbol(dimension::length)},
+                   {"pressure", plan.units.symbol(dimension::pressure)},
+                   {"flow", plan.units.symbol(dimension::flow)}};
+  json["steps"] = plan.last_step;
+  json["resumed_at_step"] = plan.resume ? Json(simulation.first_step()) : Json(nullptr);
+  json["dt"] = plan.dt;
+  json["time"] = {{"start", plan.start}, {"end", plan.time_at(plan.last_step)}};
+  add_costs(json, facts, simulation.statistics(), static_cast<double>(plan.last_step - simulation.first_step()));
+  json["coupling_method"] = facts.method;
+  add_results(json, plan, simulation);
+  for (const auto& process : facts.processes) json["versions"][process.name] = process.program;
+  json["effective_case"] = Json::parse(facts.effective_case);
+  std::ofstream file(plan.output / "summary.json");
+  file << json.dump(2) << std::endl;
+  if (!file) throw run_error("{} cannot be written", (plan.output / "summary.json").string());
+}
+
+std::string merged_json(const std::vector<std::string>& texts) {
+  Json all = Json::object();
+  for (const std::string& text : texts) {
+    const Json one = Json::parse(text, nullptr, false);
+    if (one.is_object()) all.update(one);
+  }
+  return all.dump();
+}
+
+}  // namespace tether

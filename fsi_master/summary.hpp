@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsi_master/simulation.hpp"
+
+namespace tether {
+
+/// What one process cost; `loop_cpu_seconds` is its part between the first and the last step.
+struct ProcessCost {
+  std::string name, program;
+  PartnerUsage usage;
+  double loop_cpu_seconds = 0;
+};
+
+/// What the summary tells beside the simulation itself.
+struct RunFacts {
+  std::string case_name, title, case_file, method;
+  std::vector<ProcessCost> processes;
+  std::string effective_case;  ///< JSON
+};
+
+/// summary.json: what was run, how it went and what it cost, in the case's units and in mmHg and mm.
+/// Throws RunError if it cannot be written.
+void write_summary(const RunPlan& plan, const Simulation& simulation, const RunFacts& facts);
+
+/// The objects of several JSON texts as one; a text that is no object is left out.
+std::string merged_json(const std::vector<std::string>& texts);
+
+}  // namespace tether

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "common/base/units.hpp"
+
+namespace tether {
+
+/// A number of every step: "fluid.outlet.flow" in "cm3/s".
+struct Column {
+  std::string name, unit;
+};
+
+/// timeseries.csv: one row a step, headings "fluid.outlet.flow [cm3/s]". Numbers are in the case's units and read back
+/// exactly; behind them stand pressures, lengths and flows once more in mmHg, mm and ml/s, where that is another
+/// number.
+class TimeSeries {
+ public:
+  TimeSeries(std::filesystem::path path, std::vector<Column> columns, const UnitSystem& units);
+
+  /// A new file with its headings.
+  void start();
+  /// Goes on behind the first `rows` rows of the file; later ones are dropped. Throws InputError if the file has other
+  /// headings or fewer rows.
+  void resume(std::int64_t rows);
+  /// On the disk when this returns. Throws RunError if it cannot be written.
+  void append(const std::vector<double>& values);
+
+ private:
+  struct Copy {
+    std::size_t source;
+    Column column;
+    double factor;
+  };
+  std::string headings() const;
+  void open(std::ios::openmode mode);
+
+  std::filesystem::path path_;
+  std::vector<Column> columns_;
+  std::vector<Copy> copies_;
+  std::ofstream file_;
+};
+
+}  // namespace tether
