@@ -49,4 +49,10 @@ std::vector<Tetrahedron> split_into_tetrahedra(const std::vector<Prism>& prisms)
   return tetrahedra;
 }
 
+void use_tetrahedra(WallMesh& wall) {
+  if (wall.prisms.empty()) return;
+  wall.tetrahedra = split_into_tetrahedra(wall.prisms);
+  wall.prisms.clear();
+}
+
 }  // namespace tether

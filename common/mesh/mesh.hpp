@@ -50,4 +50,7 @@ double signed_volume(const Points& points, const Tetrahedron& tetrahedron);
 /// Each prism split into three tetrahedra, conforming across neighbours (diagonals by the smaller node index).
 std::vector<Tetrahedron> split_into_tetrahedra(const std::vector<Prism>& prisms);
 
+/// The wall's prisms replaced by the tetrahedra they split into; faces stay as they are.
+void use_tetrahedra(WallMesh& wall);
+
 }  // namespace tether

@@ -44,6 +44,23 @@ std::vector<Triangle> boundary_triangles(const std::vector<Tetrahedron>& tetrahe
   return boundary;
 }
 
+std::vector<Quadrilateral> boundary_sides(const std::vector<Prism>& prisms) {
+  std::map<Quadrilateral, std::pair<Quadrilateral, int>> uses;
+  for (const Prism& p : prisms)
+    for (const Quadrilateral& side :
+         {Quadrilateral{p[0], p[1], p[4], p[3]}, {p[1], p[2], p[5], p[4]}, {p[2], p[0], p[3], p[5]}}) {
+      Quadrilateral key = side;
+      std::sort(key.begin(), key.end());
+      auto& [outward, count] = uses[key];
+      outward = side;
+      ++count;
+    }
+  std::vector<Quadrilateral> sides;
+  for (const auto& [key, use] : uses)
+    if (use.second == 1) sides.push_back(use.first);
+  return sides;
+}
+
 std::vector<Edge> open_edges(const std::vector<Triangle>& triangles) {
   std::map<Edge, std::pair<Edge, int>> uses;
   for (const Triangle& t : triangles)

@@ -33,6 +33,10 @@ std::vector<OwnedFace> sorted_faces(const std::vector<Tetrahedron>& tetrahedra);
 /// Faces that belong to exactly one tetrahedron, outward if volumes are positive.
 std::vector<Triangle> boundary_triangles(const std::vector<Tetrahedron>& tetrahedra);
 
+using Quadrilateral = std::array<int, 4>;
+/// Side faces of prisms that no neighbour shares, outward, given around.
+std::vector<Quadrilateral> boundary_sides(const std::vector<Prism>& prisms);
+
 /// Edges used by one triangle only, in that triangle's direction.
 std::vector<Edge> open_edges(const std::vector<Triangle>& triangles);
 
