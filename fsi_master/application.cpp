@@ -1,5 +1,6 @@
 #include "fsi_master/application.hpp"
 
+#include "common/base/child_process.hpp"
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
@@ -7,7 +8,6 @@
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupling_case.hpp"
 #include "fsi_master/message_partners.hpp"
-#include "fsi_master/run_program.hpp"
 #include "fsi_master/summary.hpp"
 
 namespace tether {
@@ -49,8 +49,8 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
 
 /// Without --resume nothing of an earlier run may be taken for this one's.
 void remove_old_results(const fs::path& output) {
-  for (const char* name : {"summary.json", "timeseries.csv", "fluid.pvd", "solid.pvd", "checkpoint", "checkpoint.new",
-                           "checkpoint.previous"})
+  for (const char* name : {"summary.json", "timeseries.csv", "fluid.pvd", "solid.pvd", "vtk", "checkpoint",
+                           "checkpoint.new", "checkpoint.previous"})
     fs::remove_all(output / name);
 }
 
@@ -137,7 +137,7 @@ void validate(const CommandLine& command) {
   for (const auto& [role, name] : {std::pair("fluid", programs.fluid), std::pair("solid", programs.solid)}) {
     const std::string executable = protocol::find_executable({role, name, {}});
     if (fs::path(name).has_parent_path()) continue;
-    const ProgramEnd end = run_program(executable, {command.case_file.string(), "--validate", "--quiet"});
+    const ChildEnd end = capture({{executable, command.case_file.string(), "--validate", "--quiet"}, {}});
     const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
     if (end.exit_code == exit_input_wrong) throw InputError(message);
     if (end.exit_code != exit_done) throw run_error("{} --validate ended with {}: {}", name, end.exit_code, message);

@@ -23,7 +23,7 @@ class InterfaceMap {
   /// `trust` for some node.
   static InterfaceMap nearest_triangle(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust);
 
-  /// Vectors node by node: solid order -> fluid order.
+  /// Vectors node by node, v_f = H v_s and f_s = H' f_f (C.8).
   std::vector<double> to_fluid(const VectorXd& solid) const;
   VectorXd to_solid(const std::vector<double>& fluid) const;
   int fluid_nodes() const { return static_cast<int>(means_.size()); }

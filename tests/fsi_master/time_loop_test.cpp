@@ -77,7 +77,8 @@ TEST(TimeLoop, FailureNamesStepHistoryAndNodeAndRestoresTheLastGoodState) {
     FAIL() << "no error";
   } catch (const RunError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("step 1 failed: time 0.01 s, step 0.01 s: a partner answered with numbers that are not finite; residuals nan; "
+    EXPECT_NE(text.find("step 1 failed: time 0.01 s, step 0.01 s: a partner answered with numbers that are not finite; "
+                        "residuals nan; "
                         "worst at interface node "),
               std::string::npos)
         << text;

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "common/base/error.hpp"
+#include "fsi_master/checkpoint.hpp"
+#include "fsi_master/progress.hpp"
+#include "fsi_master/time_series.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test.
+class Output : public testing::Test {
+ protected:
+  Output() : folder(fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder / name).rdbuf();
+    return text.str();
+  }
+  fs::path folder;
+};
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::vector<Column> columns{
+    {"time", "s"}, {"fluid.outlet.pressure", "g/(cm s2)"}, {"fluid.outlet.flow", "cm3/s"}, {"residual", ""}};
+
+TEST_F(Output, TableHasUnitsAndClinicalCopiesOfOtherNumbersOnly) {
+  TimeSeries series(folder / "t.csv", columns, UnitSystem::cgs());
+  series.start();
+  series.append({0.1, 1333.22, 80, 1e-7});
+  EXPECT_EQ(
+      content("t.csv"),
+      "time [s],fluid.outlet.pressure [g/(cm s2)],fluid.outlet.flow [cm3/s],residual,fluid.outlet.pressure [mmHg]\n"
+      "0.1,1333.22,80,1e-07,1\n");
+}
+
+TEST_F(Output, ResumedTableDropsLaterRowsAndGoesOn) {
+  for (double last : {3.0, 4.0}) {
+    TimeSeries series(folder / "t.csv", {{"time", "s"}}, UnitSystem::si());
+    if (last == 3) series.start();
+    if (last == 4) series.resume(2);
+    for (double time = last == 3 ? 1 : 3; time <= last; ++time) series.append({time / 10});
+  }
+  EXPECT_EQ(content("t.csv"), "time [s]\n0.1\n0.2\n0.3\n0.4\n");
+  TimeSeries other(folder / "t.csv", columns, UnitSystem::si());
+  EXPECT_NE(error_of([&] { other.resume(2); }).find("other headings"), std::string::npos);
+  TimeSeries longer(folder / "t.csv", {{"time", "s"}}, UnitSystem::si());
+  EXPECT_NE(error_of([&] { longer.resume(9); }).find("has 4 rows, the checkpoint 9"), std::string::npos);
+}
+
+Checkpoint some_checkpoint(std::int64_t step) {
+  Checkpoint c{step, 77, {{1, 2.5}, {3}, {0.1, 0.2}, {4, 5}, {6}}, {}, ""};
+  c.statistics.evaluations.add(3);
+  c.statistics.pressure.add(1e4);
+  c.statistics.wall_seconds = 0.125;
+  return c;
+}
+
+TEST_F(Output, CheckpointIsReadBackExactly) {
+  write_checkpoint(folder, some_checkpoint(7));
+  const Checkpoint read = read_checkpoint(folder, 77);
+  EXPECT_EQ(read.step, 7);
+  EXPECT_EQ(read.snapshot.fluid, (std::vector<double>{1, 2.5}));
+  EXPECT_EQ(read.snapshot.solid, (std::vector<double>{3}));
+  EXPECT_EQ(read.snapshot.displacement, (std::vector<double>{0.1, 0.2}));
+  EXPECT_EQ(read.snapshot.velocity, (std::vector<double>{4, 5}));
+  EXPECT_EQ(read.snapshot.coupling, (std::vector<double>{6}));
+  EXPECT_EQ(read.statistics.evaluations.max, 3);
+  EXPECT_EQ(read.statistics.pressure.min, 1e4);
+  EXPECT_EQ(read.statistics.wall_seconds, 0.125);
+}
+
+TEST_F(Output, TheCheckpointBeforeIsKeptAndFoundIfTheNewestIsMissing) {
+  write_checkpoint(folder, some_checkpoint(7));
+  write_checkpoint(folder, some_checkpoint(8));
+  EXPECT_EQ(read_checkpoint(folder, 77).step, 8);
+  fs::remove_all(folder / "checkpoint");  // as if stopped between the two renames
+  EXPECT_EQ(read_checkpoint(folder, 77).step, 7);
+}
+
+TEST_F(Output, RefusedCheckpointsSayWhy) {
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("holds no checkpoint"), std::string::npos);
+  Checkpoint stateless = some_checkpoint(7);
+  stateless.without_state = "the fluid (box 1)";
+  write_checkpoint(folder, stateless);
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("the fluid (box 1) announced no state"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 78); }).find("another case or mesh"), std::string::npos);
+}
+
+TEST_F(Output, DamagedCheckpointsAreNoticed) {
+  write_checkpoint(folder, some_checkpoint(7));
+  const fs::path file = folder / "checkpoint" / "fluid.bin";
+  const auto size = static_cast<std::streamoff>(fs::file_size(file));
+  std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(size - 1).put('x');
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("fluid.bin: is damaged (checksum)"), std::string::npos);
+  fs::resize_file(file, fs::file_size(file) - 3);
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("fluid.bin: is cut short"), std::string::npos);
+}
+
+TEST(Fingerprint, CountsPhysicsAndMeshButNotWhereAndHowLong) {
+  const auto of = [](const std::string& text, double x = 1) {
+    return fingerprint({text}, 0.1, Points::Constant(3, 2, x));
+  };
+  const auto a = of(R"({"fluid": {"density": 1.06, "curve": "/home/a/in.csv"}, "time": {"step": 1, "end": 2}})");
+  EXPECT_EQ(
+      a,
+      of(R"({"fluid": {"density": 1.06, "curve": "/data/in.csv"}, "time": {"step": 1, "end": 3}, "output": {"write_every": 2}})"));
+  EXPECT_NE(a, of(R"({"fluid": {"density": 1.05, "curve": "/home/a/in.csv"}, "time": {"step": 1, "end": 2}})"));
+  EXPECT_NE(of("{}"), of("{}", 1.0000001));
+}
+
+TEST(Progress, DurationsReadLikeSpeech) {
+  EXPECT_EQ(duration_text(12.4), "12 s");
+  EXPECT_EQ(duration_text(200), "3 min 20 s");
+  EXPECT_EQ(duration_text(3900), "1 h 05 min");
+}
+
+}  // namespace
+}  // namespace tether
