@@ -15,6 +15,7 @@ COMMON = {
     "common/mesh": ["base"],
     "common/fem": ["base", "linalg", "mesh"],
     "common/io": ["base", "config", "linalg", "mesh"],
+    "common/case": ["base", "config", "mesh", "io"],
     "common/protocol": ["base", "config"],
 }
 PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "tether"]

@@ -115,11 +115,17 @@ VesselMesh sweep(const SweepSettings& settings) {
   return vessel;
 }
 
+std::vector<Points> circular_tube_sections(double radius, double length, int around) {
+  std::vector<Points> sections;
+  for (const double z : {0.0, length})
+    sections.push_back(circle(make_frame({0, 0, z}, {0, 0, 1}, {1, 0, 0}), radius, 4 * around));
+  return sections;
+}
+
 SweepSettings circular_tube_settings(double radius, double length, double thickness, int around, int along,
                                      int layers) {
   SweepSettings settings;
-  for (const double z : {0.0, length})
-    settings.sections.push_back(circle(make_frame({0, 0, z}, {0, 0, 1}, settings.angle_origin), radius, 4 * around));
+  settings.sections = circular_tube_sections(radius, length, around);
   settings.wall_thickness = thickness;
   settings.along = along;
   settings.layers = layers;

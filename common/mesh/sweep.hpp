@@ -40,6 +40,8 @@ std::vector<CrossSection> cross_sections(const SweepSettings& settings);
 /// Throws InputError for sections, numbers or regions that give no valid mesh.
 VesselMesh sweep(const SweepSettings& settings);
 
+/// The two end circles of a straight tube about the z axis, inlet at z = 0, with four points for each of `around`.
+std::vector<Points> circular_tube_sections(double radius, double length, int around);
 /// A straight circular tube about the z axis, inlet at z = 0.
 SweepSettings circular_tube_settings(double radius, double length, double thickness, int around, int along,
                                      int layers = 2);
