@@ -24,6 +24,12 @@ struct StrainSamples {
     return 0.5 * factor.cwiseProduct(ga.cwiseProduct(gb).colwise().sum().transpose());
   }
 
+  /// c/2 |g_a| |g_b|: what a strain of one makes of each sample.
+  Values units(const Positions& x) const {
+    const Eigen::Matrix<double, 3, count> ga = x * a, gb = x * b;
+    return 0.5 * factor.cwiseProduct(ga.colwise().norm().cwiseProduct(gb.colwise().norm()).transpose());
+  }
+
   /// B': derivative of each sample by the nodal positions, one column a sample (S.2).
   Rates rates(const Positions& x) const {
     const Eigen::Matrix<double, 3, count> ga = x * a * (0.5 * factor).asDiagonal(),

@@ -23,10 +23,12 @@ class ElementsOf final : public WallElements {
       : cells_(cells), scatter_(static_cast<int>(reference.cols()), 3, std::span<const Cell>(cells_)) {
     elements_.reserve(cells.size());
     reference_.reserve(cells.size());
+    unit_.reserve(cells.size());
     for (std::size_t e = 0; e < cells.size(); ++e) {
       const Positions x = gather(reference, e);
       elements_.emplace_back(x);
       reference_.push_back(elements_.back().strains().products(x));
+      unit_.push_back(elements_.back().strains().units(x));
       for (int q = 0; q < Element::points; ++q)
         if (!(elements_.back().weight(q) > 0))
           throw run_error("wall element {} at ({:.4g} {:.4g} {:.4g}) has no positive volume", e, x.row(0).mean(),
@@ -116,6 +118,10 @@ class ElementsOf final : public WallElements {
     return result;
   }
 
+  /// Strains that change less in a step keep the mean strain's stress: what that lacks in energy, of third order, is below
+  /// rounding, and rounding divided by the change would drown the stress.
+  static constexpr double least_change = 1e-5;
+
   /// Gonzalez' discrete gradient (S.6): stress' (s1 - s0) = Phi(s1) - Phi(s0) exactly; tangent: that of the mean
   /// strain, symmetric.
   SampleResponse<samples> conserving(std::size_t e, const Positions& x0, const Positions& x1,
@@ -124,11 +130,9 @@ class ElementsOf final : public WallElements {
     const Samples s0 = element.strains().products(x0) - reference_[e],
                   s1 = element.strains().products(x1) - reference_[e];
     SampleResponse<samples> result = sample_response(element, Samples(0.5 * (s0 + s1)), law);
-    const Samples change = s1 - s0,
-                  weight = reference_[e].cwiseAbs().array() + 1e-3 * reference_[e].cwiseAbs().maxCoeff();
-    const Samples scaled = change.cwiseQuotient(weight.cwiseProduct(weight));
+    const Samples change = s1 - s0, scaled = change.cwiseQuotient(unit_[e].cwiseAbs2());
     const double size = change.dot(scaled);
-    if (size > 1e-24) {
+    if (size > least_change * least_change) {
       const double defect =
           sample_energy(element, s1, law) - sample_energy(element, s0, law) - result.stress.dot(change);
       result.stress += defect / size * scaled;
@@ -162,6 +166,7 @@ class ElementsOf final : public WallElements {
   std::vector<Cell> cells_;
   std::vector<Element> elements_;
   std::vector<Samples> reference_;  ///< products at the stress-free positions
+  std::vector<Samples> unit_;       ///< samples of unit strain there
   ScatterMap scatter_;
 };
 
