@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <set>
+
+#include "solid/elements/wall_elements.hpp"
+#include "solid/materials/registry.hpp"
+#include "solid/statics.hpp"
+#include "tests/solid/strains.hpp"
+#include "tests/solid/walls.hpp"
+
+// Patch test: a uniform deformation is reproduced exactly, at large strain and rotation.
+namespace tether {
+namespace {
+
+std::unique_ptr<Material> rubber() {
+  return neo_hookean.make(std::array{2.0, 0.4});
+}
+
+std::set<int> surface_nodes(const WallMesh& mesh) {
+  std::vector<Tetrahedron> parts = mesh.prisms.empty() ? mesh.tetrahedra : split_into_tetrahedra(mesh.prisms);
+  std::set<int> nodes;
+  for (const Triangle& t : boundary_triangles(parts)) nodes.insert(t.begin(), t.end());
+  return nodes;
+}
+
+/// sigma = F S F'/J.
+Mat3 cauchy(const Material& material, const Mat3& f) {
+  return f * to_tensor(stress(material, green_lagrange(f))) * f.transpose() / f.determinant();
+}
+
+class Patch : public testing::TestWithParam<ElementKind> {
+ protected:
+  Mat3 gradient() {
+    Random random(3);
+    const Mat3 turn = random_rotation(random);
+    return 1.1 * turn * random_gradient(random, 0.1);
+  }
+};
+
+TEST_P(Patch, VolumeIsThatOfTheBox) {
+  const WallMesh mesh = with_elements(irregular_plate(1), GetParam());
+  EXPECT_NEAR(make_wall_elements(mesh, mesh.points)->volume(), 4 * 3 * (0.7 + 0.3), 1e-12);
+}
+
+TEST_P(Patch, LinearFieldLeavesInnerNodesInEquilibrium) {
+  const WallMesh mesh = with_elements(irregular_plate(1), GetParam());
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  const Mat3 f = gradient();
+  VectorXd force = VectorXd::Zero(mesh.points.size());
+  wall->static_force(f * mesh.points, *rubber(), force, nullptr);
+  const std::set<int> surface = surface_nodes(mesh);
+  int inner = 0;
+  for (int node = 0; node < mesh.points.cols(); ++node)
+    if (!surface.contains(node)) {
+      ++inner;
+      EXPECT_LE(force.segment<3>(3 * node).norm(), 1e-12 * force.norm()) << node;
+    }
+  EXPECT_EQ(inner, 12);
+}
+
+TEST_P(Patch, LinearFieldGivesTheExactUniformStressAndEnergy) {
+  const WallMesh mesh = with_elements(irregular_plate(1), GetParam());
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  const Mat3 f = gradient(), expected = cauchy(*rubber(), f);
+  const auto stresses = wall->cauchy_stress(f * mesh.points, *rubber());
+  for (Eigen::Index e = 0; e < stresses.cols(); ++e)
+    EXPECT_LE((to_tensor(stresses.col(e)) - expected).norm(), 1e-12 * expected.norm()) << e;
+  EXPECT_NEAR(wall->energy(f * mesh.points, *rubber()), energy(*rubber(), green_lagrange(f)) * wall->volume(), 1e-12);
+}
+
+/// Solved, not only checked: nodes on the surface are prescribed, the inner ones find the linear field.
+TEST_P(Patch, InnerNodesFindTheLinearField) {
+  const WallMesh mesh = with_elements(irregular_plate(1), GetParam());
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  const Points exact = gradient() * mesh.points;
+  Points start = exact;
+  Random random(9);
+  std::vector<int> fixed;
+  const std::set<int> surface = surface_nodes(mesh);
+  for (int node = 0; node < start.cols(); ++node)
+    if (surface.contains(node))
+      fixed.insert(fixed.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+    else
+      start.col(node) += 0.01 * Vec3(random.matrix(3, 1));
+  const StaticLoad dummy = [&](const Points&, VectorXd& force, SparseMatrix*) {
+    force[fixed.front()] = 1;
+  };  // its scale only
+  const StaticResult result = solve_static(*wall, *rubber(), start, dummy, fixed, 1e-13);
+  EXPECT_TRUE(result.converged);
+  EXPECT_LE((result.positions - exact).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+/// Deformation with the stretches l and 1 in the plane under a pressure on the faces, by Newton on the thickness
+/// stretch.
+Mat3 pressed_plate(const Material& material, double l, double pressure) {
+  double thickness = 1 / l;
+  const auto gradient_at = [&](double t) -> Mat3 { return Vec3(l, 1, t).asDiagonal(); };
+  const auto defect = [&](double t) { return cauchy(material, gradient_at(t))(2, 2) + pressure; };
+  for (int i = 0; i < 20; ++i)
+    thickness -= defect(thickness) / derivative([&](double d) { return defect(thickness + d); }, 1e-4);
+  return gradient_at(thickness);
+}
+
+/// Smallest eigenvalue of the tangent of a uniformly deformed plate, its edges held and its faces free, over the shear
+/// modulus.
+double smallest_eigenvalue(const Mat3& f, const Material& material, double shear) {
+  const WallMesh mesh = irregular_plate(1);
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  VectorXd force = VectorXd::Zero(mesh.points.size());
+  SparseMatrix tangent = wall->zero_matrix();
+  wall->static_force(f * mesh.points, material, force, &tangent);
+  std::vector<int> free;
+  for (int node = 0; node < mesh.points.cols(); ++node)
+    if (const int i = node % 5, j = node / 5 % 4; i > 0 && i < 4 && j > 0 && j < 3)
+      free.insert(free.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+  const Eigen::MatrixXd inner = Eigen::MatrixXd(tangent)(free, free);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inner, Eigen::EigenvaluesOnly).eigenvalues()[0] / shear;
+}
+
+/// A wall under tension in its plane and pressure across it stays stable up to a fifth of the shear modulus: blood's
+/// pressure is a tenth of it. (The soft variation of thickness strain is what gives way first.)
+TEST(PrismStability, APressedAndStretchedPlateIsStable) {
+  for (const double poisson : {0.3, 0.45, 0.499}) {
+    const double shear = 1 / (2 * (1 + poisson));
+    const auto material = neo_hookean.make(std::array{1.0, poisson});
+    for (const double stretch : {1.0, 1.2, 1.4}) {
+      const double free = smallest_eigenvalue(pressed_plate(*material, stretch, 0), *material, shear);
+      EXPECT_GT(free, 0.28) << poisson << " " << stretch;
+      EXPECT_GT(smallest_eigenvalue(pressed_plate(*material, stretch, 0.2 * shear), *material, shear), 0.4 * free);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::Values(ElementKind::prism, ElementKind::tetrahedron),
+                         [](const auto& info) { return name_of(info.param); });
+
+}  // namespace
+}  // namespace tether
