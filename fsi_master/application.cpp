@@ -69,6 +69,13 @@ std::string own_sections(MasterCase& master) {
   return echo.json();
 }
 
+void check_points(const Simulation& simulation, const CaseFile& file, double size) {
+  for (const FollowedNode& point : simulation.followed())
+    if (point.distance > 0.1 * size)
+      throw input_error("{}: the nearest node of the lumen is {:.4g} away (the vessel's diagonal is {:.4g})",
+                        file.where("output.points." + point.name), point.distance, size);
+}
+
 void warn_without_state(const StepPartner& partner, bool quiet) {
   if (!partner.has_state() && !quiet)
     fmt::print("{} announces no state: this run cannot be resumed, nor used for identification\n", partner.name());
@@ -101,6 +108,7 @@ void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner&
             fluid_process.hello().observables,
             solid_process.hello().observables};
   Simulation simulation(plan, crew, master.coupling.halvings);
+  check_points(simulation, master.file, options.size);
   const auto before = costs(crew, {&fluid_process, &solid_process});
   simulation.run();
   RunFacts facts{master.file.common().name,
@@ -111,7 +119,7 @@ void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner&
                  merged_json({own_sections(master), fluid_case, solid_case})};
   for (std::size_t i = 0; i < before.size(); ++i)
     facts.processes[i].loop_cpu_seconds = facts.processes[i].usage.cpu_seconds - before[i].usage.cpu_seconds;
-  write_summary(plan, simulation, facts);
+  write_summary(simulation, facts);
 }
 
 int run(const CommandLine& command) {

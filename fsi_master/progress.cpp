@@ -63,6 +63,12 @@ void Progress::show(const Now& now) {
   std::fflush(stdout);
 }
 
+void Progress::note(const std::string& text) {
+  if (quiet_) return;
+  end_line();
+  fmt::print("{}\n", text);
+}
+
 void Progress::end_line() {
   if (line_open_) fmt::print("\n");
   line_open_ = false;

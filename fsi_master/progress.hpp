@@ -22,6 +22,8 @@ class Progress {
 
   Progress(std::int64_t first_step, std::int64_t last_step, const UnitSystem& units, bool quiet);
   void show(const Now& now);
+  /// A line that stays, above the one that is rewritten.
+  void note(const std::string& text);
   /// Ends the line that is being rewritten, so that a message begins on its own.
   void end_line();
 

@@ -59,12 +59,15 @@ void Simulation::begin() {
   loop_.restore(checkpoint.snapshot);
   statistics_ = checkpoint.statistics;
   first_step_ = checkpoint.step;
+  plan_.last_step = std::max(plan_.last_step, first_step_);
   series_.resume(checkpoint.step);
 }
 
 void Simulation::advance(std::int64_t step) {
   const auto begun = std::chrono::steady_clock::now();
   const StepRecord done = loop_.advance(step + 1, plan_.time_at(step), plan_.dt);
+  for (const std::string& failure : done.failures)
+    progress_->note(fmt::format("step {} is repeated in halves: {}", step + 1, failure));
   if ((step + 1) % plan_.write_every == 0 || step + 1 == plan_.last_step) write_files(step + 1);
   record(step + 1, done, seconds_since(begun));
   if ((step + 1) % plan_.checkpoint_every == 0 && step + 1 < plan_.last_step) save(step + 1);

@@ -50,6 +50,7 @@ class Simulation {
   /// state is then on the disk.
   void run();
 
+  const RunPlan& plan() const { return plan_; }
   const RunStatistics& statistics() const { return statistics_; }
   const std::vector<FollowedNode>& followed() const { return followed_; }
   std::int64_t first_step() const { return first_step_; }

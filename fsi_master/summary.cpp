@@ -42,22 +42,24 @@ void add_costs(Json& json, const RunFacts& facts, const RunStatistics& s, double
   json["peak_memory_mb"] = processes(facts.processes, &PartnerUsage::peak_memory_mb);
 }
 
-void add_results(Json& json, const RunPlan& plan, const Simulation& simulation) {
+void add_results(Json& json, const Simulation& simulation) {
+  const UnitSystem& units = simulation.plan().units;
   const RunStatistics& s = simulation.statistics();
   json["coupling_iterations"] = mean_max(s.evaluations);
   json["krylov_iterations"] = mean_max(s.krylov_iterations);
   json["repeated_steps"] = s.repeated_steps;
   json["mass_balance_error_max"] = s.mass_balance_error;
-  json["pressure"] = pressure_range(s.pressure, plan.units);
+  json["pressure"] = pressure_range(s.pressure, units);
   json["max_displacement"] = s.max_displacement;
-  json["max_displacement_mm"] = plan.units.to_mm(s.max_displacement);
+  json["max_displacement_mm"] = units.to_mm(s.max_displacement);
   for (const auto& point : simulation.followed())
     json["points"][point.name] = {{"interface_node", point.node}, {"distance_to_node", point.distance}};
 }
 
 }  // namespace
 
-void write_summary(const RunPlan& plan, const Simulation& simulation, const RunFacts& facts) {
+void write_summary(const Simulation& simulation, const RunFacts& facts) {
+  const RunPlan& plan = simulation.plan();
   Json json{{"case", facts.case_name}, {"title", facts.title}, {"case_file", facts.case_file}};
   json["units"] = {{"system", plan.units.name()},
                    {"length", plan.units.symbol(dimension::length)},
@@ -69,7 +71,7 @@ void write_summary(const RunPlan& plan, const Simulation& simulation, const RunF
   json["time"] = {{"start", plan.start}, {"end", plan.time_at(plan.last_step)}};
   add_costs(json, facts, simulation.statistics(), static_cast<double>(plan.last_step - simulation.first_step()));
   json["coupling_method"] = facts.method;
-  add_results(json, plan, simulation);
+  add_results(json, simulation);
   for (const auto& process : facts.processes) json["versions"][process.name] = process.program;
   json["effective_case"] = Json::parse(facts.effective_case);
   std::ofstream file(plan.output / "summary.json");

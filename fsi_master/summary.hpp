@@ -23,7 +23,7 @@ struct RunFacts {
 
 /// summary.json: what was run, how it went and what it cost, in the case's units and in mmHg and mm.
 /// Throws RunError if it cannot be written.
-void write_summary(const RunPlan& plan, const Simulation& simulation, const RunFacts& facts);
+void write_summary(const Simulation& simulation, const RunFacts& facts);
 
 /// The objects of several JSON texts as one; a text that is no object is left out.
 std::string merged_json(const std::vector<std::string>& texts);

@@ -20,7 +20,7 @@ class Program : public testing::Test {
                testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(folder);
     fs::create_directories(folder);
-    write_case("time: {step: 0.01, end: 0.2}");
+    write_case("time: {step: 0.01, end: 0.08}");
   }
 
   void write_case(const std::string& time, const std::string& coupling = "") const {
@@ -53,9 +53,9 @@ class Program : public testing::Test {
 TEST_F(Program, SimulatesAndSumsUp) {
   const ChildEnd end = run("out");
   EXPECT_EQ(end.exit_code, 0) << end.errors;
-  EXPECT_NE(end.output.find("step 20/20"), std::string::npos) << end.output;
+  EXPECT_NE(end.output.find("step 8/8"), std::string::npos) << end.output;
   const auto json = summary("out");
-  EXPECT_EQ(json["steps"], 20);
+  EXPECT_EQ(json["steps"], 8);
   EXPECT_EQ(json["coupling_method"], "newton_krylov");
   EXPECT_EQ(json["coupling_iterations"]["mean"], 2.0);
   EXPECT_LE(json["krylov_iterations"]["max"], 3.0);
@@ -76,19 +76,19 @@ TEST_F(Program, BlackBoxesReachTheSameStepByQuasiNewton) {
 
 TEST_F(Program, StoppedAndResumedRunWritesTheSameTableBitForBit) {
   for (const std::string method : {"newton_krylov", "iqn_ils"}) {
-    write_case("time: {step: 0.01, end: 0.2}", "  method: " + method + "\n");
+    write_case("time: {step: 0.01, end: 0.08}", "  method: " + method + "\n");
     ASSERT_EQ(run("whole", {"--quiet"}).exit_code, 0);
-    ASSERT_EQ(run("parts", {"--quiet", "--steps", "9"}).exit_code, 0);
+    ASSERT_EQ(run("parts", {"--quiet", "--steps", "5"}).exit_code, 0);
     const ChildEnd end = run("parts", {"--quiet", "--resume"});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
     EXPECT_EQ(content("whole/timeseries.csv"), content("parts/timeseries.csv")) << method;
-    EXPECT_EQ(summary("parts")["resumed_at_step"], 9);
+    EXPECT_EQ(summary("parts")["resumed_at_step"], 5);
     EXPECT_EQ(summary("parts")["coupling_iterations"], summary("whole")["coupling_iterations"]);
   }
 }
 
 TEST_F(Program, AStepThatNeverSucceedsEndsWithHistoryAndLastGoodState) {
-  write_case("time: {step: 0.01, end: 0.2}", "  method: iqn_ils\n  max_iterations: 1\n  halvings: 1\n");
+  write_case("time: {step: 0.01, end: 0.08}", "  method: iqn_ils\n  max_iterations: 1\n  halvings: 1\n");
   const ChildEnd end = run("out", {"--quiet"});
   EXPECT_EQ(end.exit_code, 1);
   EXPECT_NE(
@@ -123,10 +123,28 @@ TEST_F(Program, ACodeWithoutStateIsSimulatedButNotResumed) {
 
 TEST_F(Program, ACheckpointOfAnotherCaseIsRefused) {
   ASSERT_EQ(run("out", {"--quiet"}).exit_code, 0);
-  write_case("time: {step: 0.02, end: 0.2}");
+  write_case("time: {step: 0.02, end: 0.08}");
   const ChildEnd end = run("out", {"--resume", "--quiet"});
   EXPECT_EQ(end.exit_code, 2);
   EXPECT_NE(end.errors.find("is a checkpoint of another case or mesh"), std::string::npos) << end.errors;
+}
+
+TEST_F(Program, APointFarFromTheVesselIsAMistakeWithItsLine) {
+  std::string text = content("case.yaml");
+  std::ofstream(folder / "case.yaml") << text.replace(text.find("[1, 0, 2]"), 9, "[10, 0, 20]");
+  const ChildEnd end = run("out", {"--quiet"});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("case.yaml:4: output.points.top: the nearest node of the lumen is 20.12 away"),
+            std::string::npos)
+      << end.errors;
+}
+
+TEST_F(Program, ResumingAFinishedRunChangesNothing) {
+  ASSERT_EQ(run("out", {"--quiet"}).exit_code, 0);
+  const std::string table = content("out/timeseries.csv");
+  ASSERT_EQ(run("out", {"--quiet", "--resume"}).exit_code, 0);
+  EXPECT_EQ(content("out/timeseries.csv"), table);
+  EXPECT_EQ(summary("out")["steps"], 8);
 }
 
 TEST_F(Program, ADeadPartnerEndsTheRunWithOneMessage) {
@@ -136,12 +154,12 @@ TEST_F(Program, ADeadPartnerEndsTheRunWithOneMessage) {
 }
 
 TEST_F(Program, MissingProgramsAndBadFieldsAreFoundBeforeAnythingRuns) {
-  std::ofstream(folder / "case.yaml") << "name: fake\nunits: cgs\ntime: {step: 0.01, end: 0.2}\n"
+  std::ofstream(folder / "case.yaml") << "name: fake\nunits: cgs\ntime: {step: 0.01, end: 0.08}\n"
                                          "coupling: {tolerance: -1, programs: {fluid: /nowhere/fluid}}\n";
   const ChildEnd wrong_field = run("out", {"--validate"});
   EXPECT_EQ(wrong_field.exit_code, 2);
   EXPECT_NE(wrong_field.errors.find("case.yaml:4: coupling.tolerance: -1"), std::string::npos) << wrong_field.errors;
-  std::ofstream(folder / "case.yaml") << "name: fake\nunits: cgs\ntime: {step: 0.01, end: 0.2}\n"
+  std::ofstream(folder / "case.yaml") << "name: fake\nunits: cgs\ntime: {step: 0.01, end: 0.08}\n"
                                          "coupling: {programs: {fluid: /nowhere/fluid}}\n";
   const ChildEnd missing = run("out", {"--validate"});
   EXPECT_EQ(missing.exit_code, 2);
