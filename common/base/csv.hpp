@@ -16,9 +16,10 @@ class CsvTable {
   explicit CsvTable(const std::filesystem::path& file);
 
   const std::vector<std::string>& columns() const { return columns_; }
+  /// In brackets after each column's name; empty if there is none.
+  const std::vector<std::string>& units() const { return units_; }
   std::size_t rows() const { return lines_.size(); }
   bool has(std::string_view column) const;
-  /// The unit in brackets after a column's name; empty if there is none.
   std::string unit(std::string_view column) const;
   /// Throws InputError "file:line: ..." for a missing column or a cell that is not a finite number.
   std::vector<double> numbers(std::string_view column) const;

@@ -12,6 +12,7 @@ namespace tether {
 namespace {
 
 std::string reference(const Program& program, const std::string& format) {
+  if (program.reference) return program.reference(format);
   Describe describe(UnitSystem::cgs());
   CommonCase common;
   common.declare(describe);
@@ -50,7 +51,8 @@ int act(const Program& program, const Typed& typed) {
     std::cout << reference(program, typed.describe_format);
     return exit_done;
   }
-  if (typed.command.case_file.empty()) throw input_error("which case? Give the path of a case file, or --help");
+  if (program.needs_case && typed.command.case_file.empty())
+    throw input_error("which case? Give the path of a case file, or --help");
   if (!typed.command.validate) return program.run(typed.command);
   program.validate(typed.command);
   if (!typed.command.quiet) std::cout << typed.command.case_file.string() << ": valid for " << program.name << "\n";

@@ -23,10 +23,13 @@ struct Program {
   std::string name, purpose;
   /// Declares the sections of the case file that this program reads, beside the common ones.
   std::function<void(Fields&)> declare;
+  /// For --describe-config, instead of `declare`, if set: the whole reference as "text" or "markdown".
+  std::function<std::string(const std::string& format)> reference;
   /// For --validate: reads the case and what it refers to. Throws InputError.
   std::function<void(const CommandLine&)> validate;
   /// Returns the exit code.
   std::function<int(const CommandLine&)> run;
+  bool needs_case = true;
 };
 
 /// Parses the command line, answers --help, --describe-config and --validate, else runs. Returns the exit code: what

@@ -12,12 +12,15 @@ struct Outcome {
 };
 
 Outcome run(std::vector<std::string> arguments, const std::function<int(const CommandLine&)>& body) {
-  const Program program{"pump", "moves blood",
-                        [](Fields& f) {
-                          TimeCase sample;
-                          f.group("fluid", sample, "the blood");
-                        },
-                        [](const CommandLine& c) { CaseFile(c.case_file).finish(); }, body};
+  Program program;
+  program.name = "pump";
+  program.purpose = "moves blood";
+  program.declare = [](Fields& f) {
+    TimeCase sample;
+    f.group("fluid", sample, "the blood");
+  };
+  program.validate = [](const CommandLine& c) { CaseFile(c.case_file).finish(); };
+  program.run = body;
   arguments.insert(arguments.begin(), "pump");
   std::vector<char*> argv;
   for (auto& argument : arguments) argv.push_back(argument.data());

@@ -1,0 +1,60 @@
+#include "tether/front_end.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+int describe(const CommandLine&) {
+  std::cout << case_reference("text");
+  return exit_done;
+}
+
+struct Verb {
+  const char *name, *purpose;
+  int (*act)(const CommandLine&);
+  bool needs_case = true;
+};
+
+constexpr std::array verbs{
+    Verb{"simulate", "run a case: progress, results, plots and a summary", simulate},
+    Verb{"validate", "find mistakes in a case without running it", validate},
+    Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false},
+};
+
+Program program_of(const Verb& verb) {
+  Program program;
+  program.name = std::string("tether ") + verb.name;
+  program.purpose = verb.purpose;
+  program.needs_case = verb.needs_case;
+  program.reference = case_reference;
+  program.validate = check_case;
+  program.run = verb.act;
+  return program;
+}
+
+std::string usage() {
+  std::string text =
+      "Fluid-structure models of vessels that agree with images.\n\nUsage: tether VERB CASE.yaml [options]\n\n";
+  for (const auto& verb : verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.purpose);
+  return text + "\ntether VERB --help lists the options of a verb.\n";
+}
+
+}  // namespace
+
+int front_end(int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.name == word; });
+  if (verb != verbs.end()) return run_main(argc - 1, argv + 1, program_of(*verb));
+  const bool asked = word == "--help" || word == "-h" || word == "help";
+  if (!asked && !word.empty()) std::cerr << "tether: unknown verb '" << word << "'\n\n";
+  (asked ? std::cout : std::cerr) << usage();
+  return asked ? exit_done : exit_input_wrong;
+}
+
+}  // namespace tether

@@ -1,0 +1,93 @@
+#include "tether/plots.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <optional>
+
+#include "common/base/child_process.hpp"
+#include "common/base/csv.hpp"
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+/// One picture: the columns whose names begin and end so, each drawn as a line.
+struct Plot {
+  const char *file, *title, *begin, *end;
+  Dimension dimension;
+  const char* unit;  ///< shown; empty for a number
+};
+
+constexpr std::array plots{
+    Plot{"pressures.png", "Pressure", "fluid.", "pressure", dimension::pressure, "mmHg"},
+    Plot{"flows.png", "Flow", "fluid.", ".flow", dimension::flow, "ml/s"},
+    Plot{"displacements.png", "Displacement of points", "point.", ".displacement_length", dimension::length, "mm"},
+    Plot{"support_forces.png", "Force of the support on the wall", "solid.support.", "", dimension::force, "N"},
+    Plot{"coupling.png", "Coupling: evaluations a step", "coupling.evaluations", "", dimension::none, ""},
+};
+
+/// What a number of the case's units is multiplied by to be in the plot's.
+double factor(const Plot& plot, const UnitSystem& units) {
+  if (plot.dimension == dimension::pressure) return units.to_mmhg(1.0);
+  if (plot.dimension == dimension::flow) return units.to_ml_per_s(1.0);
+  if (plot.dimension == dimension::length) return units.to_mm(1.0);
+  return units.in_si(plot.dimension);
+}
+
+/// "fluid.outlet.flow" in the plot of "fluid." and ".flow" is "outlet".
+std::optional<std::string> label(const Plot& plot, const std::string& column) {
+  const std::string_view begin = plot.begin, end = plot.end;
+  if (!column.starts_with(begin) || !column.ends_with(end)) return std::nullopt;
+  const std::string inner = column.substr(begin.size(), column.size() - begin.size() - end.size());
+  return inner.empty() || inner == "." ? column : inner.substr(0, inner.find_last_not_of("._") + 1);
+}
+
+std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& units) {
+  const std::string unit = plot.dimension == dimension::none ? "" : units.symbol(plot.dimension);
+  std::string lines;
+  for (std::size_t i = 0; i < table.columns().size(); ++i) {
+    const auto name = label(plot, table.columns()[i]);
+    if (!name || table.units()[i] != unit) continue;
+    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{}) title '{}'", lines.empty() ? "plot " : ", \\\n     ",
+                         i + 1, factor(plot, units), *name);
+  }
+  return lines;
+}
+
+/// The whole script, and the pictures it draws.
+std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, const UnitSystem& units) {
+  std::string text =
+      "# Run in the folder of timeseries.csv: gnuplot plots/plots.gp\n"
+      "set terminal pngcairo noenhanced size 1000,600 font 'sans,12'\n"
+      "set datafile separator ','\nset key outside right\nset grid\nset xlabel 'time [s]'\nset style data lines\n";
+  std::vector<std::string> pictures;
+  for (const auto& plot : plots) {
+    const std::string lines = lines_of(plot, table, units);
+    if (lines.empty()) continue;
+    const std::string unit = *plot.unit ? fmt::format(" [{}]", plot.unit) : "";
+    text += fmt::format("\nset output 'plots/{}'\nset title '{}'\nset ylabel '{}{}'\n{}\n", plot.file, plot.title,
+                        plot.title, unit, lines);
+    pictures.emplace_back(plot.file);
+  }
+  return {text, pictures};
+}
+
+bool has_gnuplot() {
+  return capture({{"sh", "-c", "command -v gnuplot"}, {}}).exit_code == 0;
+}
+
+}  // namespace
+
+std::vector<std::string> draw_plots(const std::filesystem::path& output, const UnitSystem& units) {
+  if (!has_gnuplot()) return {};
+  const auto [text, pictures] = script(CsvTable(output / "timeseries.csv"), units);
+  std::filesystem::create_directories(output / "plots");
+  std::ofstream(output / "plots" / "plots.gp") << text;
+  const ChildEnd end = capture({{"sh", "-c", "cd \"$0\" && exec gnuplot plots/plots.gp", output.string()}, {}});
+  if (end.exit_code != 0) throw run_error("{}: gnuplot failed: {}", (output / "plots/plots.gp").string(), end.errors);
+  return pictures;
+}
+
+}  // namespace tether

@@ -1,0 +1,41 @@
+#include "tether/programs.hpp"
+
+#include <unistd.h>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+void add_options(std::vector<std::string>& words, const CommandLine& command) {
+  if (!command.output.empty()) words.insert(words.end(), {"--output", command.output.string()});
+  if (command.steps) words.insert(words.end(), {"--steps", std::to_string(*command.steps)});
+  if (command.processes > 0) words.insert(words.end(), {"--processes", std::to_string(command.processes)});
+  if (command.resume) words.push_back("--resume");
+  if (command.overwrite) words.push_back("--overwrite");
+  if (command.quiet) words.push_back("--quiet");
+}
+
+}  // namespace
+
+std::filesystem::path sibling(const std::string& name) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  if (access(program.c_str(), X_OK) != 0) throw input_error("{}: no such program; is Tether built?", program.string());
+  return program;
+}
+
+Command coupled_run(const CommandLine& command) {
+  Command run{{"mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n",
+               "1", sibling("fsi_master").string(), command.case_file.string()},
+              {}};
+  add_options(run.words, command);
+  // mpirun gives its processes a terminal of its own: whether a person looks at ours is ours to say.
+  run.environment.emplace_back("TETHER_PROGRESS", isatty(STDOUT_FILENO) ? "bar" : "lines");
+  if (geteuid() == 0) {
+    run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+  }
+  return run;
+}
+
+}  // namespace tether

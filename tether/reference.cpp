@@ -1,0 +1,41 @@
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "common/base/error.hpp"
+#include "tether/programs.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+constexpr std::array readers{"fluid", "solid", "fsi_master"};
+
+/// Parts of a reference that stand or fall together: a field with its meaning, or a whole section's table.
+std::vector<std::string> blocks(const std::string& text, const std::string& format) {
+  std::vector<std::string> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool begins = format == "markdown" ? line.starts_with("## ") : !line.starts_with(" ");
+    if (begins || found.empty()) found.emplace_back();
+    found.back() += line + "\n";
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string case_reference(const std::string& format) {
+  std::vector<std::string> all;
+  for (const char* reader : readers) {
+    const ChildEnd end = capture({{sibling(reader).string(), "--describe-config", format}, {}});
+    if (end.exit_code != exit_done) throw run_error("{} --describe-config failed: {}", reader, end.errors);
+    for (auto& block : blocks(end.output, format))
+      if (std::find(all.begin(), all.end(), block) == all.end()) all.push_back(std::move(block));
+  }
+  std::string text;
+  for (const auto& block : all) text += block;
+  return text;
+}
+
+}  // namespace tether

@@ -1,0 +1,49 @@
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/output_folder.hpp"
+#include "tether/plots.hpp"
+#include "tether/programs.hpp"
+#include "tether/summary.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+void announce(const CaseFile& file, int steps, const std::filesystem::path& output) {
+  const auto& common = file.common();
+  std::cout << fmt::format("{}: {}\n{} steps of {} s, results in {}\n", common.name, common.title, steps,
+                           common.time.step, output.string())
+            << std::flush;
+}
+
+}  // namespace
+
+void check_case(const CommandLine& command) {
+  if (!std::filesystem::exists(command.case_file)) throw input_error("{}: no such file", command.case_file.string());
+  const ChildEnd end =
+      capture({{sibling("fsi_master").string(), "--validate", "--quiet", command.case_file.string()}, {}});
+  const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
+  if (end.exit_code == exit_input_wrong) throw InputError(message);
+  if (end.exit_code != exit_done) throw RunError(message);
+}
+
+int validate(const CommandLine& command) {
+  check_case(command);
+  if (!command.quiet) std::cout << command.case_file.string() << ": valid\n";
+  return exit_done;
+}
+
+int simulate(const CommandLine& command) {
+  check_case(command);
+  const CaseFile file(command.case_file);
+  const auto output = claim_output(command, file);
+  if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
+  if (const int code = run_in_foreground(coupled_run(command)); code != exit_done) return code;
+  const auto plots = draw_plots(output, file.units());
+  if (!command.quiet) std::cout << summary_text(output) << where_to_look(output, plots);
+  return exit_done;
+}
+
+}  // namespace tether

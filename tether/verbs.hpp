@@ -1,0 +1,17 @@
+#pragma once
+
+#include "common/config/command_line.hpp"
+
+namespace tether {
+
+/// Checks the case, runs it, draws plots and says where to look. Returns the run's exit code.
+int simulate(const CommandLine& command);
+
+/// Checks the case with every program that reads it. Throws InputError with all that they find.
+void check_case(const CommandLine& command);
+int validate(const CommandLine& command);
+
+/// The reference of the whole case file, gathered from the programs that read it. `format`: text or markdown.
+std::string case_reference(const std::string& format);
+
+}  // namespace tether
