@@ -1,5 +1,10 @@
 #include "fsi_master/application.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+
 #include "common/base/child_process.hpp"
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
@@ -138,18 +143,45 @@ int run(const CommandLine& command) {
   });
 }
 
-/// Our own programs check their sections of the case as well; of a foreign one only the file is looked for.
-void validate(const CommandLine& command) {
-  const MasterCase master(command.case_file);
-  const auto& programs = master.coupling.programs;
-  for (const auto& [role, name] : {std::pair("fluid", programs.fluid), std::pair("solid", programs.solid)}) {
-    const std::string executable = protocol::find_executable({role, name, {}});
-    if (fs::path(name).has_parent_path()) continue;
-    const ChildEnd end = capture({{executable, command.case_file.string(), "--validate", "--quiet"}, {}});
-    const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
-    if (end.exit_code == exit_input_wrong) throw InputError(message);
-    if (end.exit_code != exit_done) throw run_error("{} --validate ended with {}: {}", name, end.exit_code, message);
+/// Lines of messages, each once.
+class Findings {
+ public:
+  void add(const std::string& message) {
+    std::istringstream lines(message);
+    for (std::string line; std::getline(lines, line);)
+      if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
   }
+  void throw_if_any() const {
+    if (!lines_.empty()) throw input_error("{}", fmt::join(lines_, "\n"));
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+/// Our own programs check their sections of the case; of a foreign one only the file is looked for.
+void validate_by(const protocol::Program& partner, Findings& findings) {
+  const std::string executable = protocol::find_executable(partner);
+  if (fs::path(partner.executable).has_parent_path()) return;
+  const ChildEnd end = capture({{executable, partner.arguments.front(), "--validate", "--quiet"}, {}});
+  if (end.exit_code == exit_input_wrong) return findings.add(end.errors);
+  if (end.exit_code != exit_done)
+    throw run_error("{} --validate ended with {}: {}", partner.executable, end.exit_code, end.errors);
+}
+
+/// Finds what is wrong with any section of the case, and reports all of it.
+void validate(const CommandLine& command) {
+  Findings findings;
+  CouplingCase::Programs programs;
+  try {
+    programs = MasterCase(command.case_file).coupling.programs;
+  } catch (const InputError& error) {
+    findings.add(error.what());
+  }
+  const std::vector<std::string> arguments{command.case_file.string()};
+  validate_by({"fluid", programs.fluid, arguments}, findings);
+  validate_by({"solid", programs.solid, arguments}, findings);
+  findings.throw_if_any();
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace tether {
 namespace {
@@ -13,6 +15,13 @@ constexpr double refresh_interval = 0.1;  // seconds between two lines on a term
 
 double seconds_since(std::chrono::steady_clock::time_point moment) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
+}
+
+/// mpirun gives its processes a terminal of its own, so isatty says nothing there: whoever calls mpirun may tell by
+/// TETHER_PROGRESS (bar or lines) whether a person looks.
+bool on_terminal() {
+  if (const char* told = std::getenv("TETHER_PROGRESS")) return std::string_view(told) == "bar";
+  return std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && isatty(STDOUT_FILENO) == 1;
 }
 
 }  // namespace
@@ -29,7 +38,7 @@ Progress::Progress(std::int64_t first_step, std::int64_t last_step, const UnitSy
       last_(last_step),
       units_(units),
       quiet_(quiet),
-      terminal_(isatty(STDOUT_FILENO) == 1),
+      terminal_(on_terminal()),
       begun_(std::chrono::steady_clock::now()) {}
 
 std::string Progress::time_left(std::int64_t step) const {

@@ -15,7 +15,7 @@ COMMON = {
     "common/mesh": ["base"],
     "common/fem": ["base", "linalg", "mesh"],
     "common/io": ["base", "config", "linalg", "mesh"],
-    "common/case": ["base", "config", "mesh", "io"],
+    "common/case": ["base", "config", "io", "linalg", "mesh"],
     "common/protocol": ["base", "config"],
 }
 PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "tether"]

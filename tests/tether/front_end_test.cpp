@@ -1,0 +1,139 @@
+// The front-end beside a fsi_master that is a shell script: what reaches it, what comes back, what a person reads.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/child_process.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* finished_run = R"sh(
+case "$*" in
+  *--describe-config*) echo "fluid.density [g/cm3]  (number)"; echo "    mass per volume"; exit 0;;
+  *--validate*) exit 0;;
+esac
+echo "$@" >arguments
+mkdir -p results
+cat >results/timeseries.csv <<end
+time [s],fluid.outlet.flow [cm3/s],fluid.outlet.pressure [g/(cm s2)],point.middle.displacement_length [cm],coupling.evaluations
+0.1,1,1000,0.1,2
+0.2,2,2000,0.2,3
+end
+cat >results/summary.json <<end
+{"steps": 2, "wall_seconds": 1.25, "seconds_per_step": 0.625, "cpu_seconds": {"total": 2.5},
+ "peak_memory_mb": {"total": 99.6}, "pressure": {"min_mmHg": 0.75, "max_mmHg": 1.5}, "max_displacement_mm": 2.0,
+ "coupling_method": "iqn_ils", "coupling_iterations": {"mean": 2.5, "max": 3}, "mass_balance_error_max": 1e-13,
+ "units": {"flow": "cm3/s"}}
+end
+)sh";
+
+/// A folder with the front-end, a case, and the programs that a test makes up.
+class FrontEnd : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::temp_directory_path() / "tether_tests" / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    fs::copy_file(TETHER_PROGRAM, folder_ / "tether");
+    std::ofstream(folder_ / "case.yaml") << "name: tube\ntitle: A tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
+    for (const char* name : {"fluid", "solid", "fsi_master"}) program(name, finished_run);
+  }
+  void program(const std::string& name, const std::string& script) {
+    std::ofstream(folder_ / name) << "#!/bin/sh\n" << script;
+    fs::permissions(folder_ / name, fs::perms::owner_all);
+  }
+  ChildEnd tether(const std::string& arguments) {
+    return capture({{"/bin/sh", "-c", "cd " + folder_.string() + " && ./tether " + arguments}, {}});
+  }
+  std::string content(const std::string& name) {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FrontEnd, SimulatesDrawsAndSaysWhereToLook) {
+  const ChildEnd end = tether("simulate case.yaml --output results");
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(end.output, R"(tube: A tube
+2 steps of 0.1 s, results in results
+  2 steps in 1.2 s: 0.625 s a step; CPU 2.5 s, memory 100 MB over all processes
+  pressure       0.8 .. 1.5 mmHg
+  displacement   at most 2 mm
+  coupling       2.50 evaluations a step, at most 3 (iqn_ils)
+  mass balance   off by at most 1.0e-13 cm3/s
+In results:
+  plots/             pressures.png, flows.png, displacements.png, coupling.png
+  timeseries.csv     pressures, flows, displacements, forces at every step
+  summary.json       what was run, and how it went
+)");
+  for (const char* picture : {"pressures.png", "flows.png", "displacements.png", "coupling.png"})
+    EXPECT_GT(fs::file_size(folder_ / "results/plots" / picture), 5000u) << picture;
+}
+
+TEST_F(FrontEnd, HandsTheOptionsOn) {
+  EXPECT_EQ(tether("simulate case.yaml --output results --steps 7 --resume --quiet").output, "");
+  EXPECT_EQ(content("arguments"), "case.yaml --output results --steps 7 --resume --quiet\n");
+}
+
+TEST_F(FrontEnd, DoesNotStartAWrongCase) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) echo 'case.yaml:3: units: cgi' >&2; exit 2;; esac; touch started");
+  for (const char* verb : {"simulate", "validate"}) {
+    const ChildEnd end = tether(std::string(verb) + " case.yaml");
+    EXPECT_EQ(end.exit_code, 2);
+    EXPECT_EQ(end.errors, "case.yaml:3: units: cgi\n");
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "started"));
+  EXPECT_EQ(tether("simulate none.yaml").errors, "none.yaml: no such file\n");
+}
+
+TEST_F(FrontEnd, ReturnsTheCodeOfARunThatFails) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) exit 0;; esac; echo 'fsi_master: step 3 does not converge' >&2; exit 1");
+  const ChildEnd end = tether("simulate case.yaml --quiet");
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_EQ(end.errors, "fsi_master: step 3 does not converge\n") << "one message, none of mpirun's own";
+}
+
+TEST_F(FrontEnd, KeepsAnotherCasesResults) {
+  EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0);
+  EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "the same case may run again";
+  std::ofstream(folder_ / "other.yaml") << "name: aorta\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
+  const ChildEnd refused = tether("simulate other.yaml --output results");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(
+      refused.errors,
+      "results: holds the results of the case 'tube'; choose another folder with --output, or give --overwrite\n");
+  EXPECT_EQ(tether("simulate other.yaml --output results --overwrite").exit_code, 0);
+}
+
+TEST_F(FrontEnd, DescribesEachFieldOnce) {
+  program("solid", "echo 'solid.density [g/cm3]  (number)'; echo '    mass per volume'");
+  EXPECT_EQ(
+      tether("describe").output,
+      "fluid.density [g/cm3]  (number)\n    mass per volume\nsolid.density [g/cm3]  (number)\n    mass per volume\n");
+}
+
+TEST_F(FrontEnd, NamesWhatIsNotBuilt) {
+  fs::remove(folder_ / "fsi_master");
+  const ChildEnd end = tether("simulate case.yaml");
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors, (folder_ / "fsi_master").string() + ": no such program; is Tether built?\n");
+}
+
+TEST_F(FrontEnd, ListsItsVerbs) {
+  EXPECT_EQ(tether("--help").exit_code, 0);
+  EXPECT_EQ(tether("").exit_code, 2);
+  EXPECT_EQ(tether("simulte case.yaml").exit_code, 2);
+  EXPECT_NE(tether("simulte case.yaml").errors.find("tether: unknown verb 'simulte'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tether
