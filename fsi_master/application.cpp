@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 
 #include "common/base/child_process.hpp"
@@ -143,13 +144,17 @@ int run(const CommandLine& command) {
   });
 }
 
-/// Lines of messages, each once.
+/// What several checks find wrong: the lines of their messages, each once.
 class Findings {
  public:
-  void add(const std::string& message) {
-    std::istringstream lines(message);
-    for (std::string line; std::getline(lines, line);)
-      if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
+  void of(const std::function<void()>& check) {
+    try {
+      check();
+    } catch (const InputError& error) {
+      std::istringstream lines(error.what());
+      for (std::string line; std::getline(lines, line);)
+        if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
+    }
   }
   void throw_if_any() const {
     if (!lines_.empty()) throw input_error("{}", fmt::join(lines_, "\n"));
@@ -159,28 +164,26 @@ class Findings {
   std::vector<std::string> lines_;
 };
 
-/// Our own programs check their sections of the case; of a foreign one only the file is looked for.
-void validate_by(const protocol::Program& partner, Findings& findings) {
+/// Our own programs check their sections of the case; of a foreign one only the file is looked for. Throws InputError.
+void validate_by(const protocol::Program& partner) {
   const std::string executable = protocol::find_executable(partner);
   if (fs::path(partner.executable).has_parent_path()) return;
   const ChildEnd end = capture({{executable, partner.arguments.front(), "--validate", "--quiet"}, {}});
-  if (end.exit_code == exit_input_wrong) return findings.add(end.errors);
+  if (end.exit_code == exit_input_wrong) throw InputError(end.errors);
   if (end.exit_code != exit_done)
     throw run_error("{} --validate ended with {}: {}", partner.executable, end.exit_code, end.errors);
 }
 
 /// Finds what is wrong with any section of the case, and reports all of it.
 void validate(const CommandLine& command) {
-  Findings findings;
-  CouplingCase::Programs programs;
-  try {
-    programs = MasterCase(command.case_file).coupling.programs;
-  } catch (const InputError& error) {
-    findings.add(error.what());
-  }
+  CaseFile file(command.case_file);
+  CouplingCase coupling;
+  file.read("coupling", coupling);
   const std::vector<std::string> arguments{command.case_file.string()};
-  validate_by({"fluid", programs.fluid, arguments}, findings);
-  validate_by({"solid", programs.solid, arguments}, findings);
+  Findings findings;
+  findings.of([&] { file.finish(); });
+  findings.of([&] { validate_by({"fluid", coupling.programs.fluid, arguments}); });
+  findings.of([&] { validate_by({"solid", coupling.programs.solid, arguments}); });
   findings.throw_if_any();
 }
 

@@ -50,8 +50,8 @@ std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& 
   for (std::size_t i = 0; i < table.columns().size(); ++i) {
     const auto name = label(plot, table.columns()[i]);
     if (!name || table.units()[i] != unit) continue;
-    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{}) title '{}'", lines.empty() ? "plot " : ", \\\n     ",
-                         i + 1, factor(plot, units), *name);
+    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{}) with lines linewidth 2 title '{}'",
+                         lines.empty() ? "plot " : ", \\\n     ", i + 1, factor(plot, units), *name);
   }
   return lines;
 }
@@ -61,7 +61,7 @@ std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, c
   std::string text =
       "# Run in the folder of timeseries.csv: gnuplot plots/plots.gp\n"
       "set terminal pngcairo noenhanced size 1000,600 font 'sans,12'\n"
-      "set datafile separator ','\nset key outside right\nset grid\nset xlabel 'time [s]'\nset style data lines\n";
+      "set datafile separator ','\nset key outside right\nset grid\nset xlabel 'time [s]'\n";
   std::vector<std::string> pictures;
   for (const auto& plot : plots) {
     const std::string lines = lines_of(plot, table, units);
