@@ -30,21 +30,21 @@ void Ilu0::factor(const SparseMatrix& matrix) {
   }
 }
 
-void Ilu0::solve_in_place(Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>& x) const {
+void Ilu0::solve_in_place(Points& x) const {
   const int n = static_cast<int>(factors_.rows());
   const int* start = factors_.outerIndexPtr();
   const int* column = factors_.innerIndexPtr();
   const double* value = factors_.valuePtr();
   for (int row = 0; row < n; ++row) {
-    Eigen::RowVector3d sum = x.row(row);
-    for (int k = start[row]; k < diagonal_[static_cast<std::size_t>(row)]; ++k) sum -= value[k] * x.row(column[k]);
-    x.row(row) = sum;
+    Vec3 sum = x.col(row);
+    for (int k = start[row]; k < diagonal_[static_cast<std::size_t>(row)]; ++k) sum -= value[k] * x.col(column[k]);
+    x.col(row) = sum;
   }
   for (int row = n - 1; row >= 0; --row) {
     const int d = diagonal_[static_cast<std::size_t>(row)];
-    Eigen::RowVector3d sum = x.row(row);
-    for (int k = d + 1; k < start[row + 1]; ++k) sum -= value[k] * x.row(column[k]);
-    x.row(row) = value[d] * sum;
+    Vec3 sum = x.col(row);
+    for (int k = d + 1; k < start[row + 1]; ++k) sum -= value[k] * x.col(column[k]);
+    x.col(row) = value[d] * sum;
   }
 }
 

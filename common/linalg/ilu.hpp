@@ -10,8 +10,8 @@ class Ilu0 {
  public:
   /// Throws RunError on a zero pivot.
   void factor(const SparseMatrix& matrix);
-  /// x, one column a right-hand side, overwritten by U^-1 L^-1 x; rows of x are the unknowns, stored side by side.
-  void solve_in_place(Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>& x) const;
+  /// x <- U^-1 L^-1 x for three right-hand sides at once: column i of x holds the three values of unknown i.
+  void solve_in_place(Points& x) const;
 
  private:
   SparseMatrix factors_;       // strictly lower part: L (unit diagonal); rest: U, its diagonal inverted

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fluid/advection_diffusion.hpp"
+#include "fluid/fluid_domain.hpp"
+#include "fluid/openings.hpp"
+#include "fluid/projection.hpp"
+#include "fluid/settings.hpp"
+
+namespace tether::fluid {
+
+/// A number that can be set by name, such as "outlets.outlet.distal_resistance".
+struct NamedParameter {
+  std::string name;
+  const Parameter* declaration;
+  std::function<double()> get;
+  std::function<void(double)> set;  ///< throws InputError for a value out of range
+};
+
+/// A number reported after every accepted step, such as "outlet.flow".
+struct Observable {
+  std::string name;
+  Dimension dimension;
+};
+
+/// Blood in a moving vessel: ALE Navier-Stokes by Chorin-Temam's splitting, P1/P1 (docs/equations.md, section F).
+/// One step: begin_step once, evaluate and tangent as often as the coupling needs, then accept or rewind.
+/// Arrays on the interface have one column a node of Sigma, in ascending order of the fluid mesh's nodes.
+class FluidSolver {
+ public:
+  /// Throws InputError if mesh and settings do not fit.
+  FluidSolver(FluidMesh mesh, const FluidSettings& settings);
+  FluidSolver(const FluidSolver&) = delete;
+  FluidSolver& operator=(const FluidSolver&) = delete;
+
+  const FluidDomain& domain() const { return domain_; }
+
+  /// The explicit stage, from `time` to time + dt: mesh, advection-diffusion, and all of the projection but its right-hand side.
+  /// predicted: displacement of the interface expected at the end. Throws RunError if the mesh folds or a solve fails; the
+  /// accepted state is untouched.
+  void begin_step(double time, double dt, const Points& predicted);
+  /// The projection stage: forces of the blood on the wall's nodes, for the interface displacement y1 and its velocity
+  /// V = (y1 - y0)/dt (not the wall's own end velocity). Depends on V alone; y1 is kept for the volume. (F.8) to (F.10)
+  Points evaluate(const Points& displacement, const Points& velocity);
+  /// Change of that load by a change of V: - B' (L + e e'/Z)^-1 B dV, symmetric negative semi-definite. (F.11)
+  Points tangent(const Points& velocity_change) const;
+  /// Keeps the last evaluation as the new state.
+  void accept();
+  /// Forgets the step begun.
+  void rewind() { begun_ = evaluated_ = false; }
+
+  /// Everything needed to continue, bit for bit.
+  VectorXd state() const;
+  void set_state(const VectorXd& values);
+
+  const std::vector<NamedParameter>& parameters() const { return parameters_; }
+  /// Takes effect at the next begin_step. Throws InputError for an unknown name or a value out of range.
+  void set_parameter(const std::string& name, double value);
+
+  const std::vector<Observable>& observables() const { return observables_; }
+  /// Of the last accepted step, in the order of `observables`.
+  const VectorXd& observed() const { return observed_; }
+
+  /// Fields of the last accepted step at all nodes, for output: v~, p, and the mesh's displacement.
+  const Points& velocity() const { return accepted_.velocity; }
+  const VectorXd& pressure() const { return accepted_.pressure; }
+  const Points& mesh_displacement() const { return accepted_.displacement; }
+
+ private:
+  /// What the next step starts from. Fields after `derived` follow from those before.
+  struct Accepted {
+    Points velocity;       // v~0
+    VectorXd pressure;     // p0
+    Points on_sigma;       // the predicted displacement of Sigma that placed the mesh
+    VectorXd stored;       // a pressure for each opening
+    double impulse = 0;    // dt_0/rho_0; 0 before the first step
+    double volume = 0;     // of the lumen with the interface where it was accepted
+    // derived
+    Points displacement;   // d0, all nodes
+    Points carried;        // impulse * grad p0, one column an element (F.3)
+  };
+  /// The step under way.
+  struct Trial {
+    double end_time = 0, dt = 0;
+    Points on_sigma, displacement, mesh_velocity;  // predicted; d1; w
+    Points velocity;                               // v~
+    VectorXd rhs;                                  // of the projection, without the interface's part
+    VectorXd known;                                // of each opening
+    std::vector<OutletInput> inputs;
+    double inflow = 0, swept = 0;  // through the flow inlets, relative to them; by the end faces' own motion, outward
+    Points viscous_load;
+    // of the last evaluation
+    Points interface_displacement;
+    double interface_flux = 0;
+    Projection::Solution solution;
+  };
+
+  void declare_parameters();
+  void declare_observables();
+  void store_initial_pressures();
+
+  void move_mesh();
+  void predict_velocity();
+  void prepare_projection();
+  Points acceleration() const;
+  Points viscous_load() const;
+  double kinematic_viscosity() const;
+  void observe();
+  void derive(Accepted& state) const;
+
+  FluidDomain domain_;
+  Configured<Blood> blood_;
+  Configured<Rheology> rheology_;
+  std::vector<FlowInlet> flow_inlets_;
+  std::vector<Opening> openings_;
+  std::vector<const Surface*> open_faces_;
+  std::function<Vec3(const Vec3&, double)> body_acceleration_;
+  double linear_tolerance_;
+
+  AdvectionDiffusion advection_diffusion_;
+  Projection projection_;
+
+  Accepted accepted_;
+  Trial trial_;
+  bool begun_ = false, evaluated_ = false;
+  std::vector<NamedParameter> parameters_;
+  std::vector<Observable> observables_;
+  VectorXd observed_;
+};
+
+}  // namespace tether::fluid

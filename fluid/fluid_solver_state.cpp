@@ -1,0 +1,134 @@
+// State, parameters and observables of the FluidSolver: what others see of it between steps.
+#include "common/base/error.hpp"
+#include "fluid/fluid_solver.hpp"
+
+namespace tether::fluid {
+namespace {
+
+/// Copies values to or from consecutive places of one vector.
+class Cursor {
+ public:
+  explicit Cursor(Eigen::Index at = 0) : at_(at) {}
+  template <class Field>
+  void write(VectorXd& to, const Field& field) {
+    to.segment(at_, field.size()) = field.reshaped();
+    at_ += field.size();
+  }
+  template <class Field>
+  void read(const VectorXd& from, Field& field) {
+    field.reshaped() = from.segment(at_, field.size());
+    at_ += field.size();
+  }
+
+ private:
+  Eigen::Index at_;
+};
+
+}  // namespace
+
+VectorXd FluidSolver::state() const {
+  const Accepted& a = accepted_;
+  VectorXd values(2 + a.velocity.size() + a.pressure.size() + a.on_sigma.size() + a.stored.size());
+  values[0] = a.impulse;
+  values[1] = a.volume;
+  Cursor cursor(2);
+  cursor.write(values, a.velocity);
+  cursor.write(values, a.pressure);
+  cursor.write(values, a.on_sigma);
+  cursor.write(values, a.stored);
+  return values;
+}
+
+void FluidSolver::set_state(const VectorXd& values) {
+  if (const auto size = state().size(); values.size() != size)
+    throw input_error("a state of the fluid has {} numbers, not {}: it belongs to another mesh or case", size, values.size());
+  accepted_.impulse = values[0];
+  accepted_.volume = values[1];
+  Cursor cursor(2);
+  cursor.read(values, accepted_.velocity);
+  cursor.read(values, accepted_.pressure);
+  cursor.read(values, accepted_.on_sigma);
+  cursor.read(values, accepted_.stored);
+  derive(accepted_);
+  rewind();
+}
+
+/// The fields that the state need not carry.
+void FluidSolver::derive(Accepted& state) const {
+  state.displacement = domain_.extend(state.on_sigma);
+  const auto geometry = geometry_of(domain_.mesh().points + state.displacement, domain_.tetrahedra());
+  state.carried = state.impulse * gradient(geometry, domain_.tetrahedra(), state.pressure);
+}
+
+void FluidSolver::store_initial_pressures() {
+  accepted_.stored.resize(static_cast<Eigen::Index>(openings_.size()));
+  for (std::size_t i = 0; i < openings_.size(); ++i)
+    accepted_.stored[static_cast<Eigen::Index>(i)] = openings_[i].beyond->initial();
+}
+
+void FluidSolver::declare_parameters() {
+  const auto add = [this](const std::string& prefix, auto& effect) {
+    for (std::size_t i = 0; i < effect.declaration().parameters.size(); ++i) {
+      const Parameter& declaration = effect.declaration().parameters[i];
+      parameters_.push_back({prefix + declaration.name, &declaration, [&effect, i] { return effect.values()[i]; },
+                             [&effect, &declaration](double value) { effect.set(declaration.name, value); }});
+    }
+  };
+  add("", blood_);
+  add("rheology.", rheology_);
+  for (auto& inlet : flow_inlets_) add("inlets." + inlet.face().name + ".", inlet.inflow);
+  for (auto& opening : openings_)
+    add((opening.is_inlet() ? "inlets." : "outlets.") + opening.face().name + ".", opening.beyond);
+}
+
+void FluidSolver::set_parameter(const std::string& name, double value) {
+  const auto found =
+      std::find_if(parameters_.begin(), parameters_.end(), [&](const NamedParameter& p) { return p.name == name; });
+  if (found == parameters_.end()) throw input_error("the fluid has no parameter \"{}\"", name);
+  found->set(value);
+  if (accepted_.impulse == 0) store_initial_pressures();
+}
+
+void FluidSolver::declare_observables() {
+  for (const auto& inlet : flow_inlets_) {
+    observables_.push_back({inlet.face().name + ".flow", dimension::flow});
+    observables_.push_back({inlet.face().name + ".pressure", dimension::pressure});
+  }
+  for (const auto& opening : openings_) {
+    observables_.push_back({opening.face().name + ".flow", dimension::flow});
+    observables_.push_back({opening.face().name + ".pressure", dimension::pressure});
+    if (opening.beyond->stores()) observables_.push_back({opening.face().name + ".windkessel_pressure", dimension::pressure});
+  }
+  observables_.push_back({"volume", dimension::volume});
+  observables_.push_back({"mass_balance_error", dimension::flow});
+  observables_.push_back({"volume_balance_error", dimension::flow});
+  observables_.push_back({"smallest_jacobian", dimension::none});
+  observed_ = VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+}
+
+/// Flows are relative to the moving faces: into the vessel at inlets, out of it at outlets. (F.13)
+void FluidSolver::observe() {
+  const auto& solution = trial_.solution;
+  std::vector<double> values;
+  double net_inflow = trial_.inflow;
+  for (const auto& inlet : flow_inlets_) {
+    values.push_back(inlet.flow(trial_.end_time));
+    values.push_back(inlet.face().mean(inlet.face().local(solution.pressure)));
+  }
+  for (std::size_t i = 0; i < openings_.size(); ++i) {
+    const auto& opening = openings_[i];
+    const double outflow = solution.flow[static_cast<Eigen::Index>(i)];
+    net_inflow -= outflow;
+    values.push_back(opening.is_inlet() ? -outflow : outflow);
+    values.push_back(opening.face().mean(opening.face().local(solution.pressure)));
+    if (opening.beyond->stores()) values.push_back(opening.beyond->advanced(trial_.inputs[i], outflow));
+  }
+  const double volume = domain_.volume(trial_.interface_displacement);
+  values.push_back(volume);
+  values.push_back(net_inflow - trial_.interface_flux - trial_.swept);
+  values.push_back(net_inflow - (volume - accepted_.volume) / trial_.dt);
+  values.push_back(domain_.smallest_jacobian());
+  observed_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace tether::fluid

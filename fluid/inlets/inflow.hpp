@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "common/base/effect.hpp"
+
+namespace tether::fluid {
+
+/// What an inlet makes of its curve: Q(t) = gain(t) curve(curve_time(t)), into the vessel [volume/time]. (F.12)
+class Inflow {
+ public:
+  virtual ~Inflow() = default;
+  virtual double gain(double time) const = 0;
+  virtual double curve_time(double time) const = 0;
+};
+
+/// All kinds of inflow, one line each in registry.cpp.
+std::span<const Registered<Inflow>> inflows();
+
+}  // namespace tether::fluid

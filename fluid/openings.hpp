@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/base/configured.hpp"
+#include "fluid/end_face.hpp"
+#include "fluid/inlets/inflow.hpp"
+#include "fluid/outlets/outlet.hpp"
+#include "fluid/settings.hpp"
+
+namespace tether::fluid {
+
+/// An inlet through which the flow is given: the velocity is prescribed on its face.
+class FlowInlet {
+ public:
+  FlowInlet(const EndFace& face, const InletSettings& settings);
+
+  const EndFace& face() const { return *face_; }
+  Configured<Inflow> inflow;
+
+  /// Into the vessel [volume/time].
+  double flow(double time) const { return inflow->gain(time) * curve_(inflow->curve_time(time)); }
+  /// At the face's nodes (local), relative to the moving face; its flux is -flow(time) to round-off.
+  Points velocity(double time, double kinematic_viscosity);
+
+ private:
+  const EndFace* face_;
+  Curve curve_;
+  Profile kind_;
+  std::optional<InletProfile> profile_;  // made when first needed, and again when the viscosity has changed
+  double profile_viscosity_ = 0;
+};
+
+/// An outlet, or an inlet with a given pressure: the velocity is free, the pressure one number on the whole face.
+class Opening {
+ public:
+  Opening(const EndFace& face, const EffectChoice& effect, const Curve& curve, bool is_inlet);
+
+  const EndFace& face() const { return *face_; }
+  bool is_inlet() const { return is_inlet_; }
+  Configured<Outlet> beyond;
+
+  OutletInput input(double time, double dt, double stored) const { return {dt, stored, curve_(time)}; }
+
+ private:
+  const EndFace* face_;
+  Curve curve_;
+  bool is_inlet_;
+};
+
+}  // namespace tether::fluid

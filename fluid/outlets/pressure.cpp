@@ -1,0 +1,31 @@
+#include "fluid/outlets/outlet.hpp"
+
+namespace tether::fluid {
+namespace {
+
+/// p = pressure + scale curve(t), whatever the flow (F.9 with Z = 0).
+class PrescribedPressure : public Outlet {
+ public:
+  explicit PrescribedPressure(std::span<const double> v) : pressure_(v[0]), scale_(v[1]) {}
+  double impedance(double) const override { return 0; }
+  double known(const OutletInput& input) const override { return pressure_ + scale_ * input.curve; }
+
+ private:
+  double pressure_, scale_;
+};
+
+const EffectDeclaration declaration{
+    "pressure",
+    "a measured or chosen pressure",
+    Place::outlet,
+    {{"pressure", "constant part, relative to the reference pressure", dimension::pressure, range::any, 0.0, 0.0,
+      Transform::linear, undefined},
+     {"scale", "factor of the curve", dimension::none, range::any, 1.0, undefined, Transform::linear, 0.1}}};
+
+}  // namespace
+
+extern const Registered<Outlet> prescribed_pressure{declaration, [](std::span<const double> v) -> std::unique_ptr<Outlet> {
+                                                      return std::make_unique<PrescribedPressure>(v);
+                                                    }};
+
+}  // namespace tether::fluid

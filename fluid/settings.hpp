@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+
+#include "common/base/configured.hpp"
+#include "common/base/types.hpp"
+#include "fluid/curve.hpp"
+#include "fluid/inlet_profile.hpp"
+#include "fluid/mesh_motion.hpp"
+
+namespace tether::fluid {
+
+/// Numbers of the blood and of the scheme that are not an effect's. Their names, units and standards: `blood()`.
+struct Blood {
+  double density = 0;
+  double backflow_stabilisation = 0;
+  double wall_load_offset = 0;
+};
+
+/// Their declaration, in the form of a registry with one entry.
+std::span<const Registered<Blood>> blood();
+
+/// One inlet: a flow spread by a profile, or a pressure.
+struct InletSettings {
+  EffectChoice effect{"flow", {}};  ///< "flow", or "pressure": of the family of outlets
+  Curve curve;                      ///< flow into the vessel [volume/time], or pressure
+  Profile profile = Profile::parabolic;
+};
+
+struct OutletSettings {
+  EffectChoice effect;
+  Curve curve;  ///< optional: added to the pressure behind the outlet, see the outlet's own description
+};
+
+/// All that a case says about the fluid, the mesh aside. Pressures are relative to the case's reference pressure.
+struct FluidSettings {
+  EffectChoice blood{"blood", {}};
+  EffectChoice rheology;
+  MeshMotionKind mesh_motion = MeshMotionKind::harmonic;
+  std::map<std::string, InletSettings> inlets;    ///< by the name of the mesh's face
+  std::map<std::string, OutletSettings> outlets;
+  /// Force per mass at a point and time, such as gravity; empty: none.
+  std::function<Vec3(const Vec3& x, double time)> body_acceleration;
+  double linear_tolerance = 1e-9;                 ///< of the advection-diffusion solve, relative
+};
+
+}  // namespace tether::fluid

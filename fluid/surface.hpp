@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "common/base/types.hpp"
+#include "common/mesh/mesh.hpp"
+
+namespace tether::fluid {
+
+/// A piece of the fluid's boundary (Sigma, an inlet, an outlet) with its own numbering of nodes; normals out of the fluid.
+/// Fields on it are `local`: one column (or entry) a node, in the order of `nodes`.
+class Surface {
+ public:
+  Surface(const std::vector<Triangle>& triangles, const FluidMesh& mesh);
+
+  std::vector<int> nodes;           ///< of the volume mesh, ascending
+  std::vector<Triangle> triangles;  ///< local nodes
+  std::vector<int> tetrahedra;      ///< the element behind each triangle
+  Points area_vectors;              ///< n dA of each triangle where the mesh stands now
+
+  /// The mesh now stands at `points` (all nodes).
+  void place(const Points& points);
+
+  Points local(const Points& field) const;
+  VectorXd local(const VectorXd& field) const;
+  /// (B v)_a = int v.n phi_a, local v and result. (F.8)
+  VectorXd flux(const Points& velocity) const;
+  /// (B' p)_a = int p n phi_a, local p and result: the transpose of `flux`. (F.10)
+  Points pressure_force(const VectorXd& pressure) const;
+  double total_flux(const Points& velocity) const;
+  double area() const;
+  double mean(const VectorXd& values) const;
+  /// This surface's share of the volume it encloses with others, its nodes at `points` (local): int x.n / 3.
+  double enclosed(const Points& points) const;
+};
+
+}  // namespace tether::fluid
