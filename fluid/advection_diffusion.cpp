@@ -7,7 +7,9 @@ namespace {
 
 constexpr int max_iterations = 500;
 
-Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Index as_index(std::size_t i) {
+  return static_cast<Eigen::Index>(i);
+}
 
 /// Mean of v0 - w over a boundary triangle, through it: (v~0 - carried - w).N. (F.7)
 double relative_flux(const StageInput& input, const Surface& face, std::size_t t) {
@@ -38,7 +40,8 @@ AdvectionDiffusion::AdvectionDiffusion(const FluidDomain& domain, std::vector<in
       rhs_(3, domain.node_count()),
       viscosity_(as_index(domain.tetrahedra().size())) {}
 
-KrylovResult AdvectionDiffusion::solve(const FluidDomain& domain, const StageInput& input, double tolerance, Points& velocity) {
+KrylovResult AdvectionDiffusion::solve(const FluidDomain& domain, const StageInput& input, double tolerance,
+                                       Points& velocity) {
   update_viscosity(domain, input);
   assemble(domain, input);
   add_backflow(domain, input);
@@ -94,7 +97,8 @@ void AdvectionDiffusion::add_backflow(const FluidDomain& domain, const StageInpu
 }
 
 /// (F.6), of the previous velocity: - (mu ((grad v)' - div v), grad phi) and, over the open faces, its boundary term.
-/// Together they vanish for one viscosity; the condition left at the open faces is mu dv/dn = 0, that of a developed flow.
+/// Together they vanish for one viscosity; the condition left at the open faces is mu dv/dn = 0, that of a developed
+/// flow.
 void AdvectionDiffusion::add_viscosity_gradient(const FluidDomain& domain, const StageInput& input) {
   const auto stress = [&](std::size_t e) -> Mat3 {
     const Mat3 grad_v = velocity_gradient(domain.geometry()[e], gather(input.velocity, domain.tetrahedra()[e]));

@@ -44,7 +44,8 @@ inline ElementSystem advection_diffusion(const TetGeometry& g, const ElementFlow
   const Nodal driven = flow.velocity + dt * flow.acceleration;
   const Vec3 driven_sum = driven.rowwise().sum();
   const Vec3 v0_mean = driven_sum / 4 - flow.carried;
-  result.rhs = (rho / dt * V) * (((driven.colwise() + driven_sum) / 20).colwise() - flow.carried / 4 + tau * v0_mean * along.transpose());
+  result.rhs = (rho / dt * V) * (((driven.colwise() + driven_sum) / 20).colwise() - flow.carried / 4 +
+                                 tau * v0_mean * along.transpose());
   return result;
 }
 

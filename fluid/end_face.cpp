@@ -47,7 +47,8 @@ EndFace::EndFace(const Patch& patch, const FluidMesh& mesh, const std::vector<in
   for (std::size_t i = 0; i < nodes.size(); ++i)
     (std::binary_search(sigma_nodes.begin(), sigma_nodes.end(), nodes[i]) ? rim : inner).push_back(static_cast<int>(i));
   if (rim.empty()) throw input_error("face \"{}\" of the fluid mesh has no rim on the interface", name);
-  if (inner.empty()) throw input_error("face \"{}\" of the fluid mesh has no node inside its rim: refine the mesh", name);
+  if (inner.empty())
+    throw input_error("face \"{}\" of the fluid mesh has no node inside its rim: refine the mesh", name);
 
   const auto count = static_cast<Eigen::Index>(nodes.size());
   const Points x = local(mesh.points);

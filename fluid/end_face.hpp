@@ -24,8 +24,8 @@ class EndFace : public Surface {
 
   /// Fills the inner columns of a local field by the harmonic extension of its rim columns. (F.1)
   void extend_from_rim(Points& field) const;
-  /// Local psi of - laplace psi + alpha psi = 1, psi = 0 on the rim: a paraboloid on a circle for alpha = 0, Womersley's
-  /// profile for alpha = i omega rho / mu. (F.12)
+  /// Local psi of - laplace psi + alpha psi = 1, psi = 0 on the rim: a paraboloid on a circle for alpha = 0,
+  /// Womersley's profile for alpha = i omega rho / mu. (F.12)
   Eigen::VectorXcd developed_profile(std::complex<double> alpha) const;
   /// int psi dA in the reference mesh.
   std::complex<double> integral(const Eigen::VectorXcd& psi) const;

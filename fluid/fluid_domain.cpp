@@ -8,7 +8,8 @@
 namespace tether::fluid {
 namespace {
 
-std::vector<EndFace> end_faces(const std::vector<Patch>& patches, const FluidMesh& mesh, const std::vector<int>& sigma_nodes) {
+std::vector<EndFace> end_faces(const std::vector<Patch>& patches, const FluidMesh& mesh,
+                               const std::vector<int>& sigma_nodes) {
   std::vector<EndFace> result;
   for (const auto& patch : patches) result.emplace_back(patch, mesh, sigma_nodes);
   return result;
@@ -46,7 +47,8 @@ FluidDomain::FluidDomain(FluidMesh mesh, MeshMotionKind motion)
   check_apart(mesh_.inlets, mesh_.outlets);
   reference_volumes_.reserve(geometry_.size());
   for (std::size_t e = 0; e < geometry_.size(); ++e) {
-    if (!(geometry_[e].volume > 0)) throw input_error("element {} of the fluid mesh has the volume {}", e, geometry_[e].volume);
+    if (!(geometry_[e].volume > 0))
+      throw input_error("element {} of the fluid mesh has the volume {}", e, geometry_[e].volume);
     reference_volumes_.push_back(geometry_[e].volume);
   }
 }

@@ -18,7 +18,7 @@ class FluidDomain {
   int node_count() const { return static_cast<int>(mesh_.points.cols()); }
   const std::vector<Tetrahedron>& tetrahedra() const { return mesh_.tetrahedra; }
 
-  Surface sigma;                      ///< the interface
+  Surface sigma;  ///< the interface
   std::vector<EndFace> inlets, outlets;
 
   /// Displacement of all nodes from that of Sigma (local): rims, then end faces, then the inside. (F.1)

@@ -21,7 +21,8 @@ std::vector<FlowInlet> make_flow_inlets(const FluidDomain& domain, const FluidSe
   std::vector<FlowInlet> result;
   for (const auto& face : domain.inlets) {
     const auto found = settings.inlets.find(face.name);
-    if (found == settings.inlets.end()) throw input_error("nothing is said about inlet \"{}\" of the fluid mesh", face.name);
+    if (found == settings.inlets.end())
+      throw input_error("nothing is said about inlet \"{}\" of the fluid mesh", face.name);
     if (found->second.effect.type != "pressure") result.emplace_back(face, found->second);
   }
   return result;
@@ -34,14 +35,16 @@ std::vector<Opening> make_openings(const FluidDomain& domain, const FluidSetting
       result.emplace_back(face, inlet.effect, inlet.curve, true);
   for (const auto& face : domain.outlets) {
     const auto found = settings.outlets.find(face.name);
-    if (found == settings.outlets.end()) throw input_error("nothing is said about outlet \"{}\" of the fluid mesh", face.name);
+    if (found == settings.outlets.end())
+      throw input_error("nothing is said about outlet \"{}\" of the fluid mesh", face.name);
     result.emplace_back(face, found->second.effect, found->second.curve, false);
   }
   return result;
 }
 
 template <class Settings>
-void check_faces_exist(const std::map<std::string, Settings>& named, const std::vector<EndFace>& faces, const char* kind) {
+void check_faces_exist(const std::map<std::string, Settings>& named, const std::vector<EndFace>& faces,
+                       const char* kind) {
   for (const auto& [name, unused] : named)
     if (std::none_of(faces.begin(), faces.end(), [&](const EndFace& face) { return face.name == name; }))
       throw input_error("the fluid mesh has no {} \"{}\"", kind, name);
@@ -85,7 +88,8 @@ FluidSolver::FluidSolver(FluidMesh mesh, const FluidSettings& settings)
 }
 
 void FluidSolver::begin_step(double time, double dt, const Points& predicted) {
-  TETHER_ASSERT(predicted.cols() == accepted_.on_sigma.cols(), "{} of {} interface nodes", predicted.cols(), accepted_.on_sigma.cols());
+  TETHER_ASSERT(predicted.cols() == accepted_.on_sigma.cols(), "{} of {} interface nodes", predicted.cols(),
+                accepted_.on_sigma.cols());
   TETHER_ASSERT(dt > 0, "dt = {}", dt);
   begun_ = evaluated_ = false;
   trial_.dt = dt;
@@ -117,12 +121,14 @@ void FluidSolver::predict_velocity() {
     trial_.velocity(Eigen::all, face.nodes) = profile + face.local(trial_.mesh_velocity);
   }
   const Points force = acceleration();
-  const StageInput input{blood_->density,      trial_.dt,        blood_->backflow_stabilisation, *rheology_, accepted_.velocity,
-                         accepted_.carried, trial_.mesh_velocity, force,                          open_faces_};
+  const StageInput input{blood_->density,    trial_.dt,         blood_->backflow_stabilisation, *rheology_,
+                         accepted_.velocity, accepted_.carried, trial_.mesh_velocity,           force,
+                         open_faces_};
   const KrylovResult result = advection_diffusion_.solve(domain_, input, linear_tolerance_, trial_.velocity);
   if (!result.converged)
-    throw run_error("the advection-diffusion solve of the fluid stops at a relative residual of {:.2g} after {} iterations",
-                    result.residual, result.iterations);
+    throw run_error(
+        "the advection-diffusion solve of the fluid stops at a relative residual of {:.2g} after {} iterations",
+        result.residual, result.iterations);
 }
 
 /// (F.8), (F.9): the matrix, and of the right-hand side (v~, grad q) - <u_in.n, q>, the end faces' motion included.
@@ -219,6 +225,8 @@ Points FluidSolver::acceleration() const {
   return result;
 }
 
-double FluidSolver::kinematic_viscosity() const { return rheology_->viscosity(typical_shear_rate) / blood_->density; }
+double FluidSolver::kinematic_viscosity() const {
+  return rheology_->viscosity(typical_shear_rate) / blood_->density;
+}
 
 }  // namespace tether::fluid

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/parameter_table.hpp"
 #include "fluid/advection_diffusion.hpp"
 #include "fluid/fluid_domain.hpp"
 #include "fluid/openings.hpp"
@@ -11,14 +12,6 @@
 #include "fluid/settings.hpp"
 
 namespace tether::fluid {
-
-/// A number that can be set by name, such as "outlets.outlet.distal_resistance".
-struct NamedParameter {
-  std::string name;
-  const Parameter* declaration;
-  std::function<double()> get;
-  std::function<void(double)> set;  ///< throws InputError for a value out of range
-};
 
 /// A number reported after every accepted step, such as "outlet.flow".
 struct Observable {
@@ -38,9 +31,9 @@ class FluidSolver {
 
   const FluidDomain& domain() const { return domain_; }
 
-  /// The explicit stage, from `time` to time + dt: mesh, advection-diffusion, and all of the projection but its right-hand side.
-  /// predicted: displacement of the interface expected at the end. Throws RunError if the mesh folds or a solve fails; the
-  /// accepted state is untouched.
+  /// The explicit stage, from `time` to time + dt: mesh, advection-diffusion, and all of the projection but its
+  /// right-hand side. predicted: displacement of the interface expected at the end. Throws RunError if the mesh folds
+  /// or a solve fails; the accepted state is untouched.
   void begin_step(double time, double dt, const Points& predicted);
   /// The projection stage: forces of the blood on the wall's nodes, for the interface displacement y1 and its velocity
   /// V = (y1 - y0)/dt (not the wall's own end velocity). Depends on V alone; y1 is kept for the volume. (F.8) to (F.10)
@@ -56,7 +49,8 @@ class FluidSolver {
   VectorXd state() const;
   void set_state(const VectorXd& values);
 
-  const std::vector<NamedParameter>& parameters() const { return parameters_; }
+  /// All numbers that can be set, such as "fluid.outlets.outlet.distal_resistance".
+  const ParameterTable& parameters() const { return parameters_; }
   /// Takes effect at the next begin_step. Throws InputError for an unknown name or a value out of range.
   void set_parameter(const std::string& name, double value);
 
@@ -72,15 +66,15 @@ class FluidSolver {
  private:
   /// What the next step starts from. Fields after `derived` follow from those before.
   struct Accepted {
-    Points velocity;       // v~0
-    VectorXd pressure;     // p0
-    Points on_sigma;       // the predicted displacement of Sigma that placed the mesh
-    VectorXd stored;       // a pressure for each opening
-    double impulse = 0;    // dt_0/rho_0; 0 before the first step
-    double volume = 0;     // of the lumen with the interface where it was accepted
+    Points velocity;     // v~0
+    VectorXd pressure;   // p0
+    Points on_sigma;     // the predicted displacement of Sigma that placed the mesh
+    VectorXd stored;     // a pressure for each opening
+    double impulse = 0;  // dt_0/rho_0; 0 before the first step
+    double volume = 0;   // of the lumen with the interface where it was accepted
     // derived
-    Points displacement;   // d0, all nodes
-    Points carried;        // impulse * grad p0, one column an element (F.3)
+    Points displacement;  // d0, all nodes
+    Points carried;       // impulse * grad p0, one column an element (F.3)
   };
   /// The step under way.
   struct Trial {
@@ -126,7 +120,7 @@ class FluidSolver {
   Accepted accepted_;
   Trial trial_;
   bool begun_ = false, evaluated_ = false;
-  std::vector<NamedParameter> parameters_;
+  ParameterTable parameters_;
   std::vector<Observable> observables_;
   VectorXd observed_;
 };

@@ -41,7 +41,8 @@ VectorXd FluidSolver::state() const {
 
 void FluidSolver::set_state(const VectorXd& values) {
   if (const auto size = state().size(); values.size() != size)
-    throw input_error("a state of the fluid has {} numbers, not {}: it belongs to another mesh or case", size, values.size());
+    throw input_error("a state of the fluid has {} numbers, not {}: it belongs to another mesh or case", size,
+                      values.size());
   accepted_.impulse = values[0];
   accepted_.volume = values[1];
   Cursor cursor(2);
@@ -67,25 +68,16 @@ void FluidSolver::store_initial_pressures() {
 }
 
 void FluidSolver::declare_parameters() {
-  const auto add = [this](const std::string& prefix, auto& effect) {
-    for (std::size_t i = 0; i < effect.declaration().parameters.size(); ++i) {
-      const Parameter& declaration = effect.declaration().parameters[i];
-      parameters_.push_back({prefix + declaration.name, &declaration, [&effect, i] { return effect.values()[i]; },
-                             [&effect, &declaration](double value) { effect.set(declaration.name, value); }});
-    }
-  };
-  add("", blood_);
-  add("rheology.", rheology_);
-  for (auto& inlet : flow_inlets_) add("inlets." + inlet.face().name + ".", inlet.inflow);
+  parameters_.add_effect("fluid", blood_);
+  parameters_.add_effect("fluid.rheology", rheology_);
+  for (auto& inlet : flow_inlets_) parameters_.add_effect("fluid.inlets." + inlet.face().name, inlet.inflow);
   for (auto& opening : openings_)
-    add((opening.is_inlet() ? "inlets." : "outlets.") + opening.face().name + ".", opening.beyond);
+    parameters_.add_effect((opening.is_inlet() ? "fluid.inlets." : "fluid.outlets.") + opening.face().name,
+                           opening.beyond);
 }
 
 void FluidSolver::set_parameter(const std::string& name, double value) {
-  const auto found =
-      std::find_if(parameters_.begin(), parameters_.end(), [&](const NamedParameter& p) { return p.name == name; });
-  if (found == parameters_.end()) throw input_error("the fluid has no parameter \"{}\"", name);
-  found->set(value);
+  parameters_.set(name, value);
   if (accepted_.impulse == 0) store_initial_pressures();
 }
 
@@ -97,7 +89,8 @@ void FluidSolver::declare_observables() {
   for (const auto& opening : openings_) {
     observables_.push_back({opening.face().name + ".flow", dimension::flow});
     observables_.push_back({opening.face().name + ".pressure", dimension::pressure});
-    if (opening.beyond->stores()) observables_.push_back({opening.face().name + ".windkessel_pressure", dimension::pressure});
+    if (opening.beyond->stores())
+      observables_.push_back({opening.face().name + ".windkessel_pressure", dimension::pressure});
   }
   observables_.push_back({"volume", dimension::volume});
   observables_.push_back({"mass_balance_error", dimension::flow});

@@ -38,16 +38,19 @@ WorstElement worst_element(const std::vector<TetGeometry>& now, const std::vecto
   return worst;
 }
 
-void check_jacobians(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes, const Points& points,
-                     const std::vector<Tetrahedron>& tetrahedra) {
+void check_jacobians(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes,
+                     const Points& points, const std::vector<Tetrahedron>& tetrahedra) {
   const auto [element, ratio] = worst_element(now, reference_volumes);
   if (ratio >= smallest_ratio) return;
   const Vec3 centre = gather(points, tetrahedra[element]).rowwise().mean();
-  throw run_error("the fluid mesh breaks: element {} at ({:.4g}, {:.4g}, {:.4g}) has {:.3g} of its reference volume (at least {} is needed)",
-                  element, centre.x(), centre.y(), centre.z(), ratio, smallest_ratio);
+  throw run_error(
+      "the fluid mesh breaks: element {} at ({:.4g}, {:.4g}, {:.4g}) has {:.3g} of its reference volume (at least {} "
+      "is needed)",
+      element, centre.x(), centre.y(), centre.z(), ratio, smallest_ratio);
 }
 
-Points gradient(const std::vector<TetGeometry>& geometry, const std::vector<Tetrahedron>& tetrahedra, const VectorXd& scalar) {
+Points gradient(const std::vector<TetGeometry>& geometry, const std::vector<Tetrahedron>& tetrahedra,
+                const VectorXd& scalar) {
   Points result(3, static_cast<Eigen::Index>(tetrahedra.size()));
   for (std::size_t e = 0; e < tetrahedra.size(); ++e) {
     const auto& tet = tetrahedra[e];

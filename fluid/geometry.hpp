@@ -35,10 +35,11 @@ struct WorstElement {
 WorstElement worst_element(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes);
 
 /// Throws RunError naming the worst element, its position and its ratio if the mesh is folded or nearly so.
-void check_jacobians(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes, const Points& points,
-                     const std::vector<Tetrahedron>& tetrahedra);
+void check_jacobians(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes,
+                     const Points& points, const std::vector<Tetrahedron>& tetrahedra);
 
 /// Per element: the gradient of a nodal scalar, one column an element.
-Points gradient(const std::vector<TetGeometry>& geometry, const std::vector<Tetrahedron>& tetrahedra, const VectorXd& scalar);
+Points gradient(const std::vector<TetGeometry>& geometry, const std::vector<Tetrahedron>& tetrahedra,
+                const VectorXd& scalar);
 
 }  // namespace tether::fluid

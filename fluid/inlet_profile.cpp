@@ -9,6 +9,19 @@ namespace {
 
 constexpr int harmonics = 16;
 
+/// c_0 ... c_harmonics of curve(t) = Re sum_k c_k exp(2 pi i k t / period), by sampling one period.
+std::vector<std::complex<double>> coefficients(const PeriodicCurve& of) {
+  constexpr int samples = 64 * (harmonics + 1);
+  std::vector<std::complex<double>> result(harmonics + 1);
+  for (int i = 0; i < samples; ++i) {
+    const double time = of.start + of.period * i / samples, value = of.curve(time) * 2 / samples;
+    for (int k = 0; k <= harmonics; ++k)
+      result[static_cast<std::size_t>(k)] += value * std::polar(1.0, -2 * std::numbers::pi * k * time / of.period);
+  }
+  result[0] /= 2;
+  return result;
+}
+
 }  // namespace
 
 Profile profile_named(const std::string& name) {
@@ -18,7 +31,7 @@ Profile profile_named(const std::string& name) {
   throw input_error("inlet profile \"{}\" is none of flat, parabolic, womersley", name);
 }
 
-InletProfile::InletProfile(const EndFace& face, Profile kind, const Curve& curve, double kinematic_viscosity) {
+InletProfile::InletProfile(const EndFace& face, Profile kind, const PeriodicCurve& curve, double kinematic_viscosity) {
   const Eigen::VectorXcd paraboloid = face.developed_profile(0);
   if (kind == Profile::flat) {
     steady_ = VectorXd::Zero(paraboloid.size());
@@ -29,9 +42,10 @@ InletProfile::InletProfile(const EndFace& face, Profile kind, const Curve& curve
   steady_ /= face.integral(steady_.cast<std::complex<double>>()).real();
   if (kind != Profile::womersley) return;
 
-  if (curve.period() <= 0) throw input_error("the Womersley profile of inlet \"{}\" needs a periodic flow curve", face.name);
-  omega_ = 2 * std::numbers::pi / curve.period();
-  const auto c = curve.harmonics(harmonics);
+  if (curve.period <= 0)
+    throw input_error("the Womersley profile of inlet \"{}\" needs a periodic flow curve", face.name);
+  omega_ = 2 * std::numbers::pi / curve.period;
+  const auto c = coefficients(curve);
   for (int k = 1; k <= harmonics; ++k) {
     const Eigen::VectorXcd psi = face.developed_profile({0, k * omega_ / kinematic_viscosity});
     waves_.push_back(c[static_cast<std::size_t>(k)] / face.integral(psi) * psi);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fluid/curve.hpp"
+#include "common/base/curve.hpp"
 #include "fluid/end_face.hpp"
 
 namespace tether::fluid {
@@ -14,6 +14,12 @@ enum class Profile {
   womersley,  ///< the oscillating developed flow of each harmonic of the curve; needs a periodic curve
 };
 
+/// A function of time that repeats, from `start` on.
+struct PeriodicCurve {
+  const Curve& curve;
+  double period, start;
+};
+
 /// "flat", "parabolic" or "womersley". Throws InputError.
 Profile profile_named(const std::string& name);
 
@@ -21,10 +27,11 @@ Profile profile_named(const std::string& name);
 class InletProfile {
  public:
   /// curve: used by Womersley's profile only, whose harmonics keep the proportions and phases they have in it.
-  InletProfile(const EndFace& face, Profile kind, const Curve& curve, double kinematic_viscosity);
+  InletProfile(const EndFace& face, Profile kind, const PeriodicCurve& curve, double kinematic_viscosity);
 
-  /// Velocities at the face's nodes (local), into the vessel along the face's mean normal, where the mesh stands now. Their flux
-  /// is `flow` to round-off. curve_time: the curve's own clock; gain: what the curve is multiplied with to give `flow`.
+  /// Velocities at the face's nodes (local), into the vessel along the face's mean normal, where the mesh stands now.
+  /// Their flux is `flow` to round-off. curve_time: the curve's own clock; gain: what its harmonics are multiplied
+  /// with.
   Points velocity(const EndFace& face, double flow, double curve_time, double gain) const;
 
  private:

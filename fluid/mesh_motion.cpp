@@ -9,7 +9,9 @@ namespace {
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// 1/V int grad phi_a . grad phi_b.
-double harmonic_entry(const TetGeometry& g, int a, int b) { return g.grad_N.col(a).dot(g.grad_N.col(b)); }
+double harmonic_entry(const TetGeometry& g, int a, int b) {
+  return g.grad_N.col(a).dot(g.grad_N.col(b));
+}
 
 /// 1/V int (lambda div phi_a div phi_b + 2 mu eps(phi_a) : eps(phi_b)) for Young's modulus 1, nu = 0.3.
 Mat3 elastic_block(const TetGeometry& g, int a, int b) {
@@ -48,8 +50,10 @@ MeshMotionKind mesh_motion_named(const std::string& name) {
 
 MeshMotion::MeshMotion(const FluidMesh& mesh, std::vector<int> boundary_nodes, MeshMotionKind kind)
     : boundary_(std::move(boundary_nodes)), components_(kind == MeshMotionKind::harmonic ? 1 : 3) {
-  std::vector<int> place(static_cast<std::size_t>(mesh.points.cols()), -1);  // of inner nodes: their number; of others: -1 - number
-  for (std::size_t i = 0; i < boundary_.size(); ++i) place[static_cast<std::size_t>(boundary_[i])] = -2 - static_cast<int>(i);
+  std::vector<int> place(static_cast<std::size_t>(mesh.points.cols()),
+                         -1);  // of inner nodes: their number; of others: -1 - number
+  for (std::size_t i = 0; i < boundary_.size(); ++i)
+    place[static_cast<std::size_t>(boundary_[i])] = -2 - static_cast<int>(i);
   for (std::size_t node = 0; node < place.size(); ++node)
     if (place[node] == -1) {
       place[node] = static_cast<int>(inner_.size());

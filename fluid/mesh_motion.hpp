@@ -9,9 +9,11 @@
 
 namespace tether::fluid {
 
-/// How the inside of the fluid mesh follows its boundary. Both on the reference mesh, so that the matrix is factored once. (F.1)
+/// How the inside of the fluid mesh follows its boundary. Both on the reference mesh, so that the matrix is factored
+/// once. (F.1)
 enum class MeshMotionKind {
-  harmonic,  ///< each component by a Laplacian weighted with 1/volume: small elements keep their shape. N unknowns, 3 solves
+  harmonic,  ///< each component by a Laplacian weighted with 1/volume: small elements keep their shape. N unknowns, 3
+             ///< solves
   elastic,   ///< linear elasticity, Young's modulus 1/volume, nu = 0.3: 3 N coupled unknowns
 };
 
@@ -31,7 +33,7 @@ class MeshMotion {
 
  private:
   std::vector<int> boundary_, inner_;
-  int components_;                                        // 1: the three columns share a matrix; 3: coupled
+  int components_;                                         // 1: the three columns share a matrix; 3: coupled
   Eigen::SparseMatrix<double, Eigen::RowMajor> coupling_;  // inner rows, boundary columns
   Cholesky solver_;
 };

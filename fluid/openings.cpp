@@ -1,16 +1,29 @@
 #include "fluid/openings.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace tether::fluid {
 
 FlowInlet::FlowInlet(const EndFace& face, const InletSettings& settings)
-    : inflow(inflows(), settings.effect), face_(&face), curve_(settings.curve), kind_(settings.profile) {}
+    : inflow(inflows(), settings.effect),
+      face_(&face),
+      curve_(settings.curve),
+      period_(settings.period),
+      ramp_(settings.ramp),
+      kind_(settings.profile) {}
 
 Points FlowInlet::velocity(double time, double kinematic_viscosity) {
   if (!profile_ || (kind_ == Profile::womersley && kinematic_viscosity != profile_viscosity_)) {
-    profile_.emplace(*face_, kind_, curve_, kinematic_viscosity);
+    const double opened = period_ > 0 ? period_ * std::ceil(ramp_ / period_) : 0;  // a whole number of periods
+    profile_.emplace(*face_, kind_, PeriodicCurve{curve_, period_, opened}, kinematic_viscosity);
     profile_viscosity_ = kinematic_viscosity;
   }
-  return profile_->velocity(*face_, flow(time), inflow->curve_time(time), inflow->gain(time));
+  const double clock = inflow->curve_time(time);
+  const double s = ramp_ > 0 ? std::clamp(clock / ramp_, 0.0, 1.0) : 1.0;
+  const double opening = 0.5 * (1 - std::cos(std::numbers::pi * s));  // as Curve's
+  return profile_->velocity(*face_, flow(time), clock, inflow->gain() * opening);
 }
 
 Opening::Opening(const EndFace& face, const EffectChoice& effect, const Curve& curve, bool is_inlet)

@@ -20,13 +20,14 @@ class FlowInlet {
   Configured<Inflow> inflow;
 
   /// Into the vessel [volume/time].
-  double flow(double time) const { return inflow->gain(time) * curve_(inflow->curve_time(time)); }
+  double flow(double time) const { return inflow->gain() * curve_(inflow->curve_time(time)); }
   /// At the face's nodes (local), relative to the moving face; its flux is -flow(time) to round-off.
   Points velocity(double time, double kinematic_viscosity);
 
  private:
   const EndFace* face_;
   Curve curve_;
+  double period_, ramp_;
   Profile kind_;
   std::optional<InletProfile> profile_;  // made when first needed, and again when the viscosity has changed
   double profile_viscosity_ = 0;

@@ -7,7 +7,8 @@ namespace tether::fluid {
 Projection::Projection(const FluidDomain& domain, const std::vector<std::vector<int>>& openings)
     : openings_(openings.size()), unknown_of_(static_cast<std::size_t>(domain.node_count()), -1) {
   if (openings.empty())
-    throw InputError("the fluid needs an outlet, or an inlet with a given pressure: otherwise its pressure is undetermined");
+    throw InputError(
+        "the fluid needs an outlet, or an inlet with a given pressure: otherwise its pressure is undetermined");
   std::vector<int> owner(unknown_of_.size(), -1);
   for (std::size_t i = 0; i < openings.size(); ++i)
     for (int node : openings[i]) owner[static_cast<std::size_t>(node)] = static_cast<int>(i);
@@ -55,7 +56,8 @@ void Projection::factor(const FluidDomain& domain, double dt_over_rho, std::span
 
 Projection::Solution Projection::solve(const VectorXd& rhs, const VectorXd& known) const {
   VectorXd condensed = VectorXd::Zero(unknowns_);
-  for (std::size_t node = 0; node < unknown_of_.size(); ++node) condensed[unknown_of_[node]] += rhs[static_cast<Eigen::Index>(node)];
+  for (std::size_t node = 0; node < unknown_of_.size(); ++node)
+    condensed[unknown_of_[node]] += rhs[static_cast<Eigen::Index>(node)];
   VectorXd p = condensed;
   for (std::size_t i = 0; i < openings_; ++i) {
     const auto index = static_cast<Eigen::Index>(i);

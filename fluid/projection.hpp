@@ -17,7 +17,8 @@ class Projection {
   /// openings: the nodes of each, disjoint; there must be at least one.
   Projection(const FluidDomain& domain, const std::vector<std::vector<int>>& openings);
 
-  /// Assembles and factors where the mesh stands now. impedances: Z of each opening, 0 where its pressure is prescribed.
+  /// Assembles and factors where the mesh stands now. impedances: Z of each opening, 0 where its pressure is
+  /// prescribed.
   void factor(const FluidDomain& domain, double dt_over_rho, std::span<const double> impedances);
 
   struct Solution {

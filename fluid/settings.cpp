@@ -7,10 +7,18 @@ const EffectDeclaration declaration{
     "blood",
     "the blood, and how its equations are stabilised and handed to the wall",
     Place::blood,
-    {{"density", "mass of the blood per volume", dimension::density, range::positive, undefined, undefined, Transform::log, 0.02},
-     {"backflow_stabilisation", "factor beta of the force that damps blood entering through an outlet; 0.5 removes all its energy",
-      dimension::none, {0, 1}, 0.2, 0.0, Transform::linear, undefined},
-     {"wall_load_offset", "pressure added to the load on the wall: the reference pressure, if the wall is prestressed by it",
+    {{"density", "mass of the blood per volume", dimension::density, range::positive, undefined, undefined,
+      Transform::log, 0.02},
+     {"backflow_stabilisation",
+      "factor beta of the force that damps blood entering through an outlet; 0.5 removes all its energy",
+      dimension::none,
+      {0, 1},
+      0.2,
+      0.0,
+      Transform::linear,
+      undefined},
+     {"wall_load_offset",
+      "pressure added to the load on the wall: the reference pressure, if the wall is prestressed by it",
       dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
 
 }  // namespace

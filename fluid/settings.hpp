@@ -6,8 +6,8 @@
 #include <string>
 
 #include "common/base/configured.hpp"
+#include "common/base/curve.hpp"
 #include "common/base/types.hpp"
-#include "fluid/curve.hpp"
 #include "fluid/inlet_profile.hpp"
 #include "fluid/mesh_motion.hpp"
 
@@ -25,14 +25,15 @@ std::span<const Registered<Blood>> blood();
 
 /// One inlet: a flow spread by a profile, or a pressure.
 struct InletSettings {
-  EffectChoice effect{"flow", {}};  ///< "flow", or "pressure": of the family of outlets
-  Curve curve;                      ///< flow into the vessel [volume/time], or pressure
+  EffectChoice effect{"flow", {}};   ///< "flow", or "pressure": of the family of outlets
+  Curve curve = Curve::constant(0);  ///< flow into the vessel [volume/time], or pressure
+  double period = 0, ramp = 0;       ///< with which the curve was made, for Womersley's profile
   Profile profile = Profile::parabolic;
 };
 
 struct OutletSettings {
   EffectChoice effect;
-  Curve curve;  ///< optional: added to the pressure behind the outlet, see the outlet's own description
+  Curve curve = Curve::constant(0);  ///< added to the pressure behind the outlet, see the outlet's own description
 };
 
 /// All that a case says about the fluid, the mesh aside. Pressures are relative to the case's reference pressure.
@@ -40,11 +41,11 @@ struct FluidSettings {
   EffectChoice blood{"blood", {}};
   EffectChoice rheology;
   MeshMotionKind mesh_motion = MeshMotionKind::harmonic;
-  std::map<std::string, InletSettings> inlets;    ///< by the name of the mesh's face
+  std::map<std::string, InletSettings> inlets;  ///< by the name of the mesh's face
   std::map<std::string, OutletSettings> outlets;
   /// Force per mass at a point and time, such as gravity; empty: none.
   std::function<Vec3(const Vec3& x, double time)> body_acceleration;
-  double linear_tolerance = 1e-9;                 ///< of the advection-diffusion solve, relative
+  double linear_tolerance = 1e-9;  ///< of the advection-diffusion solve, relative
 };
 
 }  // namespace tether::fluid

@@ -23,7 +23,8 @@ std::vector<int> elements_behind(const std::vector<Triangle>& triangles, const s
   for (std::size_t e = 0; e < tetrahedra.size(); ++e)
     for (std::size_t opposite = 0; opposite < 4; ++opposite) {
       const auto& tet = tetrahedra[e];
-      const auto found = place.find(sorted({tet[(opposite + 1) % 4], tet[(opposite + 2) % 4], tet[(opposite + 3) % 4]}));
+      const auto found =
+          place.find(sorted({tet[(opposite + 1) % 4], tet[(opposite + 2) % 4], tet[(opposite + 3) % 4]}));
       if (found != place.end()) result[found->second] = static_cast<int>(e);
     }
   if (std::find(result.begin(), result.end(), -1) != result.end())
@@ -41,18 +42,24 @@ Vec3 area_vector(const Points& x, const Triangle& t) {
 Surface::Surface(const std::vector<Triangle>& all, const FluidMesh& mesh)
     : nodes(nodes_of(all)), triangles(all), tetrahedra(elements_behind(all, mesh.tetrahedra)) {
   for (auto& triangle : triangles)
-    for (int& node : triangle) node = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    for (int& node : triangle)
+      node = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
   place(mesh.points);
 }
 
 void Surface::place(const Points& points) {
   const Points x = local(points);
   area_vectors.resize(3, static_cast<Eigen::Index>(triangles.size()));
-  for (std::size_t t = 0; t < triangles.size(); ++t) area_vectors.col(static_cast<Eigen::Index>(t)) = area_vector(x, triangles[t]);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    area_vectors.col(static_cast<Eigen::Index>(t)) = area_vector(x, triangles[t]);
 }
 
-Points Surface::local(const Points& field) const { return field(Eigen::all, nodes); }
-VectorXd Surface::local(const VectorXd& field) const { return field(nodes); }
+Points Surface::local(const Points& field) const {
+  return field(Eigen::all, nodes);
+}
+VectorXd Surface::local(const VectorXd& field) const {
+  return field(nodes);
+}
 
 VectorXd Surface::flux(const Points& velocity) const {
   VectorXd result = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
@@ -70,20 +77,26 @@ Points Surface::pressure_force(const VectorXd& pressure) const {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& tri = triangles[t];
     const double sum = pressure[tri[0]] + pressure[tri[1]] + pressure[tri[2]];
-    for (int node : tri) result.col(node) += (sum + pressure[node]) / 12 * area_vectors.col(static_cast<Eigen::Index>(t));
+    for (int node : tri)
+      result.col(node) += (sum + pressure[node]) / 12 * area_vectors.col(static_cast<Eigen::Index>(t));
   }
   return result;
 }
 
-double Surface::total_flux(const Points& velocity) const { return flux(velocity).sum(); }
+double Surface::total_flux(const Points& velocity) const {
+  return flux(velocity).sum();
+}
 
-double Surface::area() const { return area_vectors.colwise().norm().sum(); }
+double Surface::area() const {
+  return area_vectors.colwise().norm().sum();
+}
 
 double Surface::mean(const VectorXd& values) const {
   double sum = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& tri = triangles[t];
-    sum += (values[tri[0]] + values[tri[1]] + values[tri[2]]) / 3 * area_vectors.col(static_cast<Eigen::Index>(t)).norm();
+    sum +=
+        (values[tri[0]] + values[tri[1]] + values[tri[2]]) / 3 * area_vectors.col(static_cast<Eigen::Index>(t)).norm();
   }
   return sum / area();
 }

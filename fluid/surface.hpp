@@ -7,8 +7,8 @@
 
 namespace tether::fluid {
 
-/// A piece of the fluid's boundary (Sigma, an inlet, an outlet) with its own numbering of nodes; normals out of the fluid.
-/// Fields on it are `local`: one column (or entry) a node, in the order of `nodes`.
+/// A piece of the fluid's boundary (Sigma, an inlet, an outlet) with its own numbering of nodes; normals out of the
+/// fluid. Fields on it are `local`: one column (or entry) a node, in the order of `nodes`.
 class Surface {
  public:
   Surface(const std::vector<Triangle>& triangles, const FluidMesh& mesh);

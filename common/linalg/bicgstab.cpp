@@ -29,14 +29,15 @@ Three dot(const Points& a, const Points& b) {
 Three ratio(const Three& numerator, const Three& denominator, const Eigen::Array3i& active) {
   Three result = Three::Zero();
   for (int c = 0; c < 3; ++c)
-    if (active[c] && std::abs(denominator[c]) > std::numeric_limits<double>::min()) result[c] = numerator[c] / denominator[c];
+    if (active[c] && std::abs(denominator[c]) > std::numeric_limits<double>::min())
+      result[c] = numerator[c] / denominator[c];
   return result;
 }
 
 }  // namespace
 
-KrylovResult bicgstab(const SparseMatrix& matrix, const Ilu0& preconditioner, const Points& rhs, Points& x, double tolerance,
-                      int max_iterations) {
+KrylovResult bicgstab(const SparseMatrix& matrix, const Ilu0& preconditioner, const Points& rhs, Points& x,
+                      double tolerance, int max_iterations) {
   const double scale = rhs.norm(), target = tolerance * scale;
   const Eigen::Index n = rhs.cols();
   Points residual(3, n), v(3, n), t(3, n), z(3, n), y(3, n);

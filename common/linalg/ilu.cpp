@@ -20,10 +20,12 @@ void Ilu0::factor(const SparseMatrix& matrix) {
       const int pivot = column[k];
       value[k] *= value[diagonal_[static_cast<std::size_t>(pivot)]];
       for (int m = diagonal_[static_cast<std::size_t>(pivot)] + 1; m < start[pivot + 1]; ++m)
-        if (const int target = place[static_cast<std::size_t>(column[m])]; target >= 0) value[target] -= value[k] * value[m];
+        if (const int target = place[static_cast<std::size_t>(column[m])]; target >= 0)
+          value[target] -= value[k] * value[m];
     }
     const int d = place[static_cast<std::size_t>(row)];
-    if (d < 0 || value[d] == 0.0 || !std::isfinite(value[d])) throw run_error("incomplete LU: zero pivot in row {}", row);
+    if (d < 0 || value[d] == 0.0 || !std::isfinite(value[d]))
+      throw run_error("incomplete LU: zero pivot in row {}", row);
     value[d] = 1.0 / value[d];
     diagonal_[static_cast<std::size_t>(row)] = d;
     for (int k = start[row]; k < start[row + 1]; ++k) place[static_cast<std::size_t>(column[k])] = -1;

@@ -5,7 +5,8 @@
 
 namespace tether {
 
-/// Incomplete LU factors on the matrix's own pattern, ILU(0). (Eigen's IncompleteLUT sorts and drops: several times slower to set up.)
+/// Incomplete LU factors on the matrix's own pattern, ILU(0). (Eigen's IncompleteLUT sorts and drops: several times
+/// slower to set up.)
 class Ilu0 {
  public:
   /// Throws RunError on a zero pivot.

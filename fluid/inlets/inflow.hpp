@@ -7,11 +7,11 @@
 
 namespace tether::fluid {
 
-/// What an inlet makes of its curve: Q(t) = gain(t) curve(curve_time(t)), into the vessel [volume/time]. (F.12)
+/// What an inlet makes of its curve: Q(t) = gain curve(curve_time(t)), into the vessel [volume/time]. (F.12)
 class Inflow {
  public:
   virtual ~Inflow() = default;
-  virtual double gain(double time) const = 0;
+  virtual double gain() const = 0;
   virtual double curve_time(double time) const = 0;
 };
 

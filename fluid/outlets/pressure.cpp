@@ -24,8 +24,8 @@ const EffectDeclaration declaration{
 
 }  // namespace
 
-extern const Registered<Outlet> prescribed_pressure{declaration, [](std::span<const double> v) -> std::unique_ptr<Outlet> {
-                                                      return std::make_unique<PrescribedPressure>(v);
-                                                    }};
+extern const Registered<Outlet> prescribed_pressure{
+    declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Outlet> { return std::make_unique<PrescribedPressure>(v); }};
 
 }  // namespace tether::fluid

@@ -18,7 +18,8 @@ const EffectDeclaration declaration{
     "resistance",
     "the vessels downstream as one resistance, without a reservoir",
     Place::outlet,
-    {{"resistance", "pressure per flow", dimension::resistance, range::not_negative, undefined, 0.0, Transform::log, 0.3},
+    {{"resistance", "pressure per flow", dimension::resistance, range::not_negative, undefined, 0.0, Transform::log,
+      0.3},
      {"distal_pressure", "pressure behind the resistance, relative to the reference pressure; a curve adds to it",
       dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
 

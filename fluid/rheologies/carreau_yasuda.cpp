@@ -23,10 +23,10 @@ const EffectDeclaration declaration{
     Place::blood,
     {{"viscosity", "dynamic viscosity at high shear rate", dimension::viscosity, range::positive, undefined, undefined,
       Transform::log, 0.3},
-     {"viscosity_at_rest", "dynamic viscosity at shear rate zero", dimension::viscosity, range::positive, undefined, undefined,
-      Transform::log, 0.5},
-     {"relaxation_time", "inverse of the shear rate at which thinning begins", dimension::time, range::not_negative, 1.902,
-      undefined, Transform::linear, 1.0},
+     {"viscosity_at_rest", "dynamic viscosity at shear rate zero", dimension::viscosity, range::positive, undefined,
+      undefined, Transform::log, 0.5},
+     {"relaxation_time", "inverse of the shear rate at which thinning begins", dimension::time, range::not_negative,
+      1.902, undefined, Transform::linear, 1.0},
      {"index", "exponent n of the thinning; 1: none", dimension::none, {0, 1}, 0.22, 1.0, Transform::linear, 0.2},
      {"yasuda", "exponent a: how sharply thinning begins", dimension::none, range::positive, 1.25, undefined,
       Transform::log, 0.3}}};
@@ -34,6 +34,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Rheology> carreau_yasuda{
-    declaration, [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<CarreauYasuda>(v); }};
+    declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<CarreauYasuda>(v); }};
 
 }  // namespace tether::fluid

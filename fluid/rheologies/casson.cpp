@@ -25,12 +25,12 @@ const EffectDeclaration declaration{
     "casson",
     "blood with a yield stress: it flows like a plug where the shear stress is small",
     Place::blood,
-    {{"viscosity", "Casson viscosity, reached at high shear rate", dimension::viscosity, range::positive, undefined, undefined,
-      Transform::log, 0.3},
-     {"yield_stress", "shear stress below which blood hardly flows", dimension::pressure, range::not_negative, undefined, 0.0,
-      Transform::linear, undefined},
-     {"regularisation", "time m of the smoothing at shear rate zero", dimension::time, range::positive, 100.0, undefined,
-      Transform::log, undefined}}};
+    {{"viscosity", "Casson viscosity, reached at high shear rate", dimension::viscosity, range::positive, undefined,
+      undefined, Transform::log, 0.3},
+     {"yield_stress", "shear stress below which blood hardly flows", dimension::pressure, range::not_negative,
+      undefined, 0.0, Transform::linear, undefined},
+     {"regularisation", "time m of the smoothing at shear rate zero", dimension::time, range::positive, 100.0,
+      undefined, Transform::log, undefined}}};
 
 }  // namespace
 

@@ -11,7 +11,8 @@ namespace tether::fluid {
 class Rheology {
  public:
   virtual ~Rheology() = default;
-  /// mu [pressure * time] at the shear rate gamma = sqrt(2 eps:eps) >= 0 [1/time]; positive and finite, also at 0. (F.14)
+  /// mu [pressure * time] at the shear rate gamma = sqrt(2 eps:eps) >= 0 [1/time]; positive and finite, also at 0.
+  /// (F.14)
   virtual double viscosity(double shear_rate) const = 0;
   /// Whether the viscosity is one number everywhere: spares the terms that come from its gradient.
   virtual bool is_constant() const { return false; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <random>
 #include <string>
@@ -75,7 +76,8 @@ using VectorField = std::function<Vec3(const Vec3&)>;
 using ScalarField = std::function<double(const Vec3&)>;
 
 /// The solver now starts from these fields, as if reached by a step dt.
-inline void start_from(FluidSolver& solver, double dt, double rho, const VectorField& velocity, const ScalarField& pressure) {
+inline void start_from(FluidSolver& solver, double dt, double rho, const VectorField& velocity,
+                       const ScalarField& pressure) {
   const int n = solver.domain().node_count();
   VectorXd state = solver.state();
   state[0] = dt / rho;
@@ -108,7 +110,14 @@ inline double l2_error(const FluidDomain& domain, const VectorXd& p, const Scala
   return l2_error(domain, as_vector, [&](const Vec3& x) -> Vec3 { return {exact(x), 0, 0}; });
 }
 
-inline double order(double coarse, double fine, double refinement = 2) { return std::log(coarse / fine) / std::log(refinement); }
+inline double order(double coarse, double fine, double refinement = 2) {
+  return std::log(coarse / fine) / std::log(refinement);
+}
+
+/// One line of the table in docs/verification.md: an error on two meshes or steps, and the order between them.
+inline void report(const std::string& what, double coarse, double fine, double refinement = 2) {
+  std::printf("| %s | %.3g | %.3g | %.2f |\n", what.c_str(), coarse, fine, order(coarse, fine, refinement));
+}
 
 inline Points random_points(Eigen::Index count, double size, unsigned seed) {
   std::mt19937 generator(seed);
