@@ -90,7 +90,8 @@ Eigen::VectorXcd EndFace::developed_profile(std::complex<double> alpha) const {
   Eigen::SparseLU<ComplexSparse> solver(matrix);
   const Eigen::VectorXcd load = lumped_(inner).cast<std::complex<double>>();
   Eigen::VectorXcd psi = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(nodes.size()));
-  psi(inner) = solver.solve(load);
+  const Eigen::VectorXcd inside = solver.solve(load);
+  psi(inner) = inside;
   return psi;
 }
 

@@ -62,9 +62,9 @@ double carried_flow(double dt) {
 }
 
 Errors poiseuille(int around) {
-  constexpr double dt = 0.02;
+  constexpr double dt = 0.04;
   FluidSolver solver(tube(R, L, around, 3 * around / 8), settings(rho, mu));
-  const Points load = run_rigid(solver, dt, 200);
+  const Points load = run_rigid(solver, dt, 80);
   const double flow = carried_flow(dt);
   const double gradient = (pressure_at(solver, L / 3) - pressure_at(solver, 2 * L / 3)) / (L / 3);
   return {velocity_error(solver, flow), std::abs(gradient / (8 * mu * flow / (pi * std::pow(R, 4))) - 1),
@@ -72,7 +72,7 @@ Errors poiseuille(int around) {
 }
 
 TEST(Poiseuille, VelocityPressureAndWallShearConverge) {
-  const Errors coarse = poiseuille(16), fine = poiseuille(32);
+  const Errors coarse = poiseuille(24), fine = poiseuille(48);
   report("poiseuille_velocity", coarse.velocity, fine.velocity);
   report("poiseuille_pressure_gradient", coarse.pressure_gradient, fine.pressure_gradient);
   report("poiseuille_wall_shear", coarse.shear, fine.shear);
@@ -80,8 +80,8 @@ TEST(Poiseuille, VelocityPressureAndWallShearConverge) {
   EXPECT_GT(order(coarse.pressure_gradient, fine.pressure_gradient), 1.5);
   EXPECT_LT(fine.velocity, 0.025);
   EXPECT_LT(fine.pressure_gradient, 0.025);
-  EXPECT_LT(coarse.shear, 0.02);  // errors of opposite sign meet here: manufactured_test.cpp has the shear's order
-  EXPECT_LT(fine.shear, 0.02);
+  EXPECT_LT(fine.shear, coarse.shear);  // manufactured_test.cpp has its order
+  EXPECT_LT(fine.shear, 0.025);
 }
 
 }  // namespace
