@@ -12,8 +12,10 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration clamped_ring{.name = "clamped", .meaning = "The ring does not move", .place = Place::ring, .parameters = {}};
-const EffectDeclaration free_ring{.name = "free", .meaning = "Nothing holds the ring", .place = Place::ring, .parameters = {}};
+const EffectDeclaration clamped_ring{
+    .name = "clamped", .meaning = "The ring does not move", .place = Place::ring, .parameters = {}};
+const EffectDeclaration free_ring{
+    .name = "free", .meaning = "Nothing holds the ring", .place = Place::ring, .parameters = {}};
 
 const std::vector<const EffectDeclaration*>& ring_family() {
   static const std::vector<const EffectDeclaration*> family = [] {
@@ -33,7 +35,8 @@ const Section* named(const Named<Section>& sections, const std::string& name) {
 
 /// Throws InputError if the case names a patch that the mesh does not have.
 template <class Section>
-void check_names(const Named<Section>& sections, const std::vector<Patch>& patches, const std::string& field, const CaseFile& file) {
+void check_names(const Named<Section>& sections, const std::vector<Patch>& patches, const std::string& field,
+                 const CaseFile& file) {
   std::string known;
   for (const Patch& patch : patches) known += (known.empty() ? "" : ", ") + patch.name;
   for (const auto& [name, section] : sections)
@@ -61,22 +64,26 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
       result.emplace_back(region, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values));
   for (const Patch& ring : mesh.rings) {
     const RingCase* chosen = named(solid.rings, ring.name);
-    if (chosen == nullptr || chosen->effect.type == clamped_ring.name || chosen->effect.type == free_ring.name) continue;
+    if (chosen == nullptr || chosen->effect.type == clamped_ring.name || chosen->effect.type == free_ring.name)
+      continue;
     result.emplace_back(ring, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values),
                         chosen->motion ? chosen->motion->load(units) : TissueMotion{});
   }
   return result;
 }
 
-Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const std::vector<int>& clamped, const CaseFile& file) {
+Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const std::vector<int>& clamped,
+                             const CaseFile& file) {
   const ImageCase& image = file.common().image;
   if (!image.prestressed()) return mesh.points;
   const Configured<Material> material(materials(), solid.material.type, solid.material.values);
   StressFreeResult found = stress_free_configuration(mesh, *material, image.pressure, unknowns_of(clamped));
   if (!found.converged)
-    throw run_error("{}: no stress-free configuration was found in {} iterations (last correction {:.2g} of the size): the wall may be too "
-                    "soft for this pressure",
-                    file.where("image.pressure"), found.iterations, found.residual);
+    throw run_error(
+        "{}: no stress-free configuration was found in {} iterations (last correction {:.2g} of the size): the wall "
+        "may be too "
+        "soft for this pressure",
+        file.where("image.pressure"), found.iterations, found.residual);
   return std::move(found.positions);
 }
 
@@ -88,7 +95,8 @@ void MotionCase::declare(Fields& f) {
   f.text("x", x, "column of the displacement along x");
   f.text("y", y, "column of the displacement along y");
   f.text("z", z, "column of the displacement along z");
-  f.number("period", period, dimension::time, range::positive, "duration after which the motion repeats; absent: it does not");
+  f.number("period", period, dimension::time, range::positive,
+           "duration after which the motion repeats; absent: it does not");
 }
 
 TissueMotion MotionCase::load(const UnitSystem& units) const {
@@ -101,7 +109,9 @@ TissueMotion MotionCase::load(const UnitSystem& units) const {
     return values;
   };
   const CurveShape shape{.period = period.value_or(0.0)};
-  const auto curve = [&](const std::string& name) { return Curve(column(time, dimension::time), column(name, dimension::length), shape); };
+  const auto curve = [&](const std::string& name) {
+    return Curve(column(time, dimension::time), column(name, dimension::length), shape);
+  };
   return [cx = curve(x), cy = curve(y), cz = curve(z)](double t) { return Vec3(cx(t), cy(t), cz(t)); };
 }
 
@@ -117,34 +127,44 @@ void RingCase::declare(Fields& f) {
 }
 
 void SupportsCase::declare(Fields& f) {
-  f.choice("area", area, {{"reference", "tractions act per area of the imaged wall"}, {"current", "per area at the start of each step"}},
-           "area to which the supports' tractions refer");
+  f.choice(
+      "area", area,
+      {{"reference", "tractions act per area of the imaged wall"}, {"current", "per area at the start of each step"}},
+      "area to which the supports' tractions refer");
   f.groups("regions", regions, "regions of the outer wall that are held; the others are free");
 }
 
 void SolidCase::declare(Fields& f) {
   static const auto laws = declarations(materials());
   f.number("density", density, dimension::density, range::positive, "density of the wall");
-  f.choice("element", element, {{"prism", "solid-shell prism that does not lock"}, {"p1", "linear tetrahedron; it locks in bending"}},
+  f.choice("element", element,
+           {{"prism", "solid-shell prism that does not lock"}, {"p1", "linear tetrahedron; it locks in bending"}},
            "finite element of the wall");
   struct Law {
     EffectCase& effect;
     void declare(Fields& fields) { fields.effect(effect, laws, "hyperelastic law"); }
   } law{material};
   f.group("material", law, "elasticity of the wall");
-  f.number("viscosity", viscosity, dimension::viscosity, range::not_negative, "stress per rate of Green-Lagrange strain");
-  f.number("theta", theta, dimension::none, {0.5, 1.0}, "of the midpoint rule: 0.5 has order 2, 0.55 damps high frequencies");
+  f.number("viscosity", viscosity, dimension::viscosity, range::not_negative,
+           "stress per rate of Green-Lagrange strain");
+  f.number("theta", theta, dimension::none, {0.5, 1.0},
+           "of the midpoint rule: 0.5 has order 2, 0.55 damps high frequencies");
   f.choice("integrator", integrator,
-           {{"midpoint", "stress at the middle of the step"}, {"energy_conserving", "discrete gradient: conserves energy exactly"}},
+           {{"midpoint", "stress at the middle of the step"},
+            {"energy_conserving", "discrete gradient: conserves energy exactly"}},
            "how a step evaluates the stress");
   f.check(integrator == "midpoint" || theta == 0.5, "theta", "must be 0.5 for the integrator energy_conserving");
   f.group("support", support, "tissue around the wall");
   f.groups("rings", rings, "end rings of the wall; clamped if not named");
 }
 
-std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
+void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file) {
   check_names(solid.support.regions, mesh.outside, "solid.support.regions", file);
   check_names(solid.rings, mesh.rings, "solid.rings", file);
+}
+
+std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
+  check_against_mesh(solid, mesh, file);
   const WallSettings settings{.material = solid.material.type,
                               .material_values = solid.material.values,
                               .density = solid.density,

@@ -46,8 +46,11 @@ struct SolidCase {
   void declare(Fields& f);
 };
 
-/// The wall of a case, ready to move. Rings that the case does not name are clamped. Throws InputError for names that the mesh does not
-/// have, RunError if no stress-free configuration is found.
+/// Throws InputError for a region or ring that the mesh does not have.
+void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file);
+
+/// The wall of a case, ready to move. Rings that the case does not name are clamped. Throws InputError for names that
+/// the mesh does not have, RunError if no stress-free configuration is found.
 std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file);
 
 }  // namespace tether

@@ -35,7 +35,9 @@ class Anderson {
   VectorXd last_x_, last_g_;
 };
 
-double size_of(const Points& points) { return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff(); }
+double size_of(const Points& points) {
+  return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff();
+}
 
 }  // namespace
 
@@ -48,8 +50,8 @@ VectorXd uniform_pressure_forces(const WallMesh& mesh, const Points& x, double p
   return forces;
 }
 
-StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material& material, double pressure, const std::vector<int>& fixed,
-                                           double tolerance, int max_iterations) {
+StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material& material, double pressure,
+                                           const std::vector<int>& fixed, double tolerance, int max_iterations) {
   const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
   const double size = size_of(mesh.points);
   StressFreeResult result;

@@ -15,11 +15,14 @@ Eigen::Map<const VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-protocol::Motion as_message(const InterfaceMotion& motion) { return {as_list(motion.displacement), as_list(motion.velocity)}; }
+protocol::Motion as_message(const InterfaceMotion& motion) {
+  return {as_list(motion.displacement), as_list(motion.velocity)};
+}
 
 }  // namespace
 
-SolidServer::SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case, std::filesystem::path output)
+SolidServer::SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case,
+                         std::filesystem::path output)
     : model_(std::move(model)),
       solver_(std::make_unique<SolidSolver>(*model_)),
       units_(units),
@@ -37,8 +40,8 @@ protocol::Hello SolidServer::hello() const {
   hello.unknowns = model_->unknowns();
   hello.effective_case = effective_case_;
   for (const auto& [name, p, value, set] : model_->parameters().entries())
-    hello.parameters.push_back({name, p.meaning, units_.symbol(p.dimension), name_of(p.transform), value(), p.absent, p.range.lower,
-                                p.range.upper, p.prior_deviation});
+    hello.parameters.push_back({name, p.meaning, units_.symbol(p.dimension), name_of(p.transform), value(), p.absent,
+                                p.range.lower, p.range.upper, p.prior_deviation});
   hello.observables.push_back({"largest_displacement", units_.symbol(dimension::length)});
   for (const SurfaceSupport& support : model_->supports())
     for (const char* axis : {"x", "y", "z"})
@@ -49,18 +52,22 @@ protocol::Hello SolidServer::hello() const {
 protocol::Interface SolidServer::operator()(const protocol::GetInterface&) {
   const WallMesh& mesh = model_->mesh();
   protocol::Interface reply{as_list(mesh.points.leftCols(mesh.interface_nodes)), {}, {}, {}};
-  for (const Triangle& triangle : mesh.interface) reply.triangles.insert(reply.triangles.end(), triangle.begin(), triangle.end());
+  for (const Triangle& triangle : mesh.interface)
+    reply.triangles.insert(reply.triangles.end(), triangle.begin(), triangle.end());
   for (const Patch& region : mesh.outside) reply.region_names.push_back(region.name);
   return reply;
 }
 
 protocol::Ready SolidServer::operator()(const protocol::SetParameters& m) {
-  if (m.names.size() != m.values.size()) throw input_error("{} names of parameters, but {} values", m.names.size(), m.values.size());
+  if (m.names.size() != m.values.size())
+    throw input_error("{} names of parameters, but {} values", m.names.size(), m.values.size());
   for (std::size_t i = 0; i < m.names.size(); ++i) model_->parameters().set(m.names[i], m.values[i]);
   return {};
 }
 
-protocol::State SolidServer::operator()(const protocol::GetState&) { return {as_list(solver_->state())}; }
+protocol::State SolidServer::operator()(const protocol::GetState&) {
+  return {as_list(solver_->state())};
+}
 
 protocol::Ready SolidServer::operator()(const protocol::SetState& m) {
   solver_->set_state(as_vector(m.values));
@@ -78,7 +85,8 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
   else
     solver_->rewind();
   protocol::StepReport report{{solver_->largest_displacement()}};
-  for (const Vec3& force : solver_->support_forces()) report.observables.insert(report.observables.end(), force.begin(), force.end());
+  for (const Vec3& force : solver_->support_forces())
+    report.observables.insert(report.observables.end(), force.begin(), force.end());
   return report;
 }
 
@@ -87,7 +95,9 @@ protocol::Ready SolidServer::operator()(const protocol::Write& m) {
   return {};
 }
 
-protocol::Ready SolidServer::operator()(const protocol::Stop&) { return {}; }
+protocol::Ready SolidServer::operator()(const protocol::Stop&) {
+  return {};
+}
 
 protocol::Motion SolidServer::operator()(const protocol::SolidEvaluate& m) {
   return as_message(solver_->evaluate(interface_points(m.load, "load")));
@@ -103,7 +113,9 @@ protocol::SolidResidualReply SolidServer::operator()(const protocol::SolidResidu
   return {as_list(residual), motion.displacement, motion.velocity};
 }
 
-protocol::Unknowns SolidServer::operator()(const protocol::SolidProduct& m) { return {as_list(solver_->product(as_vector(m.direction)))}; }
+protocol::Unknowns SolidServer::operator()(const protocol::SolidProduct& m) {
+  return {as_list(solver_->product(as_vector(m.direction)))};
+}
 
 protocol::Unknowns SolidServer::operator()(const protocol::SolidPrecondition& m) {
   return {as_list(solver_->precondition(as_vector(m.residual)))};

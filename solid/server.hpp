@@ -14,7 +14,8 @@ class WallSeries;
 /// What the solid does with each message (common/protocol). A message without a line here does not compile.
 class SolidServer {
  public:
-  SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case, std::filesystem::path output);
+  SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case,
+              std::filesystem::path output);
   SolidServer(SolidServer&&) noexcept;
   ~SolidServer();
 

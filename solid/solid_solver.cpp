@@ -7,11 +7,12 @@
 namespace tether {
 namespace {
 
-/// So many more solves for a correction than when the factor was new, and it has served its time (a new one costs as much as 25 solves).
+/// So many more solves for a correction than when the factor was new, and it has served its time (a new one costs as
+/// much as 25 solves).
 constexpr int calls_lost_to_age = 6;
-constexpr double newton_tolerance = 1e-9;     ///< of the correction, relative to the iterate
-constexpr double correction_tolerance = 1e-4; ///< of each correction's conjugate gradients: Newton repeats them anyway
-constexpr double tangent_tolerance = 1e-10;   ///< of a linearised answer's
+constexpr double newton_tolerance = 1e-9;      ///< of the correction, relative to the iterate
+constexpr double correction_tolerance = 1e-4;  ///< of each correction's conjugate gradients: Newton repeats them anyway
+constexpr double tangent_tolerance = 1e-10;    ///< of a linearised answer's
 constexpr int most_newton_iterations = 15, most_linear_iterations = 200;
 
 }  // namespace
@@ -40,19 +41,23 @@ void SolidSolver::begin_step(double time, double dt) {
 
 VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
   if (correction.size() > 0) iterate_.reshaped() += correction;
-  return out_of_balance(load, evaluations_++ % 2 == 0);  // the tangent moves so little in a step that it serves two corrections
+  return out_of_balance(
+      load, evaluations_++ % 2 == 0);  // the tangent moves so little in a step that it serves two corrections
 }
 
 VectorXd SolidSolver::out_of_balance(const Points& load, bool renew_tangent) {
   calls_ = 0;
-  VectorXd result = -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
+  VectorXd result =
+      -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
   tangent_is_of_this_step_ |= renew_tangent;
   result.head(load.size()) += load.reshaped();
   for (int unknown : model_.clamped_unknowns()) result[unknown] = 0;
   return result;
 }
 
-VectorXd SolidSolver::product(const VectorXd& direction) { return current_tangent() * direction; }
+VectorXd SolidSolver::product(const VectorXd& direction) {
+  return current_tangent() * direction;
+}
 
 VectorXd SolidSolver::precondition(const VectorXd& residual) {
   most_calls_ = std::max(most_calls_, ++calls_);
@@ -79,7 +84,8 @@ InterfaceMotion SolidSolver::tangent(const Points& load_change) {
   rhs.head(load_change.size()) = load_change.reshaped();
   for (int unknown : model_.clamped_unknowns()) rhs[unknown] = 0;
   current_tangent();
-  if (!solve_linear(rhs, change, tangent_tolerance).converged) throw run_error("the wall's linearised equations did not converge");
+  if (!solve_linear(rhs, change, tangent_tolerance).converged)
+    throw run_error("the wall's linearised equations did not converge");
   return interface_part(change);
 }
 
@@ -104,7 +110,9 @@ void SolidSolver::accept() {
   time_ += dt_;
 }
 
-void SolidSolver::rewind() { iterate_ = mean_velocity_; }
+void SolidSolver::rewind() {
+  iterate_ = mean_velocity_;
+}
 
 std::vector<Vec3> SolidSolver::support_forces() const {
   std::vector<Vec3> forces;
@@ -114,8 +122,9 @@ std::vector<Vec3> SolidSolver::support_forces() const {
 }
 
 KrylovResult SolidSolver::solve_linear(const VectorXd& rhs, VectorXd& x, double tolerance) {
-  return conjugate_gradients([this](const VectorXd& v) { return product(v); }, [this](const VectorXd& r) { return precondition(r); }, rhs, x,
-                             tolerance, most_linear_iterations);
+  return conjugate_gradients([this](const VectorXd& v) { return product(v); },
+                             [this](const VectorXd& r) { return precondition(r); }, rhs, x, tolerance,
+                             most_linear_iterations);
 }
 
 const SparseMatrix& SolidSolver::current_tangent() {
@@ -151,18 +160,21 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
   origin_ = origin;
 }
 
-Eigen::Index SolidSolver::state_size() const { return 4 * displacement_.size() + 3 + static_cast<Eigen::Index>(origin_.parameters.size()); }
+Eigen::Index SolidSolver::state_size() const {
+  return 4 * displacement_.size() + 3 + static_cast<Eigen::Index>(origin_.parameters.size());
+}
 
 VectorXd SolidSolver::state() const {
   VectorXd state(state_size());
-  state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), origin_.displacement.reshaped(), origin_.dt,
-      origin_.first_calls, origin_.last_calls,
+  state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), origin_.displacement.reshaped(),
+      origin_.dt, origin_.first_calls, origin_.last_calls,
       Eigen::Map<const VectorXd>(origin_.parameters.data(), static_cast<Eigen::Index>(origin_.parameters.size()));
   return state;
 }
 
 void SolidSolver::set_state(const VectorXd& state) {
-  if (state.size() != state_size()) throw input_error("a solid state of {} numbers was set, expected {}", state.size(), state_size());
+  if (state.size() != state_size())
+    throw input_error("a solid state of {} numbers was set, expected {}", state.size(), state_size());
   const Eigen::Index n = displacement_.size();
   displacement_.reshaped() = state.head(n);
   velocity_.reshaped() = state.segment(n, n);
@@ -174,7 +186,8 @@ void SolidSolver::set_state(const VectorXd& state) {
   origin.first_calls = state[4 * n + 1];
   origin.last_calls = state[4 * n + 2];
   origin.parameters.assign(state.data() + 4 * n + 3, state.data() + state.size());
-  if (origin.dt > 0 && !factor_.has_factor()) make_factor(origin);  // a factor at hand serves as well, but for the last bits
+  if (origin.dt > 0 && !factor_.has_factor())
+    make_factor(origin);  // a factor at hand serves as well, but for the last bits
   origin_.first_calls = origin.first_calls;
   origin_.last_calls = origin.last_calls;
 }

@@ -12,7 +12,8 @@ struct InterfaceMotion {
 };
 
 /// The wall in time: midpoint rule (S.5), unknown V on all nodes. The interface's nodes come first.
-/// A step: begin_step, then either `evaluate` (black box) or `residual`, `product`, `precondition` (open), then accept or rewind.
+/// A step: begin_step, then either `evaluate` (black box) or `residual`, `product`, `precondition` (open), then accept
+/// or rewind.
 class SolidSolver {
  public:
   explicit SolidSolver(WallModel& model);
@@ -20,14 +21,16 @@ class SolidSolver {
   /// The step from `time` to `time + dt`. The first iterate is the velocity of the last accepted step.
   void begin_step(double time, double dt);
 
-  /// Add `correction` (empty: none) to the iterate and return load - forces, zero on clamped unknowns (S.5). `load`: 3 x interface nodes.
+  /// Add `correction` (empty: none) to the iterate and return load - forces, zero on clamped unknowns (S.5). `load`: 3
+  /// x interface nodes.
   VectorXd residual(const VectorXd& correction, const Points& load);
   /// Tangent of the forces, at an iterate of this step, times a direction: symmetric positive definite.
   VectorXd product(const VectorXd& direction);
   /// A kept factor's solve: close to the inverse of `product`; zero on clamped unknowns.
   VectorXd precondition(const VectorXd& residual);
 
-  /// Solve the step under the load by Newton; each correction by conjugate gradients with the kept factor. Throws RunError if it fails.
+  /// Solve the step under the load by Newton; each correction by conjugate gradients with the kept factor. Throws
+  /// RunError if it fails.
   InterfaceMotion evaluate(const Points& load);
   /// The same, linearised at the last evaluation.
   InterfaceMotion tangent(const Points& load_change);
@@ -54,7 +57,8 @@ class SolidSolver {
     Points displacement;
     double dt = 0;  ///< 0: there is no factor yet
     std::vector<double> parameters;
-    double first_calls = 0, last_calls = 0;  ///< of `precondition` for one correction, in the factor's first and latest step
+    double first_calls = 0,
+           last_calls = 0;  ///< of `precondition` for one correction, in the factor's first and latest step
   };
 
   /// load - forces at the iterate, zero on clamped unknowns.

@@ -6,7 +6,9 @@ namespace tether {
 namespace {
 
 /// The quadrature points are the midpoints of the edges (degree 2): edge e joins corners e and e + 1.
-constexpr int corner(int edge, int end) { return (edge + end) % 3; }
+constexpr int corner(int edge, int end) {
+  return (edge + end) % 3;
+}
 
 }  // namespace
 
@@ -28,8 +30,8 @@ void SurfaceSupport::place(const Points& x) {
 SupportTraction SurfaceSupport::at(const SupportStep& step, std::size_t triangle, int edge) const {
   const Triangle& t = patch_.triangles[triangle];
   const int a = t[static_cast<std::size_t>(corner(edge, 0))], b = t[static_cast<std::size_t>(corner(edge, 1))];
-  SupportPoint point{(step.displacement.col(a) + step.displacement.col(b)) / 2, (step.velocity.col(a) + step.velocity.col(b)) / 2,
-                     faces_[triangle].normal};
+  SupportPoint point{(step.displacement.col(a) + step.displacement.col(b)) / 2,
+                     (step.velocity.col(a) + step.velocity.col(b)) / 2, faces_[triangle].normal};
   if (motion_) point.displacement -= motion_(step.time);
   return support_->at(point);
 }

@@ -14,8 +14,8 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
   return result;
 }
 
-WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
-                     std::vector<SurfaceSupport> supports)
+WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free,
+                     std::vector<int> clamped_nodes, std::vector<SurfaceSupport> supports)
     : mesh_(std::move(mesh)),
       settings_(settings),
       material_(materials(), settings.material, settings.material_values),
@@ -33,16 +33,30 @@ WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& 
 }
 
 void WallModel::declare_parameters() {
-  const Parameter density{.name = "density", .meaning = "density of the wall", .dimension = dimension::density, .range = range::positive,
-                          .standard = undefined, .absent = undefined, .transform = Transform::log2, .prior_deviation = 0.2};
-  const Parameter viscosity{.name = "viscosity", .meaning = "viscosity of the wall: stress per rate of Green-Lagrange strain",
-                            .dimension = dimension::viscosity, .range = range::not_negative, .standard = 0.0, .absent = 0.0,
-                            .transform = Transform::log2, .prior_deviation = 1.0};
-  parameters_.add({"solid.density", density, [this] { return settings_.density; }, [this](double v) { settings_.density = v; }});
-  parameters_.add({"solid.viscosity", viscosity, [this] { return settings_.viscosity; }, [this](double v) { settings_.viscosity = v; }});
+  const Parameter density{.name = "density",
+                          .meaning = "density of the wall",
+                          .dimension = dimension::density,
+                          .range = range::positive,
+                          .standard = undefined,
+                          .absent = undefined,
+                          .transform = Transform::log2,
+                          .prior_deviation = 0.2};
+  const Parameter viscosity{.name = "viscosity",
+                            .meaning = "viscosity of the wall: stress per rate of Green-Lagrange strain",
+                            .dimension = dimension::viscosity,
+                            .range = range::not_negative,
+                            .standard = 0.0,
+                            .absent = 0.0,
+                            .transform = Transform::log2,
+                            .prior_deviation = 1.0};
+  parameters_.add(
+      {"solid.density", density, [this] { return settings_.density; }, [this](double v) { settings_.density = v; }});
+  parameters_.add({"solid.viscosity", viscosity, [this] { return settings_.viscosity; },
+                   [this](double v) { settings_.viscosity = v; }});
   parameters_.add_effect("solid.material", material_);
   for (SurfaceSupport& support : supports_) {
-    const bool ring = std::any_of(mesh_.rings.begin(), mesh_.rings.end(), [&](const Patch& p) { return p.name == support.name(); });
+    const bool ring =
+        std::any_of(mesh_.rings.begin(), mesh_.rings.end(), [&](const Patch& p) { return p.name == support.name(); });
     parameters_.add_effect((ring ? "solid.rings." : "solid.support.regions.") + support.name(), support.effect());
   }
 }
@@ -53,8 +67,8 @@ void WallModel::place_supports(const Points& displacement) {
   for (SurfaceSupport& support : supports_) support.place(positions);
 }
 
-VectorXd WallModel::step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity, double time, double dt,
-                                SparseMatrix* tangent) const {
+VectorXd WallModel::step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity,
+                                double time, double dt, SparseMatrix* tangent) const {
   const double advance = settings_.theta * dt;
   const Points start = mesh_.points + displacement, acceleration = (velocity - start_velocity) / advance;
   VectorXd forces = VectorXd::Zero(unknowns()), holding = VectorXd::Zero(unknowns());
@@ -62,7 +76,8 @@ VectorXd WallModel::step_forces(const Points& displacement, const Points& start_
   elements_->step_force({start, velocity, acceleration, settings_.theta, dt, settings_.conserve_energy},
                         {&*material_, settings_.viscosity, settings_.density}, forces, tangent);
   const Points middle = displacement + advance * velocity;
-  for (const SurfaceSupport& support : supports_) support.add({middle, velocity, time + advance, advance}, holding, tangent);
+  for (const SurfaceSupport& support : supports_)
+    support.add({middle, velocity, time + advance, advance}, holding, tangent);
   forces -= holding;
   for (int unknown : clamped_) forces[unknown] = 0;
   if (tangent != nullptr) constrain(*tangent, clamped_, tangent->coeff(0, 0));

@@ -12,19 +12,20 @@ namespace tether {
 
 /// What the wall is, apart from how it moves: geometry, material, surroundings.
 struct WallSettings {
-  std::string material;                 ///< a name of `materials()`
-  std::vector<double> material_values;  ///< in its declaration's order
-  double density = undefined;       ///< [density]
-  double viscosity = 0.0;           ///< eta_s [pressure time]
-  double theta = 0.5;               ///< of the midpoint rule, 0.5 to 1
-  bool conserve_energy = false;     ///< needs theta = 0.5
+  std::string material;                  ///< a name of `materials()`
+  std::vector<double> material_values;   ///< in its declaration's order
+  double density = undefined;            ///< [density]
+  double viscosity = 0.0;                ///< eta_s [pressure time]
+  double theta = 0.5;                    ///< of the midpoint rule, 0.5 to 1
+  bool conserve_energy = false;          ///< needs theta = 0.5
   bool support_on_current_area = false;  ///< areas at the start of each step, else those of the imaged wall
 };
 
 /// Wall with material and supports; all parameters settable by name.
 class WallModel {
  public:
-  /// `stress_free`: positions without stress (the imaged ones, if there is no prestress). `clamped`: nodes that do not move.
+  /// `stress_free`: positions without stress (the imaged ones, if there is no prestress). `clamped`: nodes that do not
+  /// move.
   WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
             std::vector<SurfaceSupport> supports);
   WallModel(const WallModel&) = delete;  // the parameter table refers into this object
@@ -42,10 +43,10 @@ class WallModel {
   /// Areas and normals of the supports for a step that starts at displacement y (S.4).
   void place_supports(const Points& displacement);
 
-  /// Left side of the step's equations (S.5): inertia, internal and support forces; tangent, if not null, is set to its derivative by V,
-  /// clamped unknowns eliminated. Entries of clamped unknowns are zero.
-  VectorXd step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity, double time, double dt,
-                       SparseMatrix* tangent) const;
+  /// Left side of the step's equations (S.5): inertia, internal and support forces; tangent, if not null, is set to its
+  /// derivative by V, clamped unknowns eliminated. Entries of clamped unknowns are zero.
+  VectorXd step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity, double time,
+                       double dt, SparseMatrix* tangent) const;
 
  private:
   void declare_parameters();

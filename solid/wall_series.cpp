@@ -26,7 +26,9 @@ std::vector<Field> stress_fields(const Eigen::Matrix<double, 6, Eigen::Dynamic>&
     const auto values = s.reshaped();
     tensors.insert(tensors.end(), values.begin(), values.end());
   }
-  return {{"stress", 9, std::move(tensors)}, Field::scalars("von_mises", mises), Field::scalars("largest_principal_stress", principal)};
+  return {{"stress", 9, std::move(tensors)},
+          Field::scalars("von_mises", mises),
+          Field::scalars("largest_principal_stress", principal)};
 }
 
 }  // namespace
@@ -38,7 +40,8 @@ void WallSeries::write(const WallModel& model, const SolidSolver& solver, int st
   const Points& reference = model.mesh().points;
   const auto stress = model.elements().cauchy_stress(reference + solver.displacement(), model.material());
   write_vtu(folder_ / file, reference, cells_of(model.mesh()),
-            {Field::vectors("displacement", solver.displacement()), Field::vectors("velocity", solver.velocity())}, stress_fields(stress));
+            {Field::vectors("displacement", solver.displacement()), Field::vectors("velocity", solver.velocity())},
+            stress_fields(stress));
   series_->add(time, file);
 }
 

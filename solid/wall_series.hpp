@@ -8,8 +8,8 @@
 
 namespace tether {
 
-/// solid.pvd and the files it lists: displacement [length], velocity, Cauchy stress with its von Mises and hoop-like largest principal value
-/// [pressure], on the imaged positions.
+/// solid.pvd and the files it lists: displacement [length], velocity, Cauchy stress with its von Mises and hoop-like
+/// largest principal value [pressure], on the imaged positions.
 class WallSeries {
  public:
   explicit WallSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -1,0 +1,66 @@
+#include "solid/application.hpp"
+
+#include "common/base/process.hpp"
+#include "common/case/mesh_case.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/echo.hpp"
+#include "common/protocol/run.hpp"
+#include "solid/case.hpp"
+#include "solid/server.hpp"
+
+namespace tether {
+namespace {
+
+/// A case file and the sections of it that the wall needs.
+struct WallCase {
+  explicit WallCase(const std::filesystem::path& path) : file(path) {
+    file.read("mesh", mesh);
+    file.read("solid", solid);
+    file.finish();
+  }
+  WallMesh wall() const {
+    return load_mesh(mesh, file.units(), solid.element == "p1" ? WallElement::p1 : WallElement::prism).wall;
+  }
+  CaseFile file;
+  MeshCase mesh;
+  SolidCase solid;
+};
+
+std::string effective_sections(WallCase& wall) {
+  Echo echo;
+  echo.group("mesh", wall.mesh, {});
+  echo.group("solid", wall.solid, {});
+  return echo.json();
+}
+
+int run(const CommandLine& command) {
+  return protocol::run_partner<protocol::ToSolid>("solid", [&command](const protocol::Welcome& welcome) {
+    WallCase wall(command.case_file);
+    return SolidServer(make_wall_model(wall.solid, wall.wall(), wall.file), wall.file.units(), effective_sections(wall),
+                       welcome.output);
+  });
+}
+
+}  // namespace
+
+Program solid_program() {
+  prepare_process();
+  return {.name = "solid",
+          .purpose =
+              "The vessel's wall: large-displacement hyperelastic, visco-elastically supported. Started by fsi_master.",
+          .declare =
+              [](Fields& fields) {
+                MeshCase mesh;
+                SolidCase solid;
+                fields.group("mesh", mesh, meaning_of_section("mesh"));
+                fields.group("solid", solid, meaning_of_section("solid"));
+              },
+          .validate =
+              [](const CommandLine& command) {
+                const WallCase wall(command.case_file);
+                check_against_mesh(wall.solid, wall.wall(), wall.file);
+              },
+          .run = run};
+}
+
+}  // namespace tether
