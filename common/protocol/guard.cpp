@@ -4,11 +4,8 @@
 
 namespace tether::protocol {
 
-Guard::Guard(double interval, std::function<void()> action)
-    : thread_([this, interval, action = std::move(action)] {
-        std::unique_lock lock(mutex_);
-        while (!changed_.wait_for(lock, std::chrono::duration<double>(interval), [this] { return over_; })) action();
-      }) {}
+Guard::Guard(double interval, std::function<void(double)> action)
+    : thread_([this, interval, action = std::move(action)] { run(interval, action); }) {}
 
 Guard::~Guard() {
   {
@@ -17,6 +14,13 @@ Guard::~Guard() {
   }
   changed_.notify_one();
   thread_.join();
+}
+
+void Guard::run(double interval, const std::function<void(double)>& action) {
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_lock lock(mutex_);
+  while (!changed_.wait_for(lock, std::chrono::duration<double>(interval), [this] { return over_; }))
+    action(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
 }  // namespace tether::protocol

@@ -38,6 +38,7 @@ class ThreadChannel final : public Channel {
       : Channel(peer), out_(std::move(out)), in_(std::move(in)) {}
   void send(Packet packet) override { out_->push(std::move(packet)); }
   Packet receive(double limit) override { return in_->pop(peer(), limit); }
+  void flush() override {}
   void close() override {}
 
  private:

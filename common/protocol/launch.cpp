@@ -2,14 +2,18 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <list>
 
 #include "common/base/process.hpp"
+#include "common/protocol/job.hpp"
 #include "common/protocol/mpi_channel.hpp"
 #include "common/protocol/roster.hpp"
+#include "common/protocol/signals.hpp"
+#include "common/protocol/spawn.hpp"
 
 namespace tether::protocol {
 
@@ -19,30 +23,35 @@ struct Session::Parts {
   bool is_leader = true;
   MPI_Comm parent = MPI_COMM_NULL;
   int rank = 0;
-  std::vector<std::string> roles;  // by world rank, on an MPMD line
+  std::vector<std::string> roles;  // by world rank, if this process was not spawned
   Watch watch;
+  std::list<std::vector<Partner>> groups;  // of each launch; after `watch`, which their channels use
+
+  std::vector<Partner*> partners() {
+    std::vector<Partner*> all;
+    for (auto& group : groups)
+      for (Partner& partner : group) all.push_back(&partner);
+    return all;
+  }
+  MPI_Comm meet_master() const { return meet(master_of(roles, rank), rank, "the master", role); }
+  std::unique_ptr<Channel> start(const Program& program) {
+    auto [communicator, peer] = spawn(program, role);
+    return std::make_unique<MpiChannel>(peer, communicator, watch);
+  }
+  /// The first of the candidates (world ranks) that has the program's role.
+  std::unique_ptr<Channel> take(const Program& program, std::vector<int>& candidates) {
+    const auto is_such = [&](int candidate) { return roles[static_cast<std::size_t>(candidate)] == program.role; };
+    const auto found = std::find_if(candidates.begin(), candidates.end(), is_such);
+    if (found == candidates.end()) throw input_error("the mpirun line has no {} for this {}", program.role, role);
+    const int partner = *found;
+    candidates.erase(found);
+    return std::make_unique<MpiChannel>(Peer{program.role}, meet(partner, partner, program.role, role), watch);
+  }
 };
 
 namespace {
 
-/// What Open MPI must know before MPI_Init, unless the user said otherwise: more processes than cores, none bound to
-/// one.
-void prepare_open_mpi() {
-  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
-  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-  setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
-}
-
-bool initialise_mpi() {
-  int initialised = 0;
-  MPI_Initialized(&initialised);
-  if (initialised) return false;
-  prepare_process();
-  prepare_open_mpi();
-  MPI_Init(nullptr, nullptr);
-  prepare_process();  // MPI may have bound the process to a core
-  return true;
-}
+constexpr double finish_limit = 2, finalize_limit = 5;  // seconds
 
 bool leads(int communicator) {
   if (communicator == no_communicator) return true;
@@ -64,32 +73,9 @@ std::vector<std::string> gather_roles(const std::string& role) {
   return roles;
 }
 
-MPI_Comm spawn(const Program& program) {
-  const std::string executable = find_executable(program);
-  std::vector<char*> arguments;
-  for (const std::string& argument : program.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  MPI_Info info = MPI_INFO_NULL;
-  MPI_Info_create(&info);
-  MPI_Info_set(info, "wdir", std::filesystem::current_path().c_str());
-  MPI_Comm children = MPI_COMM_NULL;
-  const int code = MPI_Comm_spawn(executable.c_str(), arguments.data(), program.processes, info, 0, MPI_COMM_SELF,
-                                  &children, MPI_ERRCODES_IGNORE);
-  MPI_Info_free(&info);
-  check_mpi(code, ("starting " + executable).c_str());
-  return children;
-}
-
-/// The two ends of one pair on an MPMD line; `tag`: the partner's world rank.
-MPI_Comm meet(int other_rank, int tag) {
-  MPI_Comm pair = MPI_COMM_NULL;
-  check_mpi(MPI_Intercomm_create(MPI_COMM_SELF, 0, MPI_COMM_WORLD, other_rank, tag, &pair), "MPI_Intercomm_create");
-  return pair;
-}
-
 /// Reads Arrival, answers Welcome.
-void welcome(Channel& partner, const std::string& output, double limit) {
-  const Packet packet = partner.receive(limit);
+void welcome(Channel& partner, const std::string& output) {
+  const Packet packet = partner.receive(start_limit());
   if (!holds<Arrival>(packet))
     throw run_error("{} did not begin with Arrival but with {}", partner.peer().role, kind_name<ToMaster>(packet.kind));
   const auto arrival = unpack<Arrival>(packet);
@@ -102,6 +88,16 @@ void welcome(Channel& partner, const std::string& output, double limit) {
                       arrival.protocol_version, version);
   if (arrival.role != peer.role) throw input_error("{} says that it is a {}", peer.describe(), arrival.role);
   partner.send(pack(Welcome{version, host_name(), process_id(), output}));
+}
+
+/// Lets an idle partner finish. A dead, silent or failing one stays unfinished.
+void finish_if_idle(Partner& partner, bool abrupt) {
+  if (!partner.is_idle()) return;
+  try {
+    partner.finish({"the master ends", abrupt}, finish_limit);
+  } catch (const std::exception&) {
+    return;
+  }
 }
 
 }  // namespace
@@ -118,14 +114,17 @@ std::string find_executable(const Program& program) {
 }
 
 Session::Session(const std::string& role, int communicator) : parts_(std::make_unique<Parts>()) {
-  parts_->owns_mpi = initialise_mpi();
+  parts_->owns_mpi = initialise_mpi(role);
   parts_->is_leader = leads(communicator);
   parts_->role = role;
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN);
   MPI_Comm_rank(MPI_COMM_WORLD, &parts_->rank);
   MPI_Comm_get_parent(&parts_->parent);
-  if (parts_->parent == MPI_COMM_NULL) parts_->roles = gather_roles(parts_->is_leader ? role : "");
+  if (parts_->parent != MPI_COMM_NULL)
+    parts_->watch.follow(marking_master());
+  else
+    parts_->roles = gather_roles(parts_->is_leader ? role : "");
 }
 
 Session::~Session() = default;
@@ -139,10 +138,11 @@ bool Session::is_leader() const {
 }
 
 Session::Link Session::connect() {
+  delay_termination();
   if (!has_master())
     throw run_error("no master: this program is started by one, or beside one on an mpirun line (docs/protocol.md)");
   const bool spawned = parts_->parent != MPI_COMM_NULL;
-  const MPI_Comm communicator = spawned ? parts_->parent : meet(master_of(parts_->roles, parts_->rank), parts_->rank);
+  const MPI_Comm communicator = spawned ? parts_->parent : parts_->meet_master();
   auto channel = std::make_unique<MpiChannel>(Peer{"the master"}, communicator, parts_->watch);
   channel->send(pack(Arrival{version, parts_->role, host_name(), process_id()}));
   const auto greeting = unpack<Welcome>(channel->receive(infinite));
@@ -152,33 +152,33 @@ Session::Link Session::connect() {
   return {std::move(channel), greeting};
 }
 
-std::vector<Partner> Session::launch(const std::vector<Program>& programs, const std::string& output, double limit) {
-  std::vector<std::unique_ptr<Channel>> channels;
-  std::vector<int> free = parts_->roles.size() > 1 ? partners_of(parts_->roles, parts_->rank) : std::vector<int>{};
+std::span<Partner> Session::launch(const std::vector<Program>& programs, const std::string& output) {
+  report_signals();
+  std::vector<int> candidates;
+  if (parts_->roles.size() > 1) candidates = partners_of(parts_->roles, parts_->rank);
+  std::vector<Partner>& group = parts_->groups.emplace_back();
   for (const Program& program : programs) {
-    const auto is_such = [&](int rank) { return parts_->roles[static_cast<std::size_t>(rank)] == program.role; };
-    const auto found = std::find_if(free.begin(), free.end(), is_such);
-    if (parts_->roles.size() > 1 && found == free.end())
-      throw input_error("the mpirun line has no {} for this {}", program.role, parts_->role);
-    const MPI_Comm pair = found == free.end() ? spawn(program) : meet(*found, *found);
-    if (found != free.end()) free.erase(found);
-    channels.push_back(std::make_unique<MpiChannel>(Peer{program.role}, pair, parts_->watch));
+    auto channel = parts_->roles.size() > 1 ? parts_->take(program, candidates) : parts_->start(program);
+    welcome(*channel, output);
+    group.emplace_back(std::move(channel));
   }
-  std::vector<Partner> partners;
-  for (auto& channel : channels) {
-    welcome(*channel, output, limit);
-    partners.emplace_back(std::move(channel));
-  }
-  return partners;
+  return group;
 }
 
 int Session::end(int exit_code) {
-  if (!parts_->watch.all_released()) {
-    for (const Peer& peer : parts_->watch.abandoned())
-      if (peer.pid != 0 && peer.host == host_name() && parts_->parent == MPI_COMM_NULL)
-        kill(static_cast<pid_t>(peer.pid), SIGKILL);
-    MPI_Abort(MPI_COMM_WORLD, exit_code);
-  }
+  parts_->watch.unfollow();
+  const std::vector<Partner*> partners = parts_->partners();
+  const auto all = [&](auto condition) { return std::all_of(partners.begin(), partners.end(), condition); };
+  const bool orderly = all([](const Partner* p) { return p->is_idle() || p->is_finished(); });
+  for (Partner* partner : partners) finish_if_idle(*partner, !orderly);
+  if (orderly && all([](const Partner* p) { return p->is_finished(); }))
+    for (Partner* partner : partners) partner->close();
+  parts_->groups.clear();
+  if (!parts_->watch.all_released()) end_job(exit_code, parts_->watch.abandoned());
+  const Guard deadline(0.5, [exit_code](double seconds) {
+    if (seconds > finalize_limit) end_job(exit_code);
+  });
+  if (exit_code != exit_done) leave_reaper({});
   if (parts_->owns_mpi) MPI_Finalize();
   return exit_code;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,12 +48,14 @@ class Session {
   Link connect();
 
   /// Spawns the programs, or takes those of the same roles from the mpirun line, and welcomes them; they read their
-  /// case at the same time until each is asked for its hello. Waits at most `limit` seconds for each to appear. Throws
-  /// InputError (no such executable, another role or version), PeerDied, PeerSilent.
-  std::vector<Partner> launch(const std::vector<Program>& programs, const std::string& output, double limit = 60);
+  /// case at the same time until each is asked for its hello. The session keeps the partners, in the programs' order.
+  /// Waits at most TETHER_START_LIMIT seconds (60 if unset) for each to appear.
+  /// Throws InputError (no such executable, another role or version), PeerDied, PeerSilent.
+  std::span<Partner> launch(const std::vector<Program>& programs, const std::string& output);
 
-  /// Ends the job. All channels closed: MPI_Finalize, and returns `exit_code` for main. Otherwise (a partner is dead,
-  /// busy or lost) does not return: ends this process and all it launched within seconds.
+  /// Ends the job, the last thing in main. Partners that wait for a request are stopped. If all ended in good order:
+  /// MPI_Finalize, and returns `exit_code`. Otherwise (a partner is dead, busy or lost) does not return: ends this
+  /// process with `exit_code`, and all it launched, within a second.
   int end(int exit_code);
 
   struct Parts;

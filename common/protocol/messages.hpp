@@ -185,7 +185,8 @@ struct GetUsage {
 struct Stop {
   using Reply = Ready;
   std::string reason;
-  TETHER_MESSAGE(Stop, reason)
+  bool abrupt = false;  ///< the job has failed: end right after the answer, without MPI_Finalize
+  TETHER_MESSAGE(Stop, reason, abrupt)
 };
 
 // ---- master -> fluid ------------------------------------------------------------------------------------------------

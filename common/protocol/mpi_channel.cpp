@@ -1,13 +1,11 @@
 #include "common/protocol/mpi_channel.hpp"
 
+#include "common/protocol/job.hpp"
+
 namespace tether::protocol {
 
-void check_mpi(int code, const char* what) {
-  if (code == MPI_SUCCESS) return;
-  char text[MPI_MAX_ERROR_STRING] = {};
-  int length = 0;
-  MPI_Error_string(code, text, &length);
-  throw run_error("{}: {}", what, text);
+namespace {
+constexpr double close_limit = 3;  // seconds that the other end may take for the same call
 }
 
 MpiChannel::MpiChannel(Peer peer, MPI_Comm communicator, Watch& watch)
@@ -21,7 +19,7 @@ MpiChannel::~MpiChannel() {
 }
 
 void MpiChannel::send(Packet packet) {
-  finish_sending();
+  flush();
   outgoing_ = std::move(packet.bytes);
   check_mpi(MPI_Isend(outgoing_.data(), static_cast<int>(outgoing_.size()), MPI_BYTE, 0, packet.kind, communicator_,
                       &sending_),
@@ -47,12 +45,15 @@ Packet MpiChannel::receive(double limit) {
 }
 
 void MpiChannel::close() {
-  finish_sending();
+  flush();
   watch_.release(peer());
+  const Guard deadline(0.5, [](double seconds) {
+    if (seconds > close_limit) end_job(exit_run_failed);
+  });
   check_mpi(MPI_Comm_disconnect(&communicator_), "MPI_Comm_disconnect");
 }
 
-void MpiChannel::finish_sending() {
+void MpiChannel::flush() {
   wait(sending_, infinite);
 }
 

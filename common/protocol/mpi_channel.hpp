@@ -2,13 +2,11 @@
 
 #include <mpi.h>
 
+#include "common/protocol/spawn.hpp"
 #include "common/protocol/watch.hpp"
 
 /// Only for this room's .cpp files: what needs mpi.h.
 namespace tether::protocol {
-
-/// Throws RunError with MPI's own words if `code` is not MPI_SUCCESS.
-void check_mpi(int code, const char* what);
 
 /// Packets as MPI messages (tag: the packet's kind) to rank 0 of an intercommunicator's other side.
 /// Never blocks inside MPI: a dead peer would hang it.
@@ -19,10 +17,10 @@ class MpiChannel final : public Channel {
   ~MpiChannel() override;
   void send(Packet packet) override;
   Packet receive(double limit) override;
+  void flush() override;
   void close() override;
 
  private:
-  void finish_sending();
   void wait(MPI_Request& request, double limit);
 
   MPI_Comm communicator_;

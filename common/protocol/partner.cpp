@@ -2,40 +2,33 @@
 
 namespace tether::protocol {
 
-namespace {
-constexpr double stop_limit = 2.0;  // seconds that an idle partner may take to finish when the master ends by an error
-}
-
-Partner::~Partner() {
-  if (!channel_ || stage_ != Stage::idle) return;
-  try {
-    post(Stop::message_name, pack(Stop{"the master ends"}));
-    take(stop_limit);
-    channel_->close();
-  } catch (const std::exception&) {
-    // The partner is dead, silent or failing: Session::end sees that its channel was not closed and ends it.
-  }
-}
-
 const Hello& Partner::hello(double limit) {
   if (stage_ != Stage::starting) return hello_;
   const Packet packet = take(limit);
   if (!holds<Hello>(packet)) {
-    stage_ = Stage::over;
-    channel_->close();
+    close();
     reject(packet, Hello::message_name);
   }
   hello_ = unpack<Hello>(packet);
   return hello_;
 }
 
-void Partner::stop(const std::string& reason) {
-  if (stage_ == Stage::starting) hello();
-  post(Stop::message_name, pack(Stop{reason}));
-  const Packet packet = take(infinite);
-  stage_ = Stage::over;
-  channel_->close();
+void Partner::finish(const Stop& stop, double limit) {
+  post(Stop::message_name, pack(stop));
+  const Packet packet = take(limit);
+  stage_ = Stage::finished;
   if (!holds<Ready>(packet)) reject(packet, Ready::message_name);
+}
+
+void Partner::close() {
+  if (stage_ == Stage::closed) return;
+  channel_->close();
+  stage_ = Stage::closed;
+}
+
+void Partner::stop(const std::string& reason) {
+  finish({reason});
+  close();
 }
 
 void Partner::post(const char* request_name, Packet packet) {
@@ -53,7 +46,7 @@ Packet Partner::take(double limit) {
   try {
     packet = channel_->receive(limit);
   } catch (const std::exception&) {
-    stage_ = Stage::over;
+    stage_ = Stage::lost;
     throw;
   }
   stage_ = Stage::idle;

@@ -23,8 +23,6 @@ class Partner {
   explicit Partner(std::unique_ptr<Channel> channel) : channel_(std::move(channel)) {}
   Partner(Partner&&) = default;
   Partner& operator=(Partner&&) = delete;
-  /// Stops the partner if it waits for a request; a busy one is left to the end of the process (Session::end).
-  ~Partner();
 
   const std::string& role() const { return channel_->peer().role; }
   const Peer& peer() const { return channel_->peer(); }
@@ -47,18 +45,25 @@ class Partner {
     if (!holds<Reply>(packet)) reject(packet, Reply::message_name);
     return unpack<Reply>(packet);
   }
-  /// Lets the partner finish and end.
+  /// The last request: lets the partner write what is open, at most `limit` seconds long.
+  void finish(const Stop& stop, double limit = infinite);
+  /// After `finish`: both ends of the channel close.
+  void close();
+  /// Finish and close.
   void stop(const std::string& reason);
 
+  bool is_idle() const { return stage_ == Stage::idle; }  ///< waits for a request
+  bool is_finished() const { return stage_ == Stage::finished || stage_ == Stage::closed; }
+
  private:
-  enum class Stage { starting, idle, busy, over };
+  enum class Stage { starting, idle, busy, finished, closed, lost };
 
   void post(const char* request_name, Packet packet);
   Packet take(double limit);
   /// Throws what the packet means instead of the `expected` reply.
   [[noreturn]] void reject(const Packet& packet, const char* expected) const;
 
-  std::unique_ptr<Channel> channel_;  // empty after a move
+  std::unique_ptr<Channel> channel_;
   Hello hello_;
   Stage stage_ = Stage::starting;
   std::int64_t step_ = -1;

@@ -46,12 +46,15 @@ Packet answer(const Packet& request, Handler& handler) {
 template <class Requests, class Handler>
 void serve(Channel& master, const Hello& hello, Handler& handler) {
   master.send(pack(hello));
-  for (bool stopped = false; !stopped;) {
-    const Packet request = master.receive();
-    stopped = holds<Stop>(request);
+  Packet request;
+  do {
+    request = master.receive();
     master.send(answer<Requests>(request, handler));
-  }
-  master.close();
+  } while (!holds<Stop>(request));
+  if (unpack<Stop>(request).abrupt)
+    master.flush();
+  else
+    master.close();
 }
 
 }  // namespace tether::protocol

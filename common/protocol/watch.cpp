@@ -1,12 +1,12 @@
 #include "common/protocol/watch.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "common/base/process.hpp"
+#include "common/protocol/job.hpp"
+#include "common/protocol/signals.hpp"
 
 namespace tether::protocol {
 
@@ -18,15 +18,15 @@ constexpr int spins = 50;
 constexpr auto shortest_nap = std::chrono::microseconds(10), longest_nap = std::chrono::microseconds(500);
 constexpr auto look_every = std::chrono::milliseconds(200);
 
+}  // namespace
+
 bool is_dead(const Peer& peer) {
   return peer.pid != 0 && peer.host == host_name() && !is_running(peer.pid);
 }
 
-}  // namespace
-
 void Watch::release(const Peer& peer) {
   std::erase(peers_, &peer);
-  if (master_ == &peer) guard_.reset();
+  if (master_ == &peer) unfollow();
 }
 
 void Watch::abandon(const Peer& peer) {
@@ -40,8 +40,8 @@ void Watch::check() const {
 
 void Watch::follow(const Peer& master) {
   master_ = &master;
-  guard_ = std::make_unique<Guard>(0.2, [master] {
-    if (is_dead(master)) _exit(exit_run_failed);
+  guard_ = std::make_unique<Guard>(0.2, [master](double) {
+    if (is_dead(master)) end_job(exit_run_failed);
   });
 }
 
@@ -53,8 +53,9 @@ bool wait_until(const std::function<bool()>& done, const Watch& watch, double li
   for (auto nap = shortest_nap; !done(); nap = std::min(2 * nap, longest_nap)) {
     std::this_thread::sleep_for(nap);
     const auto now = Clock::now();
-    if (now >= look) {
+    if (now >= look || interrupted()) {
       watch.check();
+      if (interrupted()) throw Interrupted();
       look = now + look_every;
     }
     if (std::chrono::duration<double>(now - start).count() > limit) return false;

@@ -23,6 +23,7 @@ class Watch {
   void check() const;
   /// From now on this process ends with its master, even in the middle of a computation; until released.
   void follow(const Peer& master);
+  void unfollow() { guard_.reset(); }
 
   bool all_released() const { return peers_.empty() && abandoned_.empty(); }
   const std::vector<Peer>& abandoned() const { return abandoned_; }
@@ -34,8 +35,11 @@ class Watch {
   std::unique_ptr<Guard> guard_;
 };
 
+/// Whether the peer is known to be gone: its pid does not run on this host. What other hosts do is mpirun's to notice.
+bool is_dead(const Peer& peer);
+
 /// Waits until `done` without burning a core: about 50 tries, then naps of 10 us, doubling up to 0.5 ms. Looks after
-/// `watch` every 0.2 s. False if `limit` seconds passed.
+/// `watch` every 0.2 s. False if `limit` seconds passed. Throws PeerDied, Interrupted.
 bool wait_until(const std::function<bool()>& done, const Watch& watch, double limit = infinite);
 
 }  // namespace tether::protocol

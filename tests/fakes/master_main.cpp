@@ -31,7 +31,7 @@ double step(Partner& fluid, Partner& solid, std::int64_t number, Motion& motion)
 int main(int argc, char** argv) {
   return run_master("fake_master", [&](Session& session) {
     if (argc != 4) throw input_error("usage: fake_master FLUID SOLID STEPS");
-    auto partners = session.launch({{"fluid", argv[1], {"case.yaml"}}, {"solid", argv[2], {"case.yaml"}}}, "out", 5);
+    auto partners = session.launch({{"fluid", argv[1], {"case.yaml"}}, {"solid", argv[2], {"case.yaml"}}}, "out");
     Partner &fluid = partners[0], &solid = partners[1];
     fluid.hello();
     solid.hello();

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "common/base/error.hpp"
+
+/// SIGINT and SIGTERM: from a person, a scheduler, or from mpirun one second before it kills everybody because one
+/// process of the job died. A handler of the host code is left alone.
+namespace tether::protocol {
+
+/// This process was told to end.
+struct Interrupted : RunError {
+  Interrupted() : RunError("interrupted") {}
+};
+
+/// A master: its next wait ends with PeerDied or Interrupted, so that it can say what happened. A second signal kills
+/// it.
+void report_signals();
+bool interrupted();
+
+/// A partner: SIGTERM takes effect after one second, so that its master does not mistake it for the process that died.
+void delay_termination();
+
+}  // namespace tether::protocol

@@ -1,0 +1,144 @@
+#include "common/protocol/spawn.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/process.hpp"
+#include "common/protocol/guard.hpp"
+#include "common/protocol/job.hpp"
+#include "common/protocol/signals.hpp"
+
+namespace tether::protocol {
+
+namespace {
+
+/// What a shell, which then becomes the program, does first: it leaves its pid, so that the death of a program that
+/// never reaches MPI_Init can be noticed. `$0`: the file, `$@`: the program and its arguments.
+constexpr const char* starter = "echo $$ >>\"$0\"; exec \"$@\"";
+
+/// The file for that pid, removed with this object.
+class PidFile {
+ public:
+  PidFile() : path_(std::filesystem::temp_directory_path() / fmt::format("tether-{}-{}", process_id(), ++count_)) {}
+  ~PidFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  PidFile(const PidFile&) = delete;
+  PidFile& operator=(const PidFile&) = delete;
+  std::string path() const { return path_.string(); }
+  /// 0 before it is written, and for ever if the process is on another host.
+  std::int64_t pid() const {
+    std::int64_t pid = 0;
+    std::ifstream(path_) >> pid;
+    return pid;
+  }
+
+ private:
+  std::filesystem::path path_;
+  static inline int count_ = 0;
+};
+
+/// MPI_Comm_spawn neither ends nor fails if the program never reaches MPI_Init: this ends the job instead.
+void check_spawning(double seconds, const PidFile& file, const std::string& program, const std::string& master_role) {
+  const std::int64_t pid = file.pid();
+  if (interrupted() || (pid != 0 && !is_running(pid))) give_up(master_role, program + " ended before it reached MPI");
+  if (seconds > start_limit())
+    give_up(master_role, fmt::format("{} did not reach MPI within {} s", program, start_limit()));
+}
+
+/// More processes than cores, none bound to one, and no pages of mpirun's own about a process that died; unless the
+/// user said otherwise.
+void prepare_open_mpi() {
+  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
+  setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
+}
+
+/// MPI_Init of an MPMD line waits for all its programs. Only the first of them tells that it is in vain.
+void check_initialising(double seconds, const std::string& role) {
+  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  const bool is_first = rank == nullptr || std::string(rank) == "0";
+  if (is_first && interrupted()) give_up(role, "interrupted while MPI started: a program of the mpirun line ended");
+  if (is_first && seconds > start_limit())
+    give_up(role,
+            fmt::format("MPI did not start within {} s: a program of the mpirun line did not reach it", start_limit()));
+  if (seconds > start_limit() + 2) end_job(exit_run_failed);
+}
+
+MPI_Info spawn_info() {
+  MPI_Info info = MPI_INFO_NULL;
+  MPI_Info_create(&info);
+  MPI_Info_set(info, "wdir", std::filesystem::current_path().c_str());
+  MPI_Info_set(info, "env", mark_of_children().c_str());
+  return info;
+}
+
+}  // namespace
+
+void check_mpi(int code, const char* what) {
+  if (code == MPI_SUCCESS) return;
+  char text[MPI_MAX_ERROR_STRING] = {};
+  int length = 0;
+  MPI_Error_string(code, text, &length);
+  throw run_error("{}: {}", what, text);
+}
+
+double start_limit() {
+  const char* text = std::getenv("TETHER_START_LIMIT");
+  const double seconds = text ? std::atof(text) : 0;
+  return seconds > 0 ? seconds : 60;
+}
+
+void give_up(const std::string& role, const std::string& message) {
+  fmt::print(stderr, "{}: {}\n", role, message);
+  end_job(exit_run_failed);
+}
+
+bool initialise_mpi(const std::string& role) {
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  if (initialised) return false;
+  report_signals();
+  prepare_process();
+  prepare_open_mpi();
+  const Guard guard(0.1, [&role](double seconds) { check_initialising(seconds, role); });
+  MPI_Init(nullptr, nullptr);
+  prepare_process();  // MPI may have bound the process to a core
+  return true;
+}
+
+Spawned spawn(const Program& program, const std::string& master_role) {
+  const std::string executable = find_executable(program);
+  const std::string name = fmt::format("{} ({})", program.role, executable);
+  const PidFile file;
+  std::vector<std::string> words{"-c", starter, file.path(), executable};
+  words.insert(words.end(), program.arguments.begin(), program.arguments.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const Guard guard(0.1, [&](double seconds) { check_spawning(seconds, file, name, master_role); });
+  MPI_Info info = spawn_info();
+  MPI_Comm children = MPI_COMM_NULL;
+  const int code = MPI_Comm_spawn("/bin/sh", arguments.data(), program.processes, info, 0, MPI_COMM_SELF, &children,
+                                  MPI_ERRCODES_IGNORE);
+  MPI_Info_free(&info);
+  check_mpi(code, ("starting " + executable).c_str());
+  const std::int64_t pid = file.pid();
+  return {children, pid == 0 ? Peer{program.role} : Peer{program.role, host_name(), pid}};
+}
+
+MPI_Comm meet(int other_rank, int tag, const std::string& other_role, const std::string& own_role) {
+  const Guard guard(0.2, [&](double seconds) {
+    if (seconds > start_limit())
+      give_up(own_role, fmt::format("{} (rank {}) did not connect within {} s", other_role, other_rank, start_limit()));
+  });
+  MPI_Comm pair = MPI_COMM_NULL;
+  check_mpi(MPI_Intercomm_create(MPI_COMM_SELF, 0, MPI_COMM_WORLD, other_rank, tag, &pair), "MPI_Intercomm_create");
+  return pair;
+}
+
+}  // namespace tether::protocol

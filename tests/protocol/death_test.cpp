@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include "tests/protocol/run_job.hpp"
+
+/// Whatever dies, whenever, however the job was started: one message, the end within seconds, no process left.
+namespace tether::tests {
+namespace {
+
+enum class Start { alone, mpirun, mpmd };
+
+struct Case {
+  const char* name;
+  Start start;
+  const char* fault;    ///< for tests/fakes/misbehave.hpp
+  const char* message;  ///< the only line on stderr, without pids; "": none
+  int exit_code;
+};
+
+std::vector<std::string> command_for(Start start) {
+  const std::vector<std::string> master{test_program("fake_master"), "fake_fluid", "fake_solid", "3"};
+  if (start == Start::alone) return master;
+  auto words = mpirun();
+  words.insert(words.end(), {"-n", "1"});
+  words.insert(words.end(), master.begin(), master.end());
+  if (start == Start::mpmd)
+    words.insert(words.end(), {":", "-n", "1", test_program("fake_fluid"), ":", "-n", "1", test_program("fake_solid")});
+  return words;
+}
+
+/// "solid (pid 12 on node)" -> "solid", and "solid (/path/fake_solid)" -> "solid"
+std::string without_details(const std::string& text) {
+  std::string result = text;
+  for (auto open = result.find(" ("); open != std::string::npos; open = result.find(" (", open + 1)) {
+    const auto close = result.find(')', open);
+    const auto inside = result.substr(open, close - open);
+    if (inside.find("(pid") != std::string::npos || inside.find('/') != std::string::npos)
+      result.erase(open, close - open + 1);
+  }
+  return result;
+}
+
+class AnyDeath : public testing::TestWithParam<Case> {};
+
+TEST_P(AnyDeath, Ends_with_one_message_and_no_orphan) {
+  const Case& c = GetParam();
+  const auto job = run_job(command_for(c.start), {{"TETHER_FAKE", c.fault}, {"TETHER_START_LIMIT", "2"}});
+  EXPECT_EQ(without_details(job.errors), c.message[0] == '\0' ? "" : std::string("fake_master: ") + c.message + "\n");
+  EXPECT_EQ(job.exit_code, c.exit_code);
+  EXPECT_LT(job.seconds, 6);
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+constexpr auto before_mpi = "solid ended before it reached MPI", setting_up = "solid died while setting up",
+               step_0 = "solid died while computing step 0 (SolidEvaluate)",
+               stopping = "solid died while computing step 2 (Stop)",
+               fluid_0 = "fluid died while computing step 0 (FluidEvaluate)",
+               failed = "solid failed while computing step 0 (SolidEvaluate): element 12 is inverted",
+               refused = "solid: case.yaml:7: solid.density: -1 g/cm3: must be positive",
+               too_late = "solid did not reach MPI within 2 s",
+               not_started = "MPI did not start within 2 s: a program of the mpirun line did not reach it",
+               line_ended = "interrupted while MPI started: a program of the mpirun line ended";
+
+// mpirun's exit code for a killed process is 137, whatever the master returns.
+INSTANTIATE_TEST_SUITE_P(
+    Fault, AnyDeath,
+    testing::Values(Case{"alone_none", Start::alone, "", "", 0},
+                    Case{"alone_at_start", Start::alone, "solid.kill=start", before_mpi, 1},
+                    Case{"alone_setting_up", Start::alone, "solid.kill=hello", setting_up, 1},
+                    Case{"alone_computing", Start::alone, "solid.kill=SolidEvaluate", step_0, 1},
+                    Case{"alone_fluid", Start::alone, "fluid.kill=FluidEvaluate", fluid_0, 1},
+                    Case{"alone_stopping", Start::alone, "solid.kill=Stop", stopping, 1},
+                    Case{"alone_early_exit", Start::alone, "solid.exit=start", before_mpi, 1},
+                    Case{"alone_exit_in_step", Start::alone, "solid.exit=SolidEvaluate", step_0, 1},
+                    Case{"alone_never_appears", Start::alone, "solid.hang=start", too_late, 1},
+                    Case{"alone_failure", Start::alone, "solid.fail=SolidEvaluate", failed, 1},
+                    Case{"alone_input", Start::alone, "solid.refuse=hello", refused, 2},
+                    Case{"alone_master", Start::alone, "master.kill=step1", "", 137},
+                    Case{"mpirun_none", Start::mpirun, "", "", 0},
+                    Case{"mpirun_at_start", Start::mpirun, "solid.kill=start", before_mpi, 137},
+                    Case{"mpirun_setting_up", Start::mpirun, "solid.kill=hello", setting_up, 137},
+                    Case{"mpirun_computing", Start::mpirun, "solid.kill=SolidEvaluate", step_0, 137},
+                    Case{"mpirun_never_appears", Start::mpirun, "solid.hang=start", too_late, 1},
+                    Case{"mpirun_input", Start::mpirun, "solid.refuse=hello", refused, 2},
+                    Case{"mpirun_master", Start::mpirun, "master.kill=step1", "", 137},
+                    Case{"mpmd_none", Start::mpmd, "", "", 0},
+                    Case{"mpmd_at_start", Start::mpmd, "solid.kill=start", line_ended, 137},
+                    Case{"mpmd_setting_up", Start::mpmd, "solid.kill=hello", setting_up, 137},
+                    Case{"mpmd_computing", Start::mpmd, "solid.kill=SolidEvaluate", step_0, 137},
+                    Case{"mpmd_never_appears", Start::mpmd, "solid.hang=start", not_started, 1},
+                    Case{"mpmd_input", Start::mpmd, "solid.refuse=hello", refused, 2},
+                    Case{"mpmd_master", Start::mpmd, "master.kill=step1", "", 137}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Death, Even_what_cleans_up_is_gone_within_five_seconds) {
+  const auto job = run_job(command_for(Start::alone), {{"TETHER_FAKE", "solid.kill=SolidEvaluate"}});
+  EXPECT_LT(job.seconds + seconds_until_empty(), 5);
+}
+
+TEST(Launch, A_missing_or_unusable_program_is_an_input_error) {
+  const auto missing = run_job({test_program("fake_master"), "fake_fluid", "no_such_solid", "3"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(missing.errors.find("program of the solid: "), std::string::npos) << missing.errors;
+  EXPECT_NE(missing.errors.find("no_such_solid does not exist"), std::string::npos) << missing.errors;
+  const auto unusable = run_job({test_program("fake_master"), "/etc/passwd", "fake_solid", "3"});
+  EXPECT_EQ(unusable.exit_code, 2);
+  EXPECT_EQ(unusable.errors, "fake_master: program of the fluid: /etc/passwd cannot be executed\n");
+}
+
+TEST(Launch, A_program_of_another_role_is_an_input_error) {
+  const auto job = run_job({test_program("fake_master"), "fake_solid", "fake_solid", "3"});
+  EXPECT_EQ(job.exit_code, 2);
+  EXPECT_EQ(without_details(job.errors), "fake_master: fluid says that it is a solid\n");
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+TEST(Launch, Spawned_and_mpmd_give_the_same_numbers) {
+  const auto steps = [](const std::string& output) { return output.substr(output.find("step 0")); };
+  const auto alone = run_job(command_for(Start::alone)), mpmd = run_job(command_for(Start::mpmd));
+  EXPECT_NE(alone.output.find("step 2"), std::string::npos);
+  EXPECT_EQ(steps(alone.output), steps(mpmd.output));
+}
+
+}  // namespace
+}  // namespace tether::tests
