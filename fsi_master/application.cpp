@@ -135,7 +135,7 @@ int run(const CommandLine& command) {
     plan.output = fs::absolute(claim_output(command, master.file));
     if (!plan.resume) remove_old_results(plan.output);
     const auto& programs = master.coupling.programs;
-    std::vector<Partner> partners = session.launch(
+    const std::span<Partner> partners = session.launch(
         {partner_program("fluid", programs.fluid, master.file), partner_program("solid", programs.solid, master.file)},
         plan.output.string());
     for (Partner& partner : partners) partner.hello();
