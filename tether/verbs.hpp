@@ -11,6 +11,9 @@ int simulate(const CommandLine& command);
 void check_case(const CommandLine& command);
 int validate(const CommandLine& command);
 
+/// Writes OUTPUT/mesh/fluid.vtu, wall.vtu and their faces, and tells sizes and quality.
+int write_meshes(const CommandLine& command);
+
 /// The reference of the whole case file, gathered from the programs that read it. `format`: text or markdown.
 std::string case_reference(const std::string& format);
 

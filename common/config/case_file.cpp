@@ -18,6 +18,19 @@ UnitSystem units_of(const YamlNode& tree) {
   }
 }
 
+/// The nodes on the way to "fluid.inlets.inlet", one per word; null from the first that the file leaves out.
+std::vector<const YamlNode*> chain(const YamlNode& tree, std::string_view field) {
+  std::vector<const YamlNode*> nodes;
+  const YamlNode* node = &tree;
+  for (std::size_t begin = 0; begin <= field.size();) {
+    const std::size_t end = std::min(field.find('.', begin), field.size());
+    node = node ? node->find(field.substr(begin, end - begin)) : nullptr;
+    nodes.push_back(node);
+    begin = end + 1;
+  }
+  return nodes;
+}
+
 }  // namespace
 
 struct CaseFile::Contents {
@@ -57,9 +70,6 @@ const std::filesystem::path& CaseFile::path() const {
 Fields& CaseFile::fields() {
   return contents_->reader;
 }
-bool CaseFile::has(std::string_view section) const {
-  return contents_->tree.find(section) != nullptr;
-}
 
 void CaseFile::finish() {
   std::vector<std::string> known;
@@ -74,15 +84,15 @@ void CaseFile::finish() {
   contents_->problems.throw_if_any();
 }
 
+std::string CaseFile::given(std::string_view field) const {
+  const auto found = chain(contents_->tree, field);
+  return found.back() ? found.back()->text : "";
+}
+
 std::string CaseFile::where(std::string_view field) const {
-  const YamlNode* node = &contents_->tree;
-  int line = node->line;
-  for (std::size_t begin = 0; node && begin <= field.size();) {
-    const std::size_t end = std::min(field.find('.', begin), field.size());
-    node = node->find(field.substr(begin, end - begin));
+  int line = contents_->tree.line;
+  for (const YamlNode* node : chain(contents_->tree, field))
     if (node) line = node->line;
-    begin = end + 1;
-  }
   return fmt::format("{}:{}: {}", contents_->path.string(), line, field);
 }
 

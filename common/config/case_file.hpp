@@ -29,7 +29,8 @@ class CaseFile {
   void read(std::string_view name, Section& section) {
     fields().group(name, section, meaning_of_section(name));
   }
-  bool has(std::string_view section) const;
+  /// What the file says in a section that another program owns: "solid.element". Empty if it says nothing.
+  std::string given(std::string_view field) const;
 
   /// Throws InputError with a line "file:line: field: value: rule (meaning)" per problem, unknown sections included.
   void finish();
@@ -39,9 +40,9 @@ class CaseFile {
   std::string where(std::string_view field) const;
 
  private:
-  Fields& fields();
-
   struct Contents;
+
+  Fields& fields();
   std::unique_ptr<Contents> contents_;
 };
 

@@ -79,6 +79,9 @@ fluid:
   EXPECT_FALSE(blood.outlets[0].second.offset.has_value());
   EXPECT_NEAR(*blood.outlets[1].second.offset, 106657.6, 1e-9);
   EXPECT_FALSE(blood.extra.has_value());
+  EXPECT_EQ(file.given("fluid.motion"), "harmonic");
+  EXPECT_EQ(file.given("fluid.extra.offset"), "");
+  EXPECT_EQ(file.given("wall.element"), "");
   EXPECT_EQ(file.where("fluid.outlets.left"), (test_folder() / "case.yaml:19: fluid.outlets.left").string());
   EXPECT_EQ(file.where("fluid.extra.compliance"), (test_folder() / "case.yaml:8: fluid.extra.compliance").string());
 }

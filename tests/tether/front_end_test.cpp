@@ -121,6 +121,21 @@ TEST_F(FrontEnd, DescribesEachFieldOnce) {
       "fluid.density [g/cm3]  (number)\n    mass per volume\nsolid.density [g/cm3]  (number)\n    mass per volume\n");
 }
 
+TEST_F(FrontEnd, WritesMeshesForViewing) {
+  std::ofstream(folder_ / "case.yaml", std::ios::app)
+      << "mesh: {source: swept, swept: {radius: 1, length: 3, wall_thickness: 0.1, around: 12, along: 5, "
+         "regions: {all: {}}}}\nsolid: {element: p1}\n";
+  const ChildEnd end = tether("mesh case.yaml --output results");
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.output.find("wall_faces.vtu    colour by face: 0 interface, 1 all, 2 inlet_ring, 3 outlet_ring\n"),
+            std::string::npos)
+      << end.output;
+  EXPECT_NE(end.output.find("  lumen 19."), std::string::npos) << "a polygon in a circle of 20 mm";
+  EXPECT_NE(end.output.find("  wall   216 nodes, 720 elements"), std::string::npos) << "three tetrahedra a prism";
+  for (const char* name : {"fluid", "wall", "fluid_faces", "wall_faces"})
+    EXPECT_GT(fs::file_size(folder_ / "results/mesh" / (std::string(name) + ".vtu")), 1000u) << name;
+}
+
 TEST_F(FrontEnd, NamesWhatIsNotBuilt) {
   fs::remove(folder_ / "fsi_master");
   const ChildEnd end = tether("simulate case.yaml");
