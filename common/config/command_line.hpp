@@ -20,15 +20,15 @@ struct CommandLine {
 
 /// A program as its main presents it.
 struct Program {
-  std::string name, purpose;
+  std::string name = {}, purpose = {};
   /// Declares the sections of the case file that this program reads, beside the common ones.
-  std::function<void(Fields&)> declare;
+  std::function<void(Fields&)> declare = {};
   /// For --describe-config, instead of `declare`, if set: the whole reference as "text" or "markdown".
-  std::function<std::string(const std::string& format)> reference;
+  std::function<std::string(const std::string& format)> reference = {};
   /// For --validate: reads the case and what it refers to. Throws InputError.
-  std::function<void(const CommandLine&)> validate;
+  std::function<void(const CommandLine&)> validate = {};
   /// Returns the exit code.
-  std::function<int(const CommandLine&)> run;
+  std::function<int(const CommandLine&)> run = {};
   bool needs_case = true;
 };
 
