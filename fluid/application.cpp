@@ -1,0 +1,68 @@
+#include "fluid/application.hpp"
+
+#include "common/base/process.hpp"
+#include "common/case/mesh_case.hpp"
+#include "common/config/echo.hpp"
+#include "common/protocol/run.hpp"
+#include "fluid/case.hpp"
+#include "fluid/server.hpp"
+
+namespace tether::fluid {
+namespace {
+
+/// A case file and the sections of it that the blood needs.
+struct BloodCase {
+  explicit BloodCase(const std::filesystem::path& path) : file(path) {
+    file.read("mesh", mesh);
+    file.read("fluid", fluid);
+    file.finish();
+  }
+  /// The lumen, checked against the case. The element of the wall makes no difference to it.
+  FluidMesh lumen() const {
+    FluidMesh result = load_mesh(mesh, file.units(), WallElement::p1).fluid;
+    check_against_mesh(fluid, result, file);
+    return result;
+  }
+  CaseFile file;
+  MeshCase mesh;
+  FluidCase fluid;
+};
+
+std::string effective_sections(BloodCase& blood) {
+  Echo echo;
+  echo.group("mesh", blood.mesh, {});
+  echo.group("fluid", blood.fluid, {});
+  return echo.json();
+}
+
+int run(const CommandLine& command) {
+  return protocol::run_partner<protocol::ToFluid>("fluid", [&command](const protocol::Welcome& welcome) {
+    BloodCase blood(command.case_file);
+    auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file));
+    return FluidServer(std::move(solver), blood.file.units(), effective_sections(blood), welcome.output);
+  });
+}
+
+}  // namespace
+
+Program fluid_program() {
+  prepare_process();
+  return {.name = "fluid",
+          .purpose = "The blood: ALE Navier-Stokes with what lies beyond the outlets. Started by fsi_master.",
+          .declare =
+              [](Fields& fields) {
+                MeshCase mesh;
+                FluidCase fluid;
+                fields.group("mesh", mesh, meaning_of_section("mesh"));
+                fields.group("fluid", fluid, meaning_of_section("fluid"));
+              },
+          .validate =
+              [](const CommandLine& command) {
+                const BloodCase blood(command.case_file);
+                blood.lumen();
+                make_settings(blood.fluid, blood.file);
+              },
+          .run = run};
+}
+
+}  // namespace tether::fluid

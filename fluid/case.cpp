@@ -1,0 +1,114 @@
+#include "fluid/case.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+#include "fluid/inlets/inflow.hpp"
+#include "fluid/outlets/outlet.hpp"
+#include "fluid/rheologies/rheology.hpp"
+
+namespace tether::fluid {
+namespace {
+
+/// The kinds of inlet: all inflows, and the prescribed pressure of the outlets' family.
+const std::vector<const EffectDeclaration*>& inlet_family() {
+  static const std::vector<const EffectDeclaration*> family = [] {
+    std::vector<const EffectDeclaration*> list = declarations(inflows());
+    list.push_back(&find_effect(outlets(), "pressure").declaration);
+    return list;
+  }();
+  return family;
+}
+
+template <class Physics>
+EffectChoice choice_of(const EffectCase& effect, std::span<const Registered<Physics>> registry) {
+  EffectChoice choice{effect.type, {}};
+  const auto& parameters = find_effect(registry, effect.type).declaration.parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) choice.values[parameters[i].name] = effect.values[i];
+  return choice;
+}
+
+template <class Section>
+void check_names(const Named<Section>& sections, const std::vector<Patch>& patches, const std::string& field,
+                 const CaseFile& file) {
+  std::string known;
+  for (const Patch& patch : patches) {
+    known += (known.empty() ? "" : ", ") + patch.name;
+    if (std::none_of(sections.begin(), sections.end(), [&](const auto& s) { return s.first == patch.name; }))
+      throw input_error("{}: nothing is said of \"{}\", which the mesh has", file.where(field), patch.name);
+  }
+  for (const auto& [name, section] : sections)
+    if (std::none_of(patches.begin(), patches.end(), [&name = name](const Patch& p) { return p.name == name; }))
+      throw input_error("{}: the fluid mesh has no such face; it has: {}", file.where(field + "." + name), known);
+}
+
+Curve curve_of(const std::optional<PressureCurveCase>& curve, const UnitSystem& units) {
+  return curve ? curve->load(units) : Curve::constant(0);
+}
+
+InletSettings settings_of(const InletCase& inlet, const UnitSystem& units) {
+  if (inlet.effect.type == "pressure") return {choice_of(inlet.effect, outlets()), curve_of(inlet.curve, units), 0, 0, {}};
+  return {choice_of(inlet.effect, inflows()), inlet.flow.load(units), inlet.flow.period.value_or(0), inlet.flow.ramp,
+          profile_named(inlet.profile)};
+}
+
+}  // namespace
+
+void InletCase::declare(Fields& f) {
+  f.effect(effect, inlet_family(), "what is known at this inlet");
+  f.when("type", effect.type, {"flow"}, [&] {
+    f.choice("profile", profile,
+             {{"flat", "one velocity, falling to zero at the rim"},
+              {"parabolic", "the steady developed flow of the inlet's shape"},
+              {"womersley", "the oscillating developed flow of each harmonic of the curve"}},
+             "how the velocity is spread over the inlet");
+    f.group("flow", flow, "flow into the vessel over time");
+    f.check(profile != "womersley" || flow.period, "profile", "womersley needs a flow with a period");
+  });
+  f.when("type", effect.type, {"pressure"}, [&] { f.group("curve", curve, "pressure over time, added to the constant one"); });
+}
+
+void OutletCase::declare(Fields& f) {
+  static const auto family = declarations(outlets());
+  f.effect(effect, family, "what lies beyond this outlet");
+  f.group("curve", curve, "pressure over time, added to the one behind the outlet");
+}
+
+void FluidCase::declare(Fields& f) {
+  static const auto laws = declarations(rheologies());
+  f.number("density", density, dimension::density, range::positive, "density of the blood");
+  struct Law {
+    EffectCase& effect;
+    void declare(Fields& fields) { fields.effect(effect, laws, "how the blood resists shearing"); }
+  } law{rheology};
+  f.group("rheology", law, "viscosity of the blood");
+  f.choice("mesh_motion", mesh_motion,
+           {{"harmonic", "each component by a Laplacian weighted with 1/volume"},
+            {"elastic", "as an elastic body, stiffness 1/volume: bears larger motions, needs far more memory"}},
+           "how the inside of the fluid mesh follows the wall");
+  f.number("backflow_stabilisation", backflow_stabilisation, dimension::none, {0, 1},
+           "factor of the force that damps blood entering through an outlet; 0.5 removes all its energy");
+  f.groups("inlets", inlets, "by the names of the mesh's inlets");
+  f.groups("outlets", outlets, "by the names of the mesh's outlets");
+}
+
+void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file) {
+  check_names(fluid.inlets, mesh.inlets, "fluid.inlets", file);
+  check_names(fluid.outlets, mesh.outlets, "fluid.outlets", file);
+}
+
+FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
+  const ImageCase& image = file.common().image;
+  FluidSettings settings;
+  settings.blood.values = {{"density", fluid.density},
+                           {"backflow_stabilisation", fluid.backflow_stabilisation},
+                           {"wall_load_offset", image.prestressed() ? image.pressure : 0.0}};
+  settings.rheology = choice_of(fluid.rheology, rheologies());
+  settings.mesh_motion = mesh_motion_named(fluid.mesh_motion);
+  for (const auto& [name, inlet] : fluid.inlets) settings.inlets[name] = settings_of(inlet, file.units());
+  for (const auto& [name, outlet] : fluid.outlets)
+    settings.outlets[name] = {choice_of(outlet.effect, outlets()), curve_of(outlet.curve, file.units())};
+  return settings;
+}
+
+}  // namespace tether::fluid

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "common/config/case_file.hpp"
+#include "common/config/curve_case.hpp"
+#include "common/mesh/mesh.hpp"
+#include "fluid/settings.hpp"
+
+namespace tether::fluid {
+
+struct FlowCurveCase : CurveCase {
+  FlowCurveCase() : CurveCase(dimension::flow) {}
+};
+struct PressureCurveCase : CurveCase {
+  PressureCurveCase() : CurveCase(dimension::pressure) {}
+};
+
+/// An inlet: a flow spread by a profile, or a pressure.
+struct InletCase {
+  EffectCase effect{"flow", {}};
+  std::string profile = "parabolic";
+  FlowCurveCase flow;
+  std::optional<PressureCurveCase> curve;
+  void declare(Fields& f);
+};
+
+/// What lies beyond an outlet.
+struct OutletCase {
+  EffectCase effect;
+  std::optional<PressureCurveCase> curve;
+  void declare(Fields& f);
+};
+
+/// The section `fluid` of a case file.
+struct FluidCase {
+  double density = undefined, backflow_stabilisation = 0.2;
+  EffectCase rheology{"newtonian", {}};
+  std::string mesh_motion = "harmonic";
+  Named<InletCase> inlets;
+  Named<OutletCase> outlets;
+  void declare(Fields& f);
+};
+
+/// Throws InputError for an inlet or outlet that the mesh does not have, or of which the case says nothing.
+void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file);
+
+/// Reads the curves. The wall bears the image's pressure as well if it is prestressed by it. Throws InputError.
+FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file);
+
+}  // namespace tether::fluid

@@ -1,0 +1,20 @@
+#include "fluid/fluid_series.hpp"
+
+#include <fmt/format.h>
+
+#include "common/io/vtu_writer.hpp"
+
+namespace tether::fluid {
+
+void FluidSeries::write(const FluidSolver& solver, int step, double time) {
+  if (!series_) series_ = PvdSeries::resumed(folder_ / "fluid.pvd", time * (1 - 1e-12) - 1e-300);
+  const std::string file = fmt::format("vtk/fluid_{:06}.vtu", step);
+  std::filesystem::create_directories(folder_ / "vtk");
+  const FluidMesh& mesh = solver.domain().mesh();
+  write_vtu(folder_ / file, mesh.points, cells_of(mesh),
+            {Field::vectors("displacement", solver.mesh_displacement()), Field::vectors("velocity", solver.velocity()),
+             Field::scalars("pressure", solver.pressure())});
+  series_->add(time, file);
+}
+
+}  // namespace tether::fluid
