@@ -42,12 +42,13 @@ void check_names(const Named<Section>& sections, const std::vector<Patch>& patch
       throw input_error("{}: the fluid mesh has no such face; it has: {}", file.where(field + "." + name), known);
 }
 
-Curve curve_of(const std::optional<PressureCurveCase>& curve, const UnitSystem& units) {
-  return curve ? curve->load(units) : Curve::constant(0);
+/// The curve of a prescribed pressure; zero where none is.
+Curve curve_of(const EffectCase& effect, const PressureCurveCase& pressure, const UnitSystem& units) {
+  return effect.type == "pressure" ? pressure.load(units) : Curve::constant(0);
 }
 
 InletSettings settings_of(const InletCase& inlet, const UnitSystem& units) {
-  if (inlet.effect.type == "pressure") return {choice_of(inlet.effect, outlets()), curve_of(inlet.curve, units), 0, 0, {}};
+  if (inlet.effect.type == "pressure") return {choice_of(inlet.effect, outlets()), inlet.pressure.load(units), 0, 0, {}};
   return {choice_of(inlet.effect, inflows()), inlet.flow.load(units), inlet.flow.period.value_or(0), inlet.flow.ramp,
           profile_named(inlet.profile)};
 }
@@ -65,13 +66,13 @@ void InletCase::declare(Fields& f) {
     f.group("flow", flow, "flow into the vessel over time");
     f.check(profile != "womersley" || flow.period, "profile", "womersley needs a flow with a period");
   });
-  f.when("type", effect.type, {"pressure"}, [&] { f.group("curve", curve, "pressure over time, added to the constant one"); });
+  f.when("type", effect.type, {"pressure"}, [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
 }
 
 void OutletCase::declare(Fields& f) {
   static const auto family = declarations(outlets());
   f.effect(effect, family, "what lies beyond this outlet");
-  f.group("curve", curve, "pressure over time, added to the one behind the outlet");
+  f.when("type", effect.type, {"pressure"}, [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
 }
 
 void FluidCase::declare(Fields& f) {
@@ -107,7 +108,7 @@ FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
   settings.mesh_motion = mesh_motion_named(fluid.mesh_motion);
   for (const auto& [name, inlet] : fluid.inlets) settings.inlets[name] = settings_of(inlet, file.units());
   for (const auto& [name, outlet] : fluid.outlets)
-    settings.outlets[name] = {choice_of(outlet.effect, outlets()), curve_of(outlet.curve, file.units())};
+    settings.outlets[name] = {choice_of(outlet.effect, outlets()), curve_of(outlet.effect, outlet.pressure, file.units())};
   return settings;
 }
 

@@ -19,14 +19,14 @@ struct InletCase {
   EffectCase effect{"flow", {}};
   std::string profile = "parabolic";
   FlowCurveCase flow;
-  std::optional<PressureCurveCase> curve;
+  PressureCurveCase pressure;
   void declare(Fields& f);
 };
 
 /// What lies beyond an outlet.
 struct OutletCase {
   EffectCase effect;
-  std::optional<PressureCurveCase> curve;
+  PressureCurveCase pressure;
   void declare(Fields& f);
 };
 

@@ -33,7 +33,7 @@ struct InletSettings {
 
 struct OutletSettings {
   EffectChoice effect;
-  Curve curve = Curve::constant(0);  ///< added to the pressure behind the outlet, see the outlet's own description
+  Curve curve = Curve::constant(0);  ///< of a prescribed pressure; the other outlets have none
 };
 
 /// All that a case says about the fluid, the mesh aside. Pressures are relative to the case's reference pressure.

@@ -11,7 +11,7 @@ namespace tether::fluid {
 struct OutletInput {
   double dt = 0;      ///< [time]
   double stored = 0;  ///< the outlet's stored pressure P at the start of the step
-  double curve = 0;   ///< value of the outlet's curve at the end of the step; 0 without one
+  double curve = 0;   ///< the prescribed pressure's curve at the end of the step; 0 without one
 };
 
 /// What lies beyond an opening. Over one implicit step its pressure depends on the flow out through it as

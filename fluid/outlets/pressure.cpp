@@ -3,22 +3,22 @@
 namespace tether::fluid {
 namespace {
 
-/// p = pressure + scale curve(t), whatever the flow (F.9 with Z = 0).
+/// p = offset + scale curve(t), whatever the flow (F.9 with Z = 0).
 class PrescribedPressure : public Outlet {
  public:
-  explicit PrescribedPressure(std::span<const double> v) : pressure_(v[0]), scale_(v[1]) {}
+  explicit PrescribedPressure(std::span<const double> v) : offset_(v[0]), scale_(v[1]) {}
   double impedance(double) const override { return 0; }
-  double known(const OutletInput& input) const override { return pressure_ + scale_ * input.curve; }
+  double known(const OutletInput& input) const override { return offset_ + scale_ * input.curve; }
 
  private:
-  double pressure_, scale_;
+  double offset_, scale_;
 };
 
 const EffectDeclaration declaration{
     "pressure",
     "a measured or chosen pressure",
     Place::outlet,
-    {{"pressure", "constant part, relative to the reference pressure", dimension::pressure, range::any, 0.0, 0.0,
+    {{"offset", "added to the curve", dimension::pressure, range::any, 0.0, 0.0,
       Transform::linear, undefined},
      {"scale", "factor of the curve", dimension::none, range::any, 1.0, undefined, Transform::linear, 0.1}}};
 

@@ -8,7 +8,7 @@ class Resistance : public Outlet {
  public:
   explicit Resistance(std::span<const double> v) : R_(v[0]), P_distal_(v[1]) {}
   double impedance(double) const override { return R_; }
-  double known(const OutletInput& input) const override { return P_distal_ + input.curve; }
+  double known(const OutletInput&) const override { return P_distal_; }
 
  private:
   double R_, P_distal_;
@@ -20,7 +20,7 @@ const EffectDeclaration declaration{
     Place::outlet,
     {{"resistance", "pressure per flow", dimension::resistance, range::not_negative, undefined, 0.0, Transform::log,
       0.3},
-     {"distal_pressure", "pressure behind the resistance, relative to the reference pressure; a curve adds to it",
+     {"distal_pressure", "pressure behind the resistance, relative to the reference pressure",
       dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
 
 }  // namespace

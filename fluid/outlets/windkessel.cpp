@@ -13,7 +13,7 @@ class Windkessel : public Outlet {
   double impedance(double dt) const override { return R_p_ + R_d_ / (1 + R_d_ * C_ / dt); }
   double known(const OutletInput& input) const override {
     const double s = R_d_ * C_ / input.dt;
-    return (s * input.stored + P_distal_ + input.curve) / (1 + s);
+    return (s * input.stored + P_distal_) / (1 + s);
   }
   bool stores() const override { return true; }
   double initial() const override { return initial_; }
@@ -38,7 +38,7 @@ const EffectDeclaration declaration{
      {"initial_pressure", "pressure of the reservoir at the start, relative to the reference pressure",
       dimension::pressure, range::any, 0.0, undefined, Transform::linear, undefined},
      {"distal_pressure",
-      "pressure behind the distal resistance, relative to the reference pressure; a curve adds to it",
+      "pressure behind the distal resistance, relative to the reference pressure",
       dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(Windkessel, StiffOnesStayStableAtAnyStep) {
 /// through.
 TEST(Openings, PressureDrivesFlowThroughAResistance) {
   FluidSettings chosen = settings(1.06, 0.04);
-  chosen.inlets["inlet"] = {{"pressure", {{"pressure", 60}, {"scale", 2}}}, Curve::constant(20)};
+  chosen.inlets["inlet"] = {{"pressure", {{"offset", 60}, {"scale", 2}}}, Curve::constant(20)};
   chosen.outlets["outlet"].effect = {"resistance", {{"resistance", 1e4}, {"distal_pressure", 20}}};
   FluidSolver solver(box_vessel({1, 1, 1}, {3, 3, 3}), chosen);
   run_rigid(solver, 0.1, 50);
