@@ -48,7 +48,8 @@ Curve curve_of(const EffectCase& effect, const PressureCurveCase& pressure, cons
 }
 
 InletSettings settings_of(const InletCase& inlet, const UnitSystem& units) {
-  if (inlet.effect.type == "pressure") return {choice_of(inlet.effect, outlets()), inlet.pressure.load(units), 0, 0, {}};
+  if (inlet.effect.type == "pressure")
+    return {choice_of(inlet.effect, outlets()), inlet.pressure.load(units), 0, 0, {}};
   return {choice_of(inlet.effect, inflows()), inlet.flow.load(units), inlet.flow.period.value_or(0), inlet.flow.ramp,
           profile_named(inlet.profile)};
 }
@@ -66,13 +67,15 @@ void InletCase::declare(Fields& f) {
     f.group("flow", flow, "flow into the vessel over time");
     f.check(profile != "womersley" || flow.period, "profile", "womersley needs a flow with a period");
   });
-  f.when("type", effect.type, {"pressure"}, [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
+  f.when("type", effect.type, {"pressure"},
+         [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
 }
 
 void OutletCase::declare(Fields& f) {
   static const auto family = declarations(outlets());
   f.effect(effect, family, "what lies beyond this outlet");
-  f.when("type", effect.type, {"pressure"}, [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
+  f.when("type", effect.type, {"pressure"},
+         [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
 }
 
 void FluidCase::declare(Fields& f) {
@@ -108,7 +111,8 @@ FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
   settings.mesh_motion = mesh_motion_named(fluid.mesh_motion);
   for (const auto& [name, inlet] : fluid.inlets) settings.inlets[name] = settings_of(inlet, file.units());
   for (const auto& [name, outlet] : fluid.outlets)
-    settings.outlets[name] = {choice_of(outlet.effect, outlets()), curve_of(outlet.effect, outlet.pressure, file.units())};
+    settings.outlets[name] = {choice_of(outlet.effect, outlets()),
+                              curve_of(outlet.effect, outlet.pressure, file.units())};
   return settings;
 }
 

@@ -8,8 +8,8 @@
 
 namespace tether::fluid {
 
-/// fluid.pvd and the files it lists: velocity, pressure (relative to the image's) and displacement of the mesh at its nodes,
-/// on the imaged positions.
+/// fluid.pvd and the files it lists: velocity, pressure (relative to the image's) and displacement of the mesh at its
+/// nodes, on the imaged positions.
 class FluidSeries {
  public:
   explicit FluidSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -14,7 +14,10 @@ std::vector<double> as_list(const Eigen::Ref<const Eigen::MatrixXd>& values) {
 
 FluidServer::FluidServer(std::unique_ptr<FluidSolver> solver, const UnitSystem& units, std::string effective_case,
                          std::filesystem::path output)
-    : solver_(std::move(solver)), units_(units), effective_case_(std::move(effective_case)), series_(std::move(output)) {}
+    : solver_(std::move(solver)),
+      units_(units),
+      effective_case_(std::move(effective_case)),
+      series_(std::move(output)) {}
 
 protocol::Hello FluidServer::hello() const {
   protocol::Hello hello;
@@ -26,14 +29,16 @@ protocol::Hello FluidServer::hello() const {
   for (const auto& [name, p, value, set] : solver_->parameters().entries())
     hello.parameters.push_back({name, p.meaning, units_.symbol(p.dimension), name_of(p.transform), value(), p.absent,
                                 p.range.lower, p.range.upper, p.prior_deviation});
-  for (const auto& [name, dimension] : solver_->observables()) hello.observables.push_back({name, units_.symbol(dimension)});
+  for (const auto& [name, dimension] : solver_->observables())
+    hello.observables.push_back({name, units_.symbol(dimension)});
   return hello;
 }
 
 protocol::Interface FluidServer::operator()(const protocol::GetInterface&) {
   const Surface& sigma = solver_->domain().sigma;
   protocol::Interface reply{as_list(sigma.local(solver_->domain().mesh().points)), {}, {}, {}};
-  for (const Triangle& triangle : sigma.triangles) reply.triangles.insert(reply.triangles.end(), triangle.begin(), triangle.end());
+  for (const Triangle& triangle : sigma.triangles)
+    reply.triangles.insert(reply.triangles.end(), triangle.begin(), triangle.end());
   return reply;
 }
 
@@ -44,7 +49,9 @@ protocol::Ready FluidServer::operator()(const protocol::SetParameters& m) {
   return {};
 }
 
-protocol::State FluidServer::operator()(const protocol::GetState&) { return {as_list(solver_->state())}; }
+protocol::State FluidServer::operator()(const protocol::GetState&) {
+  return {as_list(solver_->state())};
+}
 
 protocol::Ready FluidServer::operator()(const protocol::SetState& m) {
   solver_->set_state(Eigen::Map<const VectorXd>(m.values.data(), static_cast<Eigen::Index>(m.values.size())));
@@ -70,7 +77,8 @@ protocol::Ready FluidServer::operator()(const protocol::Write& m) {
 }
 
 protocol::Load FluidServer::operator()(const protocol::FluidEvaluate& m) {
-  return {as_list(solver_->evaluate(interface_points(m.displacement, "displacement"), interface_points(m.velocity, "velocity")))};
+  return {as_list(
+      solver_->evaluate(interface_points(m.displacement, "displacement"), interface_points(m.velocity, "velocity")))};
 }
 
 protocol::Load FluidServer::operator()(const protocol::FluidTangent& m) {

@@ -20,8 +20,8 @@ const EffectDeclaration declaration{
     Place::outlet,
     {{"resistance", "pressure per flow", dimension::resistance, range::not_negative, undefined, 0.0, Transform::log,
       0.3},
-     {"distal_pressure", "pressure behind the resistance, relative to the reference pressure",
-      dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
+     {"distal_pressure", "pressure behind the resistance, relative to the reference pressure", dimension::pressure,
+      range::any, 0.0, 0.0, Transform::linear, undefined}}};
 
 }  // namespace
 

@@ -37,8 +37,7 @@ const EffectDeclaration declaration{
       0.0, Transform::log, 0.5},
      {"initial_pressure", "pressure of the reservoir at the start, relative to the reference pressure",
       dimension::pressure, range::any, 0.0, undefined, Transform::linear, undefined},
-     {"distal_pressure",
-      "pressure behind the distal resistance, relative to the reference pressure",
+     {"distal_pressure", "pressure behind the distal resistance, relative to the reference pressure",
       dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
 
 }  // namespace
