@@ -1,6 +1,7 @@
 #include "common/linalg/cholesky.hpp"
 
 #include <cholmod.h>
+#include <omp.h>
 
 #include "common/base/error.hpp"
 
@@ -16,6 +17,7 @@ struct Cholesky::Data {
 
   Data() {
     openblas_set_num_threads(1);  // OpenBLAS reads its environment before main: too early for the program to set it there
+    omp_set_max_active_levels(0);  // CHOLMOD asks for four threads whatever the environment says; they spin, and cost 40 % CPU
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.final_ll = 1;
