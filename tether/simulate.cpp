@@ -40,7 +40,8 @@ int simulate(const CommandLine& command) {
   const CaseFile file(command.case_file);
   const auto output = claim_output(command, file);
   if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
-  if (const int code = run_in_foreground(coupled_run(command)); code != exit_done) return code;
+  if (const int code = run_in_foreground(coupled_run(command)); code != exit_done)
+    return code == exit_input_wrong ? code : exit_run_failed;  // mpirun reports a process that was killed as 137
   const auto plots = draw_plots(output, file.units());
   if (!command.quiet) std::cout << summary_text(output) << where_to_look(output, plots);
   return exit_done;

@@ -102,6 +102,11 @@ TEST_F(FrontEnd, ReturnsTheCodeOfARunThatFails) {
   EXPECT_EQ(end.errors, "fsi_master: step 3 does not converge\n") << "one message, none of mpirun's own";
 }
 
+TEST_F(FrontEnd, CallsAKilledRunFailed) {
+  program("fsi_master", "case \"$*\" in *--validate*) exit 0;; esac; kill -KILL $$");
+  EXPECT_EQ(tether("simulate case.yaml --quiet").exit_code, 1);
+}
+
 TEST_F(FrontEnd, KeepsAnotherCasesResults) {
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0);
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "the same case may run again";
