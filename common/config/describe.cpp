@@ -76,19 +76,27 @@ void Describe::numbers(Text name, std::vector<double>& values, const ListRule& r
 
 void Describe::check(bool, Text, Text) {}
 
+void Describe::go_into(Text name) {
+  path_ += std::string(name) + ".";
+  outer_conditions_.push_back(std::move(conditions_));
+  conditions_.clear();
+}
+
 bool Describe::enter(Text name, Text meaning) {
   if (!meaning.empty()) add(name, {"", "section", "", "", "", "", {}, ""}, meaning);
-  path_ += std::string(name) + ".";
+  go_into(name);
   return true;
 }
 
 bool Describe::enter_if_given(Text name, Text meaning, bool) {
   add(name, {"", "section", "", may_be_absent, "", "", {}, ""}, meaning);
-  path_ += std::string(name) + ".";
+  go_into(name);
   return true;
 }
 
 void Describe::leave() {
+  conditions_ = std::move(outer_conditions_.back());
+  outer_conditions_.pop_back();
   path_.pop_back();
   path_.erase(path_.rfind('.') + 1);
 }

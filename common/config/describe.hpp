@@ -47,12 +47,14 @@ class Describe : public Fields {
     std::string condition;           ///< "with type: moving"; empty: always
   };
   void add(Text name, Line line, Text meaning);
+  void go_into(Text name);
   static std::string heading(const Line& line);
   std::string unit(Dimension dimension) const;
 
   UnitSystem units_;
   std::string path_;
-  std::vector<std::string> conditions_;
+  std::vector<std::string> conditions_;                     ///< of the fields being declared, within their section
+  std::vector<std::vector<std::string>> outer_conditions_;  ///< of the sections around
   std::vector<Line> lines_;
 };
 

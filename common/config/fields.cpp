@@ -27,11 +27,11 @@ void Fields::point(Text name, Vec3& value, Dimension dimension, Text meaning) {
 
 void Fields::paths(Text name, Named<std::filesystem::path>& values, Text meaning, Need need) {
   entries(name, values, meaning, need,
-          [&](Text key, std::filesystem::path& value) { path(key, value, {}, Need::required); });
+          [&](Text key, std::filesystem::path& value) { path(key, value, meaning, Need::required); });
 }
 
 void Fields::points(Text name, Named<Vec3>& values, Dimension dimension, Text meaning, Need need) {
-  entries(name, values, meaning, need, [&](Text key, Vec3& value) { point(key, value, dimension, {}); });
+  entries(name, values, meaning, need, [&](Text key, Vec3& value) { point(key, value, dimension, meaning); });
 }
 
 void Fields::effect(EffectCase& effect, EffectFamily family, Text meaning) {

@@ -80,6 +80,24 @@ TEST(Describe, WritesATablePerSection) {
   EXPECT_NE(page.find("| traction per way (`with type: spring`) |\n"), std::string::npos);
 }
 
+struct Vessel {
+  std::string source = "swept";
+  Ring ring;
+  void declare(Fields& f) {
+    f.choice("source", source, {{"swept", "generated"}, {"files", "read"}}, "origin");
+    f.when("source", source, {"swept"}, [&] { f.group("ring", ring, "at the end"); });
+  }
+};
+
+TEST(Describe, SaysAConditionOnceForASection) {
+  Describe describe(UnitSystem::cgs());
+  Vessel vessel;
+  describe.group("mesh", vessel, {});
+  const std::string text = describe.text();
+  EXPECT_NE(text.find("mesh.ring  (section; with source: swept)\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("mesh.ring.type  (choice; default still)\n"), std::string::npos) << text;
+}
+
 TEST(Describe, CommonFieldsStandUnderOneHeading) {
   Describe describe(UnitSystem::cgs());
   CommonCase common;
