@@ -24,6 +24,13 @@ bool on_terminal() {
   return std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && isatty(STDOUT_FILENO) == 1;
 }
 
+/// A line that is longer would wrap, and could not be rewritten.
+std::size_t terminal_width() {
+  const char* told = std::getenv("COLUMNS");
+  const int columns = told ? std::atoi(told) : 0;
+  return columns > 20 ? static_cast<std::size_t>(columns) : 120;
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -48,12 +55,12 @@ std::string Progress::time_left(std::int64_t step) const {
 
 std::string Progress::line(const Now& now) const {
   const std::int64_t filled = bar_width * now.step / std::max<std::int64_t>(last_, 1);
-  std::string text = fmt::format("[{:#<{}}{:.<{}}] step {}/{}  t {:.4g} s  coupling {}", "", filled, "",
-                                 bar_width - filled, now.step, last_, now.time, now.evaluations);
+  std::string text = fmt::format("[{:#<{}}{:.<{}}] step {}/{}  left {}  t {:.4g} s  coupling {}", "", filled, "",
+                                 bar_width - filled, now.step, last_, time_left(now.step), now.time, now.evaluations);
   if (!now.pressure.empty())
     text += fmt::format("  pressure {:.1f} .. {:.1f} mmHg", units_.to_mmhg(now.pressure.min),
                         units_.to_mmhg(now.pressure.max));
-  return text + fmt::format("  moved {:.3g} mm  left {}", units_.to_mm(now.displacement), time_left(now.step));
+  return text + fmt::format("  moved {:.3g} mm", units_.to_mm(now.displacement));
 }
 
 void Progress::show(const Now& now) {
@@ -61,7 +68,7 @@ void Progress::show(const Now& now) {
   const bool last = now.step == last_;
   const std::int64_t percent = 100 * now.step / std::max<std::int64_t>(last_, 1);
   if (terminal_ && (last || seconds_since(shown_) > refresh_interval)) {
-    fmt::print("\r{}\033[K", line(now));
+    fmt::print("\r{}\033[K", line(now).substr(0, terminal_width() - 1));
     line_open_ = true;
     shown_ = std::chrono::steady_clock::now();
     if (last) end_line();

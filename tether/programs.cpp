@@ -1,5 +1,6 @@
 #include "tether/programs.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "common/base/error.hpp"
@@ -16,6 +17,16 @@ void add_options(std::vector<std::string>& words, const CommandLine& command) {
   if (command.quiet) words.push_back("--quiet");
 }
 
+/// mpirun gives its processes a terminal of its own: whether a person looks at ours, and how wide it is, is ours to
+/// say.
+void add_terminal(std::vector<std::pair<std::string, std::string>>& environment) {
+  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  environment.emplace_back("TETHER_PROGRESS", terminal ? "bar" : "lines");
+  winsize size{};
+  if (terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    environment.emplace_back("COLUMNS", std::to_string(size.ws_col));
+}
+
 }  // namespace
 
 std::filesystem::path sibling(const std::string& name) {
@@ -29,8 +40,7 @@ Command coupled_run(const CommandLine& command) {
                "1", sibling("fsi_master").string(), command.case_file.string()},
               {}};
   add_options(run.words, command);
-  // mpirun gives its processes a terminal of its own: whether a person looks at ours is ours to say.
-  run.environment.emplace_back("TETHER_PROGRESS", isatty(STDOUT_FILENO) ? "bar" : "lines");
+  add_terminal(run.environment);
   if (geteuid() == 0) {
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
