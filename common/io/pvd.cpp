@@ -1,22 +1,36 @@
 #include "common/io/pvd.hpp"
 
+#include <cstdlib>
 #include <fstream>
-#include <regex>
 
 #include "common/base/error.hpp"
 
 namespace tether {
 
+namespace {
+
+/// The value of name="value" in a line; empty if it is not there.
+std::string attribute(const std::string& line, const std::string& name) {
+  const std::size_t found = line.find(' ' + name + "=\"");
+  if (found == std::string::npos) return {};
+  const std::size_t start = found + name.size() + 3;
+  return line.substr(start, line.find('"', start) - start);
+}
+
+}  // namespace
+
 PvdSeries PvdSeries::resumed(std::filesystem::path path, double last_time) {
   PvdSeries series(path);
   std::ifstream file(path);
   if (!file) return series;
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text.find("type=\"Collection\"") == std::string::npos)
-    throw input_error("{}: is not a ParaView collection", path.string());
-  static const std::regex entry(R"re(<DataSet timestep="([^"]+)"[^>]* file="([^"]+)")re");
-  for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it)
-    if (const double time = std::stod((*it)[1]); time <= last_time) series.entries_.emplace_back(time, (*it)[2]);
+  bool is_collection = false;
+  for (std::string line; std::getline(file, line);) {
+    is_collection = is_collection || attribute(line, "type") == "Collection";
+    if (line.find("<DataSet") == std::string::npos) continue;
+    const double time = std::strtod(attribute(line, "timestep").c_str(), nullptr);
+    if (time <= last_time) series.entries_.emplace_back(time, attribute(line, "file"));
+  }
+  if (!is_collection) throw input_error("{}: is not a ParaView collection", path.string());
   return series;
 }
 
