@@ -59,7 +59,7 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
       continue;
     }
     if (cells.size() != columns_.size())
-      throw input_error("{}:{}: {} cells, but there are {} columns", file_, line, cells.size(), columns_.size());
+      throw input_error("{}:{}: cells in this row: {}, columns: {}", file_, line, cells.size(), columns_.size());
     lines_.push_back(line);
     cells_.push_back(std::move(cells));
   }

@@ -256,7 +256,7 @@ void Reader::report_unknown(const Section& section) {
   for (const auto& entry : section.node->entries) {
     if (std::find(section.known.begin(), section.known.end(), entry.key) != section.known.end()) continue;
     const auto elsewhere = section.inapplicable.find(entry.key);
-    if (elsewhere != section.inapplicable.end() && section.failed) continue;
+    if (elsewhere != section.inapplicable.end() && elsewhere->second.chosen.empty()) continue;
     const std::string near = nearest(entry.key, section.known);
     std::string rule = "unknown field";
     if (elsewhere != section.inapplicable.end())

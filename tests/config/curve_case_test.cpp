@@ -48,7 +48,7 @@ TEST(CurveCase, NamesWhatIsWrongWithTheTable) {
   EXPECT_EQ(load_error("time, flow\n0,nan\n"), "q.csv:2: flow: 'nan' is not a number");
   EXPECT_EQ(load_error("time, flow\n\n0,\n"), "q.csv:3: flow: '' is not a number");
   EXPECT_EQ(load_error("# measured\ntime, flow\n0,1\n0.2,1\n0.2,3\n"), "q.csv:5: the time 0.2 does not come after 0.2");
-  EXPECT_EQ(load_error("time, flow\n0,1,2\n"), "q.csv:2: 3 cells, but there are 2 columns");
+  EXPECT_EQ(load_error("time, flow\n0,1,2\n"), "q.csv:2: cells in this row: 3, columns: 2");
   EXPECT_EQ(load_error("time, flow\n"), "q.csv: has no rows");
   EXPECT_EQ(load_error("time, flow [mmHg]\n0,1\n"),
             "q.csv:2: column 'flow': '1 mmHg': mmHg is no unit of this field, which is in m3/s");
