@@ -21,7 +21,7 @@ struct Session::Parts {
   std::string role;
   bool owns_mpi = false;
   bool is_leader = true;
-  MPI_Comm parent = MPI_COMM_NULL;
+  MPI_Comm parent = MPI_COMM_NULL, own = MPI_COMM_SELF;
   int rank = 0;
   std::vector<std::string> roles;  // by world rank, if this process was not spawned
   Watch watch;
@@ -53,11 +53,25 @@ namespace {
 
 constexpr double finish_limit = 2, finalize_limit = 5;  // seconds
 
-bool leads(int communicator) {
-  if (communicator == no_communicator) return true;
+/// The processes of this program: all that were spawned together, or one part of an MPMD line.
+MPI_Comm own_processes(bool spawned) {
+  if (spawned) return MPI_COMM_WORLD;
+  int *application = nullptr, found = 0;
+  MPI_Comm_get_attr(MPI_COMM_WORLD, MPI_APPNUM, &application, &found);
+  MPI_Comm own = MPI_COMM_NULL;
+  check_mpi(MPI_Comm_split(MPI_COMM_WORLD, found ? *application : 0, 0, &own), "MPI_Comm_split");
+  return own;
+}
+
+MPI_Comm chosen(int communicator, MPI_Comm own) {
+  if (communicator == no_communicator) return MPI_COMM_SELF;
+  return communicator == all_processes ? own : MPI_Comm_f2c(communicator);
+}
+
+int rank_in(MPI_Comm communicator) {
   int rank = 0;
-  MPI_Comm_rank(MPI_Comm_f2c(communicator), &rank);
-  return rank == 0;
+  MPI_Comm_rank(communicator, &rank);
+  return rank;
 }
 
 /// Everybody's role by world rank.
@@ -86,6 +100,7 @@ void welcome(Channel& partner, const std::string& output) {
   if (arrival.protocol_version != version)
     throw input_error("{} speaks version {} of the protocol, this program version {}", peer.describe(),
                       arrival.protocol_version, version);
+  if (peer.role.empty()) peer.role = arrival.role;
   if (arrival.role != peer.role) throw input_error("{} says that it is a {}", peer.describe(), arrival.role);
   partner.send(pack(Welcome{version, host_name(), process_id(), output}));
 }
@@ -114,17 +129,18 @@ std::string find_executable(const Program& program) {
 }
 
 Session::Session(const std::string& role, int communicator) : parts_(std::make_unique<Parts>()) {
-  parts_->owns_mpi = initialise_mpi(role);
-  parts_->is_leader = leads(communicator);
-  parts_->role = role;
+  Parts& parts = *parts_;
+  parts.role = role;
+  parts.owns_mpi = initialise_mpi(role);
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN);
-  MPI_Comm_rank(MPI_COMM_WORLD, &parts_->rank);
-  MPI_Comm_get_parent(&parts_->parent);
-  if (parts_->parent != MPI_COMM_NULL)
-    parts_->watch.follow(marking_master());
-  else
-    parts_->roles = gather_roles(parts_->is_leader ? role : "");
+  MPI_Comm_get_parent(&parts.parent);
+  const bool spawned = parts.parent != MPI_COMM_NULL;
+  if (spawned) parts.watch.follow(marking_master());
+  parts.rank = rank_in(MPI_COMM_WORLD);
+  parts.own = chosen(communicator, own_processes(spawned));
+  parts.is_leader = rank_in(parts.own) == 0;
+  if (!spawned) parts.roles = gather_roles(parts.is_leader ? role : "");
 }
 
 Session::~Session() = default;
@@ -135,6 +151,10 @@ bool Session::has_master() const {
 
 bool Session::is_leader() const {
   return parts_->is_leader;
+}
+
+int Session::communicator() const {
+  return MPI_Comm_c2f(parts_->own);
 }
 
 Session::Link Session::connect() {

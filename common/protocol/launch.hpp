@@ -13,7 +13,7 @@ namespace tether::protocol {
 
 /// A program to be launched as a partner.
 struct Program {
-  std::string role;                    ///< "fluid"
+  std::string role;                    ///< "fluid"; empty: whatever the spawned program says it is
   std::string executable;              ///< a path; a name without slash is looked for beside the running program
   std::vector<std::string> arguments;  ///< the case file, options
   int processes = 1;                   ///< of a parallel code; only its rank 0 talks
@@ -22,14 +22,14 @@ struct Program {
 /// The file to execute. Throws InputError if there is none or it may not be executed.
 std::string find_executable(const Program& program);
 
-/// Communicator of a code that has none of its own: the process alone.
-inline constexpr int no_communicator = -1;
+/// Instead of a communicator: this process alone, or all processes that run this program.
+inline constexpr int no_communicator = -1, all_processes = -2;
 
 /// The membership of this process in the job, from MPI_Init to MPI_Finalize: one per process, first thing in main.
 class Session {
  public:
-  /// `communicator`: Fortran handle of the processes of one parallel code (MPI_Comm_c2f); only its rank 0 takes the
-  /// role. On an MPMD line this call is collective over MPI_COMM_WORLD.
+  /// `communicator`: Fortran handle (MPI_Comm_c2f) of the processes of one parallel code, or one of the above; only its
+  /// rank 0 takes the role. On an MPMD line this call is collective over MPI_COMM_WORLD.
   explicit Session(const std::string& role, int communicator = no_communicator);
   ~Session();
   Session(const Session&) = delete;
@@ -38,6 +38,8 @@ class Session {
   bool has_master() const;
   /// Whether this process talks: rank 0 of its code.
   bool is_leader() const;
+  /// Fortran handle of the processes of this code.
+  int communicator() const;
 
   /// A partner's way to its master, and what it is told on arrival.
   struct Link {

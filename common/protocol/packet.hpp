@@ -153,6 +153,17 @@ Message unpack(const Packet& packet) {
   return message;
 }
 
+/// The message in a packet of that direction, whichever it is. Throws MalformedMessage.
+template <class Direction>
+Direction unpack_any(const Packet& packet) {
+  return [&packet]<class... Messages>(std::variant<Messages...>*) {
+    Direction message;
+    if (!((holds<Messages>(packet) && (message = unpack<Messages>(packet), true)) || ...))
+      throw MalformedMessage(fmt::format("there is no message of kind {}", packet.kind));
+    return message;
+  }(static_cast<Direction*>(nullptr));
+}
+
 /// "Load", or "kind 77" for a number that is no message of that direction.
 template <class Direction>
 std::string kind_name(int kind) {

@@ -113,7 +113,7 @@ bool initialise_mpi(const std::string& role) {
 
 Spawned spawn(const Program& program, const std::string& master_role) {
   const std::string executable = find_executable(program);
-  const std::string name = fmt::format("{} ({})", program.role, executable);
+  const std::string name = program.role.empty() ? executable : fmt::format("{} ({})", program.role, executable);
   const PidFile file;
   std::vector<std::string> words{"-c", starter, file.path(), executable};
   words.insert(words.end(), program.arguments.begin(), program.arguments.end());

@@ -60,6 +60,7 @@ struct FakeSolid {
     return state;
   }
   protocol::Ready operator()(const protocol::SetState& m) {
+    if (m.values.size() != 2 * y0.size()) throw input_error("a state has {} entries", m.values.size());
     const auto middle = m.values.begin() + static_cast<std::ptrdiff_t>(y0.size());
     y0.assign(m.values.begin(), middle);
     u0.assign(middle, m.values.end());

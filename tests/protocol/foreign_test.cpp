@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include "tests/protocol/run_job.hpp"
+
+/// Codes in C and Python take the place of ours: the examples of docs/protocol.md, as they stand there.
+namespace tether::tests {
+namespace {
+
+const std::string python_solid = std::string(TETHER_SOURCE) + "/docs/examples/spring_solid.py";
+const Environment python_path{{"PYTHONPATH", std::string(TETHER_SOURCE) + "/tools/python"},
+                              {"TETHER_CLIENT", product_program("../lib/libtether_client.so")},
+                              {"PYTHONDONTWRITEBYTECODE", "1"}};
+
+std::string steps_of(const JobResult& job) {
+  const auto start = job.output.find("step 0");
+  return start == std::string::npos ? job.output + job.errors : job.output.substr(start);
+}
+
+std::string example(const std::string& name) {
+  return test_program("example_" + name);
+}
+
+JobResult couple(const std::string& fluid, const std::string& solid) {
+  return run_job({test_program("fake_master"), fluid, solid, "3"}, python_path);
+}
+
+TEST(Foreign, C_and_python_codes_give_the_numbers_of_ours) {
+  const std::string ours = steps_of(couple("fake_fluid", "fake_solid"));
+  EXPECT_EQ(steps_of(couple("fake_fluid", example("spring_solid"))), ours);
+  EXPECT_EQ(steps_of(couple(example("linear_fluid"), "fake_solid")), ours);
+  EXPECT_EQ(steps_of(couple("fake_fluid", python_solid)), ours);
+}
+
+TEST(Foreign, A_c_code_of_two_processes_takes_part_in_an_mpmd_line) {
+  auto words = mpirun();
+  words.insert(words.end(), {"-n", "1", test_program("fake_master"), "x", "x", "3", ":", "-n", "2",
+                             example("linear_fluid"), ":", "-n", "1", example("spring_solid")});
+  const auto job = run_job(words);
+  EXPECT_EQ(job.exit_code, 0) << job.errors;
+  EXPECT_EQ(steps_of(job), steps_of(couple("fake_fluid", "fake_solid")));
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+TEST(Foreign, Examples_conform) {
+  for (const std::string& program : {example("spring_solid"), example("linear_fluid"), python_solid}) {
+    const auto job = run_job({product_program("tether_conform"), program}, python_path);
+    EXPECT_EQ(job.exit_code, 0) << program << "\n" << job.output << job.errors;
+    EXPECT_EQ(job.output.find("FAIL"), std::string::npos);
+    EXPECT_NE(job.output.find("PASS  stops when told"), std::string::npos) << job.output;
+    EXPECT_TRUE(job.orphans.empty());
+  }
+}
+
+TEST(Foreign, The_conformance_check_reports_a_death) {
+  const auto job = run_job({product_program("tether_conform"), test_program("fake_solid")},
+                           {{"TETHER_FAKE", "solid.kill=SolidTangent"}});
+  EXPECT_EQ(job.exit_code, 1);
+  EXPECT_NE(job.output.find("FAIL  tangent is the derivative of the evaluation       solid (pid "), std::string::npos)
+      << job.output;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+TEST(Foreign, Exceptions_in_python_are_reported_by_the_master) {
+  const std::string solid = std::string(TETHER_SOURCE) + "/tests/fakes/failing_solid.py";
+  Environment environment = python_path;
+  environment["FAIL_IN"] = "set-up";
+  const auto refused = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors, "fake_master: solid: ValueError: case.yaml:3: no such mesh\n");
+  environment["FAIL_IN"] = "evaluate";
+  const auto failed = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_EQ(failed.errors,
+            "fake_master: solid failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge\n");
+  EXPECT_TRUE(failed.orphans.empty());
+}
+
+}  // namespace
+}  // namespace tether::tests
