@@ -1,0 +1,125 @@
+// The program's two doors: the case file and the messages.
+#include "fluid/server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "common/protocol/in_process.hpp"
+#include "fluid/case.hpp"
+#include "tests/config/case_text.hpp"
+#include "tests/fluid/fluid_testing.hpp"
+
+namespace tether::fluid::testing {
+namespace {
+
+const std::string valid_fluid =
+    "fluid:\n"
+    "  density: 1.06\n"
+    "  rheology: {type: newtonian, viscosity: 0.04}\n"
+    "  inlets: {inlet: {profile: parabolic, flow: {constant: 80 ml/s}}}\n"
+    "  outlets: {outlet: {type: resistance, resistance: 100}}\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error(from);
+  return text.replace(at, from.size(), to);
+}
+
+/// Reads the case and builds the solver's settings, as the program does. Returns the error's message.
+std::string read(const std::string& text, FluidSettings* result = nullptr) {
+  const auto path = write_file("case.yaml", valid_head + text);
+  return input_error_of([&] {
+    CaseFile file(path);
+    FluidCase fluid;
+    file.read("fluid", fluid);
+    file.finish();
+    check_against_mesh(fluid, box_vessel({1, 1, 1}, {2, 2, 2}), file);
+    const FluidSettings settings = make_settings(fluid, file);
+    if (result != nullptr) *result = settings;
+  });
+}
+
+TEST(FluidCase, BecomesSettingsInTheCasesUnits) {
+  FluidSettings settings;
+  ASSERT_EQ(read(valid_fluid, &settings), "no error");
+  EXPECT_DOUBLE_EQ(settings.inlets.at("inlet").curve(0.3), 80);
+  EXPECT_EQ(settings.outlets.at("outlet").effect.values.at("resistance"), 100);
+  EXPECT_EQ(settings.blood.values.at("wall_load_offset"), 0);
+  FluidSolver solver(box_vessel({1, 1, 1}, {2, 2, 2}), settings);
+  run_rigid(solver, 0.01, 1);
+  EXPECT_NEAR(observed(solver, "outlet.flow"), 80, 1e-10);
+}
+
+TEST(FluidCase, APrestressedWallBearsTheImagesPressure) {
+  FluidSettings settings;
+  ASSERT_EQ(read("image: {pressure: 80 mmHg, wall: prestressed}\n" + valid_fluid, &settings), "no error");
+  EXPECT_NEAR(settings.blood.values.at("wall_load_offset"), 106657.6, 1);
+}
+
+TEST(FluidCase, MistakesAreNamedWithTheirPlace) {
+  const auto wrong = [](const std::string& from, const std::string& to) { return read(replaced(valid_fluid, from, to)); };
+  const auto expect = [](const std::string& message, std::initializer_list<const char*> parts) {
+    for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message << " lacks " << part;
+  };
+  expect(wrong("density: 1.06", "density: -1"), {"case.yaml:7", "density", "-1", "positive"});
+  expect(wrong("viscosity: 0.04", "viscosty: 0.04"), {"case.yaml:8", "viscosty", "viscosity"});
+  expect(wrong("newtonian", "honey"), {"case.yaml:8", "honey", "newtonian", "casson"});
+  expect(wrong("{constant: 80 ml/s}", "{constant: 80 mmHg}"), {"case.yaml:9", "80 mmHg"});
+  expect(wrong("{constant: 80 ml/s}", "{}"), {"case.yaml:9", "file or a constant"});
+  expect(wrong("parabolic", "womersley"), {"case.yaml:9", "womersley", "period"});
+  expect(wrong("{outlet: {type: resistance, resistance: 100}}", "{exit: {type: resistance, resistance: 100}}"),
+         {"case.yaml:10", "outlet"});
+  expect(wrong("type: resistance, resistance: 100", "type: windkessel, proximal_resistance: 1"), {"case.yaml:10", "distal_resistance", "must be given"});
+}
+
+FluidServer make_server() {
+  return {std::make_unique<FluidSolver>(tube(1, 2, 12, 6), settings(1.06, 0.04)), UnitSystem::cgs(), "{}", test_folder()};
+}
+
+TEST(FluidServer, SpeaksTheProtocol) {
+  auto handler = std::make_shared<FluidServer>(make_server());
+  protocol::Partner fluid = protocol::in_process_partner<protocol::ToFluid>("fluid", handler);
+  EXPECT_TRUE(fluid.hello().has_tangent);
+  EXPECT_EQ(fluid.hello().observables[0].name, "inlet.flow");
+  EXPECT_EQ(fluid.hello().observables[0].unit, "cm3/s");
+
+  const auto surface = fluid.ask(protocol::GetInterface{});
+  const std::vector<double> zero(surface.points.size(), 0.0);
+  fluid.ask(protocol::BeginStep{1, 0, 0.01, zero});
+  EXPECT_EQ(fluid.ask(protocol::FluidEvaluate{zero, zero}).forces.size(), zero.size());
+  EXPECT_EQ(fluid.ask(protocol::FluidTangent{zero}).forces, zero);
+  const auto report = fluid.ask(protocol::EndStep{true});
+  EXPECT_EQ(report.observables.size(), fluid.hello().observables.size());
+  EXPECT_EQ(report.observables[0], 1);
+
+  const auto state = fluid.ask(protocol::GetState{});
+  EXPECT_EQ(static_cast<std::int64_t>(state.values.size()), fluid.hello().state_size);
+  fluid.ask(protocol::SetState{state.values});
+  EXPECT_EQ(fluid.ask(protocol::GetState{}).values, state.values);
+  fluid.ask(protocol::Write{1, 0.01});
+  EXPECT_TRUE(std::filesystem::exists(test_folder() / "fluid.pvd"));
+}
+
+TEST(FluidServer, AnswersMistakesWithTheirReason) {
+  FluidServer server = make_server();
+  EXPECT_THROW(server(protocol::BeginStep{1, 0, 0.01, {0, 0}}), RunError);
+  EXPECT_THROW(server(protocol::SetParameters{{"fluid.density"}, {}}), InputError);
+  EXPECT_THROW(server(protocol::SetParameters{{"fluid.colour"}, {1}}), InputError);
+  EXPECT_THROW(server(protocol::SetState{{1, 2, 3}}), InputError);
+}
+
+/// The triangles' normals point out of the fluid.
+TEST(FluidServer, OrientsTheInterfaceOutward) {
+  FluidServer server = make_server();
+  const auto surface = server(protocol::GetInterface{});
+  const auto point = [&](std::int64_t i) { return Vec3(surface.points.data() + 3 * i); };
+  for (std::size_t t = 0; t < surface.triangles.size(); t += 3) {
+    const Vec3 a = point(surface.triangles[t]), b = point(surface.triangles[t + 1]), c = point(surface.triangles[t + 2]);
+    const Vec3 normal = (b - a).cross(c - a), centre = (a + b + c) / 3;
+    EXPECT_GT(normal.head<2>().dot(centre.head<2>()), 0);
+  }
+}
+
+}  // namespace
+}  // namespace tether::fluid::testing
