@@ -88,7 +88,9 @@ void FluidCase::declare(Fields& f) {
   f.group("rheology", law, "viscosity of the blood");
   f.choice("mesh_motion", mesh_motion,
            {{"harmonic", "each component by a Laplacian weighted with 1/volume"},
-            {"elastic", "as an elastic body, stiffness 1/volume: bears larger motions, needs far more memory"}},
+            {"elastic",
+             "as an elastic body, stiffness 1/volume: keeps volumes better in very large motions, with three times the "
+             "memory"}},
            "how the inside of the fluid mesh follows the wall");
   f.number("backflow_stabilisation", backflow_stabilisation, dimension::none, {0, 1},
            "factor of the force that damps blood entering through an outlet; 0.5 removes all its energy");

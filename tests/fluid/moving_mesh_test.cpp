@@ -117,6 +117,7 @@ TEST(MassBalance, IsKeptToRoundOffAndOfTheTrueVolumeToFirstOrder) {
   const auto [mass_fine, volume_fine] = balance_errors(0.005);
   EXPECT_LT(mass_coarse, 1e-10);
   EXPECT_LT(mass_fine, 1e-10);
+  report("volume_balance", volume_coarse, volume_fine);
   EXPECT_NEAR(order(volume_coarse, volume_fine), 1, 0.15);
 }
 

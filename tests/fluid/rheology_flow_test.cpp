@@ -10,9 +10,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi, n = 0.6, K = 1, rho = 1, L = 4, dt = 0.005;
 
-double gradient(double flow) { return 2 * K * std::pow((3 * n + 1) / n * flow / pi, n); }
+double gradient(double flow) {
+  return 2 * K * std::pow((3 * n + 1) / n * flow / pi, n);
+}
 
-double speed(double r, double flow) { return (3 * n + 1) / (n + 1) * flow / pi * (1 - std::pow(std::min(r, 1.0), (n + 1) / n)); }
+double speed(double r, double flow) {
+  return (3 * n + 1) / (n + 1) * flow / pi * (1 - std::pow(std::min(r, 1.0), (n + 1) / n));
+}
 
 /// What v~ carries of the flow 1, see poiseuille_test.cpp: Q = Q~ + dt/rho |grad p| pi R^2.
 double carried_flow() {
@@ -31,7 +35,10 @@ Errors power_law(int around) {
   FluidSolver solver(tube(1, L, around, around / 2), chosen);
   const double flow = carried_flow();
   start_from(
-      solver, dt, rho, [&](const Vec3& x) -> Vec3 { return {0, 0, speed(x.head<2>().norm(), flow)}; },
+      solver, dt, rho,
+      [&](const Vec3& x) -> Vec3 {
+        return {0, 0, speed(x.head<2>().norm(), flow)};
+      },
       [&](const Vec3& x) { return gradient(flow) * (L - x.z()); });
   run_rigid(solver, dt, 100);
   double error = 0, scale = 0, middle = 0, three_quarters = 0;
@@ -58,13 +65,17 @@ TEST(PowerLaw, TubeFlowConverges) {
   EXPECT_LT(fine.gradient, 0.02);
 }
 
-/// The viscosity's gradient must not disturb a developed flow at the outlet: there mu dv/dn = 0, not the whole traction.
+/// The viscosity's gradient must not disturb a developed flow at the outlet: there mu dv/dn = 0, not the whole
+/// traction.
 TEST(PowerLaw, LeavesTheOutletUndisturbed) {
   FluidSettings chosen = settings(rho, K);
   chosen.rheology = {"power_law", {{"viscosity", K}, {"index", n}, {"lowest_shear_rate", 1e-3}}};
   FluidSolver solver(tube(1, L, 16, 8), chosen);
   start_from(
-      solver, dt, rho, [&](const Vec3& x) -> Vec3 { return {0, 0, speed(x.head<2>().norm(), 1)}; },
+      solver, dt, rho,
+      [&](const Vec3& x) -> Vec3 {
+        return {0, 0, speed(x.head<2>().norm(), 1)};
+      },
       [&](const Vec3& x) { return gradient(1) * (L - x.z()); });
   run_rigid(solver, dt, 100);
   const EndFace& outlet = solver.domain().outlets[0];

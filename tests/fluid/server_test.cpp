@@ -58,7 +58,9 @@ TEST(FluidCase, APrestressedWallBearsTheImagesPressure) {
 }
 
 TEST(FluidCase, MistakesAreNamedWithTheirPlace) {
-  const auto wrong = [](const std::string& from, const std::string& to) { return read(replaced(valid_fluid, from, to)); };
+  const auto wrong = [](const std::string& from, const std::string& to) {
+    return read(replaced(valid_fluid, from, to));
+  };
   const auto expect = [](const std::string& message, std::initializer_list<const char*> parts) {
     for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message << " lacks " << part;
   };
@@ -70,11 +72,13 @@ TEST(FluidCase, MistakesAreNamedWithTheirPlace) {
   expect(wrong("parabolic", "womersley"), {"case.yaml:9", "womersley", "period"});
   expect(wrong("{outlet: {type: resistance, resistance: 100}}", "{exit: {type: resistance, resistance: 100}}"),
          {"case.yaml:10", "outlet"});
-  expect(wrong("type: resistance, resistance: 100", "type: windkessel, proximal_resistance: 1"), {"case.yaml:10", "distal_resistance", "must be given"});
+  expect(wrong("type: resistance, resistance: 100", "type: windkessel, proximal_resistance: 1"),
+         {"case.yaml:10", "distal_resistance", "must be given"});
 }
 
 FluidServer make_server() {
-  return {std::make_unique<FluidSolver>(tube(1, 2, 12, 6), settings(1.06, 0.04)), UnitSystem::cgs(), "{}", test_folder()};
+  return {std::make_unique<FluidSolver>(tube(1, 2, 12, 6), settings(1.06, 0.04)), UnitSystem::cgs(), "{}",
+          test_folder()};
 }
 
 TEST(FluidServer, SpeaksTheProtocol) {
@@ -115,7 +119,8 @@ TEST(FluidServer, OrientsTheInterfaceOutward) {
   const auto surface = server(protocol::GetInterface{});
   const auto point = [&](std::int64_t i) { return Vec3(surface.points.data() + 3 * i); };
   for (std::size_t t = 0; t < surface.triangles.size(); t += 3) {
-    const Vec3 a = point(surface.triangles[t]), b = point(surface.triangles[t + 1]), c = point(surface.triangles[t + 2]);
+    const Vec3 a = point(surface.triangles[t]), b = point(surface.triangles[t + 1]),
+               c = point(surface.triangles[t + 2]);
     const Vec3 normal = (b - a).cross(c - a), centre = (a + b + c) / 3;
     EXPECT_GT(normal.head<2>().dot(centre.head<2>()), 0);
   }
