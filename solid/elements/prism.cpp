@@ -42,8 +42,9 @@ Eigen::Matrix<double, 6, 3> derivatives(const Place& p) {
   return d;
 }
 
-/// Samples 0-2 and 3-5: E11, E22, 2 E12 at the lower and upper Gauss level; 6-8: E33 on the three vertical edges;
-/// 9: 2 E13 at (1/2, 0); 10: 2 E23 at (0, 1/2); 11: 2 (E23 - E13) at (1/2, 1/2); the shears at zeta = 0.
+/// Samples 0-2 and 3-5: E11, E22, 2 E12 at the lower and upper Gauss level; 6-8: E33 linearised around the mean
+/// vertical edge, at the three of them; 9: 2 E13 at (1/2, 0); 10: 2 E23 at (0, 1/2); 11: 2 (E23 - E13) at (1/2, 1/2);
+/// the shears at zeta = 0.
 Strains make_strains() {
   Strains s;
   const auto set = [&s](int k, double factor, const NodeVector& a, const NodeVector& b) {
@@ -58,10 +59,8 @@ Strains make_strains() {
     set(3 * level + 2, 2, d.col(0), d.col(1));
   }
   constexpr double vertex[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-  for (int v = 0; v < 3; ++v) {
-    const auto d = derivatives({vertex[v][0], vertex[v][1], 0});
-    set(6 + v, 1, d.col(2), d.col(2));
-  }
+  const NodeVector mean = derivatives({1.0 / 3, 1.0 / 3, 0}).col(2);
+  for (int v = 0; v < 3; ++v) set(6 + v, 2, derivatives({vertex[v][0], vertex[v][1], 0}).col(2) - mean / 2, mean);
   const auto on_xi = derivatives({0.5, 0, 0}), on_eta = derivatives({0, 0.5, 0}), on_slope = derivatives({0.5, 0.5, 0});
   set(9, 2, on_xi.col(0), on_xi.col(2));
   set(10, 2, on_eta.col(1), on_eta.col(2));
@@ -75,6 +74,20 @@ void set_shear(PrismElement::Map& map, const Place& p, const Eigen::Matrix<doubl
   map.col(9) = (1 - p.eta) * e13 + p.xi * e23;
   map.col(10) = p.eta * e13 + (1 - p.xi) * e23;
   map.col(11) = -p.eta * e13 + p.xi * e23;
+}
+
+/// First-order change of the mean over the vertices of |g3 - mean g3|^2/2 = (D1^2 + D2^2 - D1.D2)/9, with D_a the
+/// change of g3 along xi_a, by the in-plane samples: D_a . g_b is half the difference of E_ab between the levels over
+/// gauss.
+Eigen::Matrix<double, 6, 1> fan_of(const PrismElement::Positions& reference, const Mat3& contravariant) {
+  const auto edge = [&](double xi, double eta) -> Vec3 { return reference * derivatives({xi, eta, 0}).col(2); };
+  const Vec3 d1 = edge(1, 0) - edge(0, 0), d2 = edge(0, 1) - edge(0, 0);
+  const Eigen::Vector2d q1 = contravariant.leftCols<2>().transpose() * (2 * d1 - d2),
+                        q2 = contravariant.leftCols<2>().transpose() * (2 * d2 - d1);
+  const Vec3 upper = Vec3(q1[0], q2[1], (q1[1] + q2[0]) / 2) / (9 * 2 * gauss);
+  Eigen::Matrix<double, 6, 1> fan;
+  fan << -upper, upper;
+  return fan;
 }
 
 /// int N_a N_b dV, exact for a constant Jacobian (the points in the plane have degree 2).
@@ -104,6 +117,7 @@ PrismElement::PrismElement(const Positions& reference) {
     points_[static_cast<std::size_t>(q)] = {jacobian / 6, covariant.inverse().transpose(),
                                             p.zeta * centre.determinant() / jacobian};
   }
+  fan_ = fan_of(reference, centre_contravariant_);
   mass_ = mass_matrix(*this);
 }
 
@@ -117,7 +131,9 @@ PrismElement::Map PrismElement::map(int point, double thickness_variation) const
   map.col(level + 2) = voigt_dyad(g.col(0), g.col(1));
   const Vec3 mean = Vec3::Constant(1.0 / 3),
              weights = mean + thickness_variation * (triangle_shape(p.xi, p.eta) - mean);
-  map.middleCols<3>(6) = voigt_dyad(g.col(2), g.col(2)) * weights.transpose();
+  const Eigen::Matrix<double, 6, 1> e33 = voigt_dyad(g.col(2), g.col(2));
+  map.leftCols<6>() += e33 * fan_.transpose();
+  map.middleCols<3>(6) = e33 * weights.transpose();
   set_shear(map, p, voigt_dyad(g.col(0), g.col(2)), voigt_dyad(g.col(1), g.col(2)));
   return map;
 }

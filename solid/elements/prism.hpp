@@ -13,12 +13,14 @@ namespace tether {
 /// - in-plane 11, 22, 12: as they are, at the two Gauss levels zeta = -+1/sqrt(3);
 /// - transverse shear 13, 23: from the edges' midpoints, constant tangential strain along each edge (MITC3: Lee and
 /// Bathe 2004): no shear locking;
-/// - thickness 33: from the three vertical edges (Betsch and Stein 1995): no curvature-thickness locking; its variation
-/// over the triangle
-///   enters only as far as shear resists it, so that a nearly incompressible wall does not lock in its plane;
+/// - thickness 33: of the mean of the three vertical edges, and its linear variation along them, which enters only as
+/// far as shear resists it, so that a nearly incompressible wall does not lock in its plane. Not the edges' own squared
+/// lengths: tilts against each other, which the shears at the midpoints do not see, would shorten the wall at second
+/// order and make it give way under a few percent of its shear modulus as pressure. What bending changes in those
+/// lengths where the edges fan out, in a curved wall, is put back from the in-plane samples: no curvature-thickness
+/// locking (Betsch and Stein 1995);
 /// - one enhanced mode, linear in zeta, of the thickness strain (Buechter, Ramm and Roehl 1994; Simo and Rifai 1990),
-/// eliminated in the
-///   element: no Poisson-thickness and no volumetric locking in bending.
+/// eliminated in the element: no Poisson-thickness and no volumetric locking in bending.
 /// These are twelve numbers, as many as the element has ways to deform.
 struct PrismElement {
   static constexpr int nodes = 6, samples = 12, points = 6;
@@ -47,7 +49,8 @@ struct PrismElement {
     double enhanced;     ///< zeta J0/J
   };
   std::array<Point, points> points_;
-  Mat3 centre_contravariant_;  ///< columns G^1, G^2, G^3 at the centre
+  Mat3 centre_contravariant_;        ///< columns G^1, G^2, G^3 at the centre
+  Eigen::Matrix<double, 6, 1> fan_;  ///< thickness strain by the in-plane samples
   Eigen::Matrix<double, nodes, nodes> mass_;
 };
 
