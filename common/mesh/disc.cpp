@@ -15,6 +15,15 @@ int Disc::Ring::node(int place) const {
   return first + (place % 2 == 0 ? place / 2 : (count + 1) / 2 + place / 2);
 }
 
+std::vector<int> Disc::flipped() const {
+  std::vector<int> number(static_cast<std::size_t>(node_count()));
+  for (const Ring& ring : rings)
+    for (int place = 0; place < ring.count; ++place)
+      number[static_cast<std::size_t>(ring.node(place))] =
+          ring.count % 2 == 0 ? ring.node(place + 1) : ring.node(place);
+  return number;
+}
+
 namespace {
 
 /// Thickness of the boundary layers over the rim's radius, from the core outward.

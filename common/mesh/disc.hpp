@@ -15,8 +15,10 @@ struct DiscSettings {
 };
 
 /// Nodes and triangles of the unit disc in polar coordinates, laid out in rings. Ring 0 is the centre, the last ring
-/// the rim. In each ring the nodes of even place come first: cutting prisms by the smaller node index then gives a
-/// zigzag that is symmetric about every radial plane, without a preferred sense of rotation.
+/// the rim. In each ring the nodes of even place come first, in a flipped one those of odd place: cutting the prisms
+/// between discs, every other one flipped, by the smaller node index then lets diagonals meet crosswise at every second
+/// node of the interface. That is symmetric, without a preferred sense of rotation, and the one pattern on which walls
+/// of nearly incompressible prisms do not lock (docs/decisions/0003-wall-element.md).
 struct Disc {
   struct Ring {
     int first, count;
@@ -27,6 +29,8 @@ struct Disc {
   std::vector<Triangle> triangles;  ///< counterclockwise
   const Ring& rim() const { return rings.back(); }
   int node_count() const { return rim().first + rim().count; }
+  /// Node number in a flipped disc of each node.
+  std::vector<int> flipped() const;
 };
 
 /// Throws InputError if `around` is odd or below 8, or the boundary layers leave no core.

@@ -21,37 +21,52 @@ Vec3 rim_point(const CrossSection& section, double turn) {
   return (1 - t) * section.rim.col(node) + t * section.rim.col((node + 1) % section.rim.cols());
 }
 
-/// The disc's nodes in a cross-section.
-Points placed(const Disc& disc, const CrossSection& section) {
-  Points points(3, disc.node_count());
-  for (const Disc::Ring& ring : disc.rings)
-    for (int i = 0; i < ring.count; ++i)
-      points.col(ring.node(i)) =
-          section.centre + ring.radius * (rim_point(section, double(i) / ring.count) - section.centre);
+/// Node numbers of the vessel: discs behind each other, every other one flipped.
+class Numbering {
+ public:
+  explicit Numbering(const Disc& disc) : nodes_(disc.node_count()), flipped_(disc.flipped()) {}
+  int operator()(int node, int level) const {
+    return level * nodes_ + (level % 2 == 0 ? node : flipped_[static_cast<std::size_t>(node)]);
+  }
+  Triangle operator()(const Triangle& t, int level) const {
+    return {(*this)(t[0], level), (*this)(t[1], level), (*this)(t[2], level)};
+  }
+
+ private:
+  int nodes_;
+  std::vector<int> flipped_;
+};
+
+/// The disc's nodes in all cross-sections.
+Points placed(const Disc& disc, const std::vector<CrossSection>& sections, const Numbering& number) {
+  const int levels = static_cast<int>(sections.size());
+  Points points(3, disc.node_count() * levels);
+  for (int level = 0; level < levels; ++level) {
+    const CrossSection& section = sections[static_cast<std::size_t>(level)];
+    for (const Disc::Ring& ring : disc.rings)
+      for (int i = 0; i < ring.count; ++i)
+        points.col(number(ring.node(i), level)) =
+            section.centre + ring.radius * (rim_point(section, double(i) / ring.count) - section.centre);
+  }
   return points;
 }
 
-Triangle shifted(const Triangle& t, int by) {
-  return {t[0] + by, t[1] + by, t[2] + by};
-}
-
-std::vector<Prism> prisms_between_sections(const Disc& disc, int along) {
+std::vector<Prism> prisms_between_sections(const Disc& disc, int along, const Numbering& number) {
   std::vector<Prism> prisms;
   for (int i = 0; i < along; ++i)
     for (const Triangle& t : disc.triangles) {
-      const Triangle b = shifted(t, i * disc.node_count()), a = shifted(b, disc.node_count());
+      const Triangle b = number(t, i), a = number(t, i + 1);
       prisms.push_back({b[0], b[1], b[2], a[0], a[1], a[2]});
     }
   return prisms;
 }
 
-std::vector<Triangle> interface_triangles(const Disc& disc, int along) {
+std::vector<Triangle> interface_triangles(const Disc& disc, int along, const Numbering& number) {
   std::vector<Triangle> triangles;
   for (int i = 0; i < along; ++i)
     for (int j = 0; j < disc.rim().count; ++j) {
-      const int below = i * disc.node_count(), above = below + disc.node_count();
       const int a = disc.rim().node(j), b = disc.rim().node(j + 1);
-      for (const Triangle& half : split_quadrilateral(a + below, b + below, b + above, a + above))
+      for (const Triangle& half : split_quadrilateral(number(a, i), number(b, i), number(b, i + 1), number(a, i + 1)))
         triangles.push_back(half);
     }
   return triangles;
@@ -67,17 +82,16 @@ void require_positive_volumes(const FluidMesh& fluid) {
 }
 
 FluidMesh fill(const Disc& disc, const std::vector<CrossSection>& sections) {
-  const int along = static_cast<int>(sections.size()) - 1, nodes = disc.node_count();
+  const int along = static_cast<int>(sections.size()) - 1;
+  const Numbering number(disc);
   FluidMesh fluid;
-  fluid.points.resize(3, nodes * (along + 1));
-  for (int i = 0; i <= along; ++i)
-    fluid.points.middleCols(i * nodes, nodes) = placed(disc, sections[static_cast<std::size_t>(i)]);
-  fluid.tetrahedra = split_into_tetrahedra(prisms_between_sections(disc, along));
-  fluid.interface = interface_triangles(disc, along);
+  fluid.points = placed(disc, sections, number);
+  fluid.tetrahedra = split_into_tetrahedra(prisms_between_sections(disc, along, number));
+  fluid.interface = interface_triangles(disc, along, number);
   Patch inlet{"inlet", {}}, outlet{"outlet", {}};
   for (const Triangle& t : disc.triangles) {
     inlet.triangles.push_back({t[0], t[2], t[1]});
-    outlet.triangles.push_back(shifted(t, along * nodes));
+    outlet.triangles.push_back(number(t, along));
   }
   fluid.inlets = {inlet};
   fluid.outlets = {outlet};
@@ -91,11 +105,12 @@ WallPlace place_on_vessel(const Triangle& triangle, const Disc& disc, int along)
   double x = 0, y = 0, position = 0;
   for (const int node : triangle) {
     const int on_interface = node % interface_nodes, in_ring = on_interface % around;
-    const int place = in_ring < (around + 1) / 2 ? 2 * in_ring : 2 * (in_ring - (around + 1) / 2) + 1;
+    const int level = on_interface / around, half = around / 2;
+    const int place = 2 * (in_ring % half) + in_ring / half - level % 2;  // undoes Disc::Ring::node and flipping
     const double angle = 2 * std::numbers::pi * place / around;
     x += std::cos(angle);
     y += std::sin(angle);
-    position += static_cast<double>(on_interface / around) / along / 3;
+    position += static_cast<double>(level) / along / 3;
   }
   const double degrees = std::atan2(y, x) * 180 / std::numbers::pi;
   return {degrees < 0 ? degrees + 360 : degrees, position};
