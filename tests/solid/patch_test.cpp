@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 #include <set>
 
 #include "solid/elements/wall_elements.hpp"
@@ -91,44 +91,44 @@ TEST_P(Patch, InnerNodesFindTheLinearField) {
   EXPECT_LE((result.positions - exact).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-/// Deformation with the stretches l and 1 in the plane under a pressure on the faces, by Newton on the thickness
-/// stretch.
+/// Deformation with the stretches l and (1 + l)/2 in the plane under a pressure on the faces, by Newton on the
+/// thickness stretch.
 Mat3 pressed_plate(const Material& material, double l, double pressure) {
   double thickness = 1 / l;
-  const auto gradient_at = [&](double t) -> Mat3 { return Vec3(l, 1, t).asDiagonal(); };
+  const auto gradient_at = [&](double t) -> Mat3 { return Vec3(l, (1 + l) / 2, t).asDiagonal(); };
   const auto defect = [&](double t) { return cauchy(material, gradient_at(t))(2, 2) + pressure; };
   for (int i = 0; i < 20; ++i)
     thickness -= defect(thickness) / derivative([&](double d) { return defect(thickness + d); }, 1e-4);
   return gradient_at(thickness);
 }
 
-/// Smallest eigenvalue of the tangent of a uniformly deformed plate, its edges held and its faces free, over the shear
-/// modulus.
-double smallest_eigenvalue(const Mat3& f, const Material& material, double shear) {
-  const WallMesh mesh = irregular_plate(1);
+/// Whether the tangent of a uniformly deformed plate of 8 x 8 cells of size one is positive definite, its edges held
+/// and its faces free.
+bool is_stable(const Mat3& f, const Material& material, double thickness) {
+  const WallMesh mesh = plate({8, 8, thickness}, {8, 8}, 2);
   const auto wall = make_wall_elements(mesh, mesh.points);
   VectorXd force = VectorXd::Zero(mesh.points.size());
   SparseMatrix tangent = wall->zero_matrix();
   wall->static_force(f * mesh.points, material, force, &tangent);
-  std::vector<int> free;
+  std::vector<int> edge;
   for (int node = 0; node < mesh.points.cols(); ++node)
-    if (const int i = node % 5, j = node / 5 % 4; i > 0 && i < 4 && j > 0 && j < 3)
-      free.insert(free.end(), {3 * node, 3 * node + 1, 3 * node + 2});
-  const Eigen::MatrixXd inner = Eigen::MatrixXd(tangent)(free, free);
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inner, Eigen::EigenvaluesOnly).eigenvalues()[0] / shear;
+    if (const int i = node % 9, j = node / 9 % 9; i % 8 == 0 || j % 8 == 0)
+      edge.insert(edge.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+  constrain(tangent, edge, tangent.coeff(0, 0));
+  return Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>(tangent).info() == Eigen::Success;
 }
 
-/// A wall under tension in its plane and pressure across it stays stable up to a fifth of the shear modulus: blood's
-/// pressure is a tenth of it. (The soft variation of thickness strain is what gives way first.)
+/// A wall stretched in its plane and pressed across it is stable, thick or thin, under a tenth of its shear modulus: an
+/// aorta's pressure. (With the squared length of each vertical edge as thickness strain it gave way at 0.05: such edges
+/// tilt against each other unseen by the shear samples.)
 TEST(PrismStability, APressedAndStretchedPlateIsStable) {
   for (const double poisson : {0.3, 0.45, 0.499}) {
     const double shear = 1 / (2 * (1 + poisson));
     const auto material = neo_hookean.make(std::array{1.0, poisson});
-    for (const double stretch : {1.0, 1.2, 1.4}) {
-      const double free = smallest_eigenvalue(pressed_plate(*material, stretch, 0), *material, shear);
-      EXPECT_GT(free, 0.28) << poisson << " " << stretch;
-      EXPECT_GT(smallest_eigenvalue(pressed_plate(*material, stretch, 0.2 * shear), *material, shear), 0.4 * free);
-    }
+    for (const double stretch : {1.1, 1.2, 1.4})
+      for (const double thickness : {1.0, 0.4, 0.1})
+        EXPECT_TRUE(is_stable(pressed_plate(*material, stretch, 0.1 * shear), *material, thickness))
+            << poisson << " " << stretch << " " << thickness;
   }
 }
 
