@@ -84,7 +84,7 @@ inline VectorXd pressure_forces(const WallMesh& wall, const std::function<double
     double weight;
   };
   std::vector<Point> rule{{Vec3::Constant(1.0 / 3), 9.0 / 40}};
-  for (const auto [place, weight] : {std::pair{inner, (155 - root) / 1200}, std::pair{outer, (155 + root) / 1200}})
+  for (const auto& [place, weight] : {std::pair{inner, (155 - root) / 1200}, std::pair{outer, (155 + root) / 1200}})
     for (int i = 0; i < 3; ++i) rule.push_back({Vec3::Constant(place) + (1 - 3 * place) * Vec3::Unit(i), weight});
   VectorXd forces = VectorXd::Zero(wall.points.size());
   for (const Triangle& t : wall.interface) {

@@ -70,4 +70,56 @@ inline double inflation_pressure(double a, double b, double shear, double stretc
   return shear * (std::log(inner / outer) + (1 / (outer * outer) - 1 / (inner * inner)) / 2);
 }
 
+/// The same for the compressible law mu/2 (I1 J^-2/3 - 3) + kappa/4 (J^2 - 1 - 2 ln J): equilibrium of the radial Piola
+/// stress, dP/dR = (Q - P)/R with the hoop stress Q, integrated from the free outer face inward (Runge-Kutta, 200
+/// steps).
+class CompressibleInflation {
+ public:
+  CompressibleInflation(double a, double b, double shear, double bulk) : a_(a), b_(b), shear_(shear), bulk_(bulk) {}
+
+  double pressure(double inner_stretch) const {
+    double low = b_, high = b_ * inner_stretch;  // outer radius, by bisection
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (integrate(middle)[0] < inner_stretch * a_ ? low : high) = middle;
+    }
+    return -integrate(low)[1] / inner_stretch;
+  }
+
+ private:
+  using State = Eigen::Vector2d;  // radius r, radial Piola stress P
+
+  double piola(double along, double first, double second) const {  // dW/d(along), the other stretches first and second
+    const double j = along * first * second, i1 = along * along + first * first + second * second;
+    return shear_ * std::pow(j, -2.0 / 3) * (along - i1 / (3 * along)) + bulk_ / 2 * (j - 1 / j) * first * second;
+  }
+  double radial_stretch(double hoop, double stress) const {
+    double stretch = 1 / hoop;
+    for (int i = 0; i < 20; ++i) {
+      const double h = 1e-6 * stretch;
+      const double slope = (piola(stretch + h, hoop, 1) - piola(stretch - h, hoop, 1)) / (2 * h);
+      stretch -= (piola(stretch, hoop, 1) - stress) / slope;
+    }
+    return stretch;
+  }
+  State slope(double place, const State& s) const {
+    const double hoop = s[0] / place, radial = radial_stretch(hoop, s[1]);
+    return {radial, (piola(hoop, radial, 1) - s[1]) / place};
+  }
+  State integrate(double outer_radius) const {
+    constexpr int steps = 200;
+    const double h = (a_ - b_) / steps;
+    State s(outer_radius, 0);
+    for (int i = 0; i < steps; ++i) {
+      const double place = b_ + i * h;
+      const State k1 = slope(place, s), k2 = slope(place + h / 2, s + h / 2 * k1),
+                  k3 = slope(place + h / 2, s + h / 2 * k2), k4 = slope(place + h, s + h * k3);
+      s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    }
+    return s;
+  }
+
+  double a_, b_, shear_, bulk_;
+};
+
 }  // namespace tether
