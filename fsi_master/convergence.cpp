@@ -5,6 +5,9 @@
 namespace tether {
 namespace {
 
+constexpr double just_enough = 0.3;        // share of the tolerance left to a linear solve
+constexpr double correction_share = 0.01;  // of r, that the correction will at least have
+
 int largest_node(const VectorXd& values) {
   int node = -1;
   double largest = -1.0;
@@ -31,6 +34,14 @@ bool Convergence::may_continue() const {
 
 double Convergence::target(const VectorXd& V, const VectorXd& residual) const {
   return std::max(floor_, options_.tolerance * std::max(V.norm(), (V + residual).norm()));
+}
+
+double Convergence::linear_target(const VectorXd& V, const VectorXd& residual) const {
+  return just_enough * std::max(floor_, options_.tolerance * std::max(V.norm(), correction_share * residual.norm()));
+}
+
+bool Convergence::is_same(const VectorXd& velocity, const VectorXd& V) const {
+  return (velocity - V).norm() <= just_enough * std::max(floor_, options_.tolerance * V.norm());
 }
 
 bool Convergence::reached(const VectorXd& V, const VectorXd& residual) {

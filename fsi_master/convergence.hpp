@@ -16,12 +16,17 @@ class Convergence {
   /// Notes an evaluation at V; true if it converged.
   bool reached(const VectorXd& V, const VectorXd& residual);
   void count_krylov(int iterations) { result_.krylov_iterations += iterations; }
-  /// The length of r at which a step whose velocity is V converges [length/time].
-  double target(const VectorXd& V, const VectorXd& residual) const;
+  /// The length of r to which a linear solve for the correction of V should go [length/time]: a share of what will be
+  /// asked for. That is set by |V| after the correction, of which |V| now and r (an added-mass ratio times it) tell.
+  double linear_target(const VectorXd& V, const VectorXd& residual) const;
+  /// Whether a velocity may be taken for V.
+  bool is_same(const VectorXd& velocity, const VectorXd& V) const;
   /// `motion`: of the solid at the last evaluation.
   CouplingResult result(Motion motion) &&;
 
  private:
+  double target(const VectorXd& V, const VectorXd& residual) const;
+
   const CouplingOptions& options_;
   double floor_;  ///< of |r| [length/time]
   CouplingResult result_;

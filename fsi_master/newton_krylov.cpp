@@ -6,12 +6,6 @@ namespace tether {
 namespace {
 
 constexpr int most_iterations = 200;  // of conjugate gradients a correction
-constexpr double just_enough = 0.1;   // share of the tolerance left to a linear solve
-
-/// A solid with prescribed motion need not start from the predicted velocity.
-bool is_elsewhere(const VectorXd& solid_velocity, const VectorXd& V, const Convergence& convergence) {
-  return (solid_velocity - V).norm() > just_enough * convergence.target(V, VectorXd::Zero(V.size()));
-}
 
 }  // namespace
 
@@ -25,13 +19,13 @@ CouplingResult NewtonKrylov::solve_step(const StepStart& start) {
   size_ = V.size();
   while (convergence.may_continue()) {
     solid = solid_.residual(dV, fluid_.load(start.motion(V)).get()).get();  // (C.4)
-    if (is_elsewhere(solid.motion.velocity, V, convergence)) {
+    if (!convergence.is_same(solid.motion.velocity, V)) {  // prescribed motion need not be the predicted one
       V = solid.motion.velocity;
       solid = solid_.residual({}, fluid_.load(start.motion(V)).get()).get();
     }
     const VectorXd estimate = solid_.precondition(solid.residual).get();
     if (convergence.reached(V, estimate.head(size_))) break;
-    Correction solved = correction(solid.residual, estimate, just_enough * convergence.target(V, estimate.head(size_)));
+    Correction solved = correction(solid.residual, estimate, convergence.linear_target(V, estimate.head(size_)));
     convergence.count_krylov(solved.iterations);
     dV = std::move(solved.dV);
     V += dV.head(size_);

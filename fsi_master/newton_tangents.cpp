@@ -6,7 +6,6 @@ namespace tether {
 namespace {
 
 constexpr int most_iterations = 100;  // of GMRES a correction
-constexpr double just_enough = 0.1;   // share of the tolerance left to a linear solve
 
 }  // namespace
 
@@ -23,7 +22,7 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
     if (convergence.reached(V, residual)) break;
     const auto apply = [this](const VectorXd& dV) { return tangent_times(dV); };
     VectorXd dV = VectorXd::Zero(V.size());
-    const double target = just_enough * convergence.target(V, residual);
+    const double target = convergence.linear_target(V, residual);
     convergence.count_krylov(gmres(apply, residual, dV, target, most_iterations).iterations);
     V += dV;
   }
