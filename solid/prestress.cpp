@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <deque>
 
+#include "common/base/error.hpp"
 #include "common/linalg/cholesky.hpp"
 
 namespace tether {
@@ -39,6 +40,37 @@ double size_of(const Points& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff();
 }
 
+/// The iteration at one pressure, from a wall nearly free of stress there. Fails rather than leave the region where the
+/// wall is stable.
+StressFreeResult search(const WallMesh& mesh, const Material& material, const VectorXd& load,
+                        const std::vector<int>& fixed, const Points& start, double tolerance) {
+  constexpr int max_iterations = 30;
+  const double size = size_of(mesh.points);
+  StressFreeResult result;
+  result.positions = start;
+  Anderson anderson;
+  Cholesky cholesky;
+  while (result.iterations < max_iterations) {
+    const auto wall = make_wall_elements(mesh, result.positions);
+    VectorXd out_of_balance = VectorXd::Zero(load.size());
+    SparseMatrix tangent = wall->zero_matrix();
+    wall->static_force(mesh.points, material, out_of_balance, &tangent);
+    constrain(tangent, fixed, tangent.coeff(0, 0));
+    if (result.iterations == 0) cholesky.analyze(tangent, 3);
+    cholesky.factor(tangent);
+    out_of_balance = load - out_of_balance;
+    for (int unknown : fixed) out_of_balance[unknown] = 0;
+    const VectorXd step = -cholesky.solve(out_of_balance);
+    ++result.iterations;
+    result.residual = step.lpNorm<Eigen::Infinity>() / size;
+    result.converged = result.residual <= tolerance;
+    if (result.converged || !std::isfinite(result.residual)) break;
+    const VectorXd next = anderson.next(result.positions.reshaped(), step);
+    result.positions.reshaped() = next;
+  }
+  return result;
+}
+
 }  // namespace
 
 VectorXd uniform_pressure_forces(const WallMesh& mesh, const Points& x, double pressure) {
@@ -51,32 +83,29 @@ VectorXd uniform_pressure_forces(const WallMesh& mesh, const Points& x, double p
 }
 
 StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material& material, double pressure,
-                                           const std::vector<int>& fixed, double tolerance, int max_iterations) {
+                                           const std::vector<int>& fixed, double tolerance) {
+  constexpr double smallest_increment = 1.0 / 512, tolerance_on_the_way = 1e-3;
   const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
-  const double size = size_of(mesh.points);
   StressFreeResult result;
   result.positions = mesh.points;
-  Anderson anderson;
-  Cholesky cholesky;
-  while (result.iterations < max_iterations) {
-    const auto wall = make_wall_elements(mesh, result.positions);
-    VectorXd internal = VectorXd::Zero(load.size());
-    SparseMatrix tangent = wall->zero_matrix();
-    wall->static_force(mesh.points, material, internal, &tangent);
-    constrain(tangent, fixed, tangent.coeff(0, 0));
-    if (result.iterations == 0) cholesky.analyze(tangent, 3);
-    cholesky.factor(tangent);
-    VectorXd out_of_balance = load - internal;
-    for (int unknown : fixed) out_of_balance[unknown] = 0;
-    const VectorXd step = -cholesky.solve(out_of_balance);
-    ++result.iterations;
-    result.residual = step.lpNorm<Eigen::Infinity>() / size;
-    if (!std::isfinite(result.residual)) break;
-    result.converged = result.residual <= tolerance;
-    if (result.converged) break;
-    const VectorXd next = anderson.next(result.positions.reshaped(), step);
-    result.positions.reshaped() = next;
+  double reached = 0, increment = 0.125;
+  while (reached < 1 && increment >= smallest_increment) {
+    const double target = std::min(1.0, reached + increment);
+    StressFreeResult next;
+    try {
+      next =
+          search(mesh, material, target * load, fixed, result.positions, target < 1 ? tolerance_on_the_way : tolerance);
+    } catch (const RunError&) {  // an element without volume, or a wall that is not stable: the step was too long
+      next.converged = false;
+    }
+    result.iterations += next.iterations;
+    result.residual = next.residual;
+    increment *= next.converged ? 1.5 : 0.5;
+    if (!next.converged) continue;
+    result.positions = next.positions;
+    reached = target;
   }
+  result.converged = reached >= 1;
   return result;
 }
 
