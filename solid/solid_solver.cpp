@@ -34,22 +34,22 @@ void SolidSolver::begin_step(double time, double dt) {
   iterate_ = mean_velocity_;
   evaluations_ = 0;
   calls_ = most_calls_ = 0;
-  tangent_is_of_this_step_ = false;
+  tangent_is_current_ = false;
   model_.place_supports(displacement_);
   renew_factor_if_stale();
 }
 
 VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
   if (correction.size() > 0) iterate_.reshaped() += correction;
-  return out_of_balance(
-      load, evaluations_++ % 2 == 0);  // the tangent moves so little in a step that it serves two corrections
+  // A correction always follows the first evaluation; after a later one there may be none, and `product` makes the tangent if there is.
+  return out_of_balance(load, evaluations_++ == 0);
 }
 
 VectorXd SolidSolver::out_of_balance(const Points& load, bool renew_tangent) {
   calls_ = 0;
   VectorXd result =
       -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
-  tangent_is_of_this_step_ |= renew_tangent;
+  tangent_is_current_ = renew_tangent;
   result.head(load.size()) += load.reshaped();
   for (int unknown : model_.clamped_unknowns()) result[unknown] = 0;
   return result;
@@ -72,7 +72,7 @@ InterfaceMotion SolidSolver::evaluate(const Points& load) {
     const bool solved = solve_linear(out_of_balance(load, true), correction, correction_tolerance).converged;
     if (!correction.allFinite()) break;
     iterate_.reshaped() += correction;
-    tangent_is_of_this_step_ = false;
+    tangent_is_current_ = false;
     if (solved && correction.norm() <= newton_tolerance * std::max(iterate_.norm(), displacement_.norm() / dt_ * 1e-9))
       return interface_motion();
   }
@@ -128,13 +128,13 @@ KrylovResult SolidSolver::solve_linear(const VectorXd& rhs, VectorXd& x, double 
 }
 
 const SparseMatrix& SolidSolver::current_tangent() {
-  if (!tangent_is_of_this_step_) assemble_tangent();
+  if (!tangent_is_current_) assemble_tangent();
   return tangent_;
 }
 
 void SolidSolver::assemble_tangent() {
   model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, &tangent_);
-  tangent_is_of_this_step_ = true;
+  tangent_is_current_ = true;
 }
 
 void SolidSolver::renew_factor_if_stale() {
@@ -156,7 +156,7 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
   set_all(now);
   if (!factor_.has_factor()) factor_.analyze(tangent_, 3);
   factor_.factor(tangent_);
-  tangent_is_of_this_step_ = false;
+  tangent_is_current_ = false;
   origin_ = origin;
 }
 
