@@ -164,7 +164,10 @@ void FluidSolver::prepare_projection() {
 
 Points FluidSolver::evaluate(const Points& displacement, const Points& velocity) {
   TETHER_ASSERT(begun_, "evaluate without begin_step");
-  const Surface& sigma = domain_.sigma;
+  Surface& sigma = domain_.sigma;
+  trial_.wall_points = sigma.local(domain_.mesh().points) + displacement - trial_.dt / 2 * velocity;
+  trial_.wall_velocity = velocity;
+  sigma.place_locally(trial_.wall_points);
   const VectorXd through = sigma.flux(velocity);
   VectorXd rhs = trial_.rhs;
   rhs(sigma.nodes) -= through;
@@ -172,17 +175,19 @@ Points FluidSolver::evaluate(const Points& displacement, const Points& velocity)
   trial_.interface_displacement = displacement;
   trial_.interface_flux = through.sum();
   evaluated_ = true;
-  const VectorXd pressure = sigma.local(trial_.solution.pressure).array() + blood_->wall_load_offset;
-  return sigma.pressure_force(pressure) + trial_.viscous_load;  // (F.10)
+  trial_.wall_pressure = sigma.local(trial_.solution.pressure).array() + blood_->wall_load_offset;
+  return sigma.pressure_force(trial_.wall_pressure) + trial_.viscous_load;  // (F.10)
 }
 
 Points FluidSolver::tangent(const Points& velocity_change) const {
-  TETHER_ASSERT(begun_, "tangent without begin_step");
+  TETHER_ASSERT(evaluated_, "tangent without evaluate");
   const Surface& sigma = domain_.sigma;
+  const Points motion = trial_.dt / 2 * velocity_change;
   VectorXd rhs = VectorXd::Zero(domain_.node_count());
-  rhs(sigma.nodes) = -sigma.flux(velocity_change);
+  rhs(sigma.nodes) = -sigma.flux(velocity_change) - sigma.flux_change(trial_.wall_velocity, trial_.wall_points, motion);
   const auto change = projection_.solve(rhs, VectorXd::Zero(trial_.known.size()));
-  return sigma.pressure_force(sigma.local(change.pressure));  // (F.11)
+  return sigma.pressure_force(sigma.local(change.pressure)) +  // (F.11)
+         sigma.pressure_force_change(trial_.wall_pressure, trial_.wall_points, motion);
 }
 
 void FluidSolver::accept() {

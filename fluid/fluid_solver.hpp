@@ -36,9 +36,13 @@ class FluidSolver {
   /// or a solve fails; the accepted state is untouched.
   void begin_step(double time, double dt, const Points& predicted);
   /// The projection stage: forces of the blood on the wall's nodes, for the interface displacement y1 and its velocity
-  /// V = (y1 - y0)/dt (not the wall's own end velocity). Depends on V alone; y1 is kept for the volume. (F.8) to (F.10)
+  /// V = (y1 - y0)/dt (not the wall's own end velocity). Flux and force are those through and on Sigma as it stands in
+  /// the middle of the step, y1 - dt V/2: with the predicted Sigma, pressure drives flexible walls unstable at large
+  /// steps (docs/decisions/0012-interface-geometry.md). (F.8) to (F.10)
   Points evaluate(const Points& displacement, const Points& velocity);
-  /// Change of that load by a change of V: - B' (L + e e'/Z)^-1 B dV, symmetric negative semi-definite. (F.11)
+  /// Change of that load by a change of V, y1 moving with it: - B' (L + e e'/Z)^-1 B dV, symmetric negative
+  /// semi-definite (F.11), and what the motion of Sigma does to flux and force: of the order of dt V over the radius,
+  /// not symmetric.
   Points tangent(const Points& velocity_change) const;
   /// Keeps the last evaluation as the new state.
   void accept();
@@ -89,6 +93,9 @@ class FluidSolver {
     // of the last evaluation
     Points interface_displacement;
     double interface_flux = 0;
+    VectorXd wall_pressure;  // on Sigma, offset included
+    Points wall_points;      // Sigma in the middle of the step
+    Points wall_velocity;    // V
     Projection::Solution solution;
   };
 

@@ -37,6 +37,12 @@ Vec3 area_vector(const Points& x, const Triangle& t) {
   return 0.5 * a.cross(b);
 }
 
+Vec3 area_vector_change(const Points& x, const Points& motion, const Triangle& t) {
+  const Vec3 a = x.col(t[1]) - x.col(t[0]), b = x.col(t[2]) - x.col(t[0]);
+  const Vec3 da = motion.col(t[1]) - motion.col(t[0]), db = motion.col(t[2]) - motion.col(t[0]);
+  return 0.5 * (da.cross(b) + a.cross(db));
+}
+
 }  // namespace
 
 Surface::Surface(const std::vector<Triangle>& all, const FluidMesh& mesh)
@@ -48,7 +54,10 @@ Surface::Surface(const std::vector<Triangle>& all, const FluidMesh& mesh)
 }
 
 void Surface::place(const Points& points) {
-  const Points x = local(points);
+  place_locally(local(points));
+}
+
+void Surface::place_locally(const Points& x) {
   area_vectors.resize(3, static_cast<Eigen::Index>(triangles.size()));
   for (std::size_t t = 0; t < triangles.size(); ++t)
     area_vectors.col(static_cast<Eigen::Index>(t)) = area_vector(x, triangles[t]);
@@ -79,6 +88,26 @@ Points Surface::pressure_force(const VectorXd& pressure) const {
     const double sum = pressure[tri[0]] + pressure[tri[1]] + pressure[tri[2]];
     for (int node : tri)
       result.col(node) += (sum + pressure[node]) / 12 * area_vectors.col(static_cast<Eigen::Index>(t));
+  }
+  return result;
+}
+
+VectorXd Surface::flux_change(const Points& velocity, const Points& points, const Points& motion) const {
+  VectorXd result = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+  for (const Triangle& tri : triangles) {
+    const Vec3 n = area_vector_change(points, motion, tri) / 12;
+    const Vec3 through(n.dot(velocity.col(tri[0])), n.dot(velocity.col(tri[1])), n.dot(velocity.col(tri[2])));
+    for (std::size_t a = 0; a < 3; ++a) result[tri[a]] += through.sum() + through[static_cast<Eigen::Index>(a)];
+  }
+  return result;
+}
+
+Points Surface::pressure_force_change(const VectorXd& pressure, const Points& points, const Points& motion) const {
+  Points result = Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
+  for (const Triangle& tri : triangles) {
+    const Vec3 n = area_vector_change(points, motion, tri) / 12;
+    const double sum = pressure[tri[0]] + pressure[tri[1]] + pressure[tri[2]];
+    for (int node : tri) result.col(node) += (sum + pressure[node]) * n;
   }
   return result;
 }

@@ -20,6 +20,8 @@ class Surface {
 
   /// The mesh now stands at `points` (all nodes).
   void place(const Points& points);
+  /// The surface now stands at `points` (local).
+  void place_locally(const Points& points);
 
   Points local(const Points& field) const;
   VectorXd local(const VectorXd& field) const;
@@ -27,6 +29,9 @@ class Surface {
   VectorXd flux(const Points& velocity) const;
   /// (B' p)_a = int p n phi_a, local p and result: the transpose of `flux`. (F.10)
   Points pressure_force(const VectorXd& pressure) const;
+  /// Change of flux(velocity) and of pressure_force(pressure) when the surface, at `points` (local), moves. (F.11)
+  VectorXd flux_change(const Points& velocity, const Points& points, const Points& motion) const;
+  Points pressure_force_change(const VectorXd& pressure, const Points& points, const Points& motion) const;
   double total_flux(const Points& velocity) const;
   double area() const;
   double mean(const VectorXd& values) const;

@@ -5,7 +5,7 @@
 namespace tether {
 
 /// Newton on all unknowns of the solid with the fluid eliminated, for a solid that announces operators:
-///   r(V) = R' F(R V) + r_solid(V),  (J + R' A R) dV = r,  solved by conjugate gradients with the solid's kept factor.
+///   r(V) = R' F(R V) + r_solid(V),  (J + R' A R) dV = r,  solved by GMRES, preconditioned by the solid's kept factor.
 /// R picks the interface velocities, the first unknowns. One evaluation: one projection solve, one solid residual.
 class NewtonKrylov : public Coupling {
  public:
@@ -18,7 +18,7 @@ class NewtonKrylov : public Coupling {
     VectorXd dV;
     int iterations = 0;
   };
-  Correction correction(VectorXd residual, VectorXd estimate, double target);
+  Correction correction(const VectorXd& estimate, double target);
   VectorXd tangent_times(const VectorXd& dV);
 
   FluidPartner& fluid_;
