@@ -17,10 +17,10 @@ int Disc::Ring::node(int place) const {
 
 std::vector<int> Disc::flipped() const {
   std::vector<int> number(static_cast<std::size_t>(node_count()));
-  for (const Ring& ring : rings)
-    for (int place = 0; place < ring.count; ++place)
-      number[static_cast<std::size_t>(ring.node(place))] =
-          ring.count % 2 == 0 ? ring.node(place + 1) : ring.node(place);
+  std::iota(number.begin(), number.end(), 0);
+  const Ring& rim = rings.back();
+  for (int place = 0; place < rim.count; ++place)
+    number[static_cast<std::size_t>(rim.node(place))] = rim.node(place + 1);
   return number;
 }
 
