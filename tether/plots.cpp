@@ -24,6 +24,8 @@ constexpr std::array plots{
     Plot{"pressures.png", "Pressure", "fluid.", "pressure", dimension::pressure, "mmHg"},
     Plot{"flows.png", "Flow", "fluid.", ".flow", dimension::flow, "ml/s"},
     Plot{"displacements.png", "Displacement of points", "point.", ".displacement_length", dimension::length, "mm"},
+    Plot{"largest_displacement.png", "Largest displacement of the lumen", "interface.max_displacement", "",
+         dimension::length, "mm"},
     Plot{"support_forces.png", "Force of the support on the wall", "solid.support.", "", dimension::force, "N"},
     Plot{"coupling.png", "Coupling: evaluations a step", "coupling.evaluations", "", dimension::none, ""},
 };
