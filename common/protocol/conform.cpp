@@ -204,6 +204,7 @@ std::string Examiner::orientation() {
 std::string Examiner::evaluate() {
   drive_->calibrate();
   const Numbers response = begin_and_evaluate(1);
+  drive_->evaluate(0);  // at rest, where a run begins
   end(false);
   const std::size_t expected = surface_.points.size() * (partner_.role() == "fluid" ? 1 : 2);
   require(response.size() == expected, "the reply has {} numbers instead of {}", response.size(), expected);

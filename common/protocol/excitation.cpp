@@ -127,24 +127,36 @@ StepReport Excitation::end(bool accepted) {
   return report;
 }
 
+double Excitation::motion() {
+  begin();
+  const Numbers start = displacement_;
+  try {
+    evaluate(1);
+  } catch (const PartnerFailed&) {
+    end(false);
+    return undefined;
+  }
+  end(false);
+  return largest(combined(1, last_motion_, -1, start));
+}
+
 void Excitation::calibrate() {
   if (is_fluid()) return;
   const auto scale_by = [this](double factor) {
     first_ = combined(factor, first_, 0, first_);
     second_ = combined(factor, second_, 0, second_);
   };
-  const auto motion = [this](double amplitude) {
-    begin();
-    const Numbers response = evaluate(amplitude);
-    end(false);
-    return Numbers(response.begin(), response.begin() + static_cast<std::ptrdiff_t>(displacement_.size()));
-  };
-  const Numbers rest = motion(0);
-  for (int i = 0; i < 3; ++i) {
-    const double moved = largest(combined(1, motion(1), -1, rest));
-    if (moved == 0) throw run_error("the solid does not move under a load of {:.3g}", largest(first_));
-    scale_by(target_ / moved);
+  double moved = motion();
+  for (const double factor : {1e3, 1e3, 1e-9}) {  // which load is a reasonable one depends on the units
+    if (moved > 0) break;
+    scale_by(factor);
+    moved = motion();
   }
+  for (int i = 0; i < 3 && moved > 0; ++i) {
+    scale_by(target_ / moved);
+    moved = motion();
+  }
+  if (!(moved > 0)) throw run_error("no load was found under which the solid takes a step and moves");
 }
 
 }  // namespace tether::protocol

@@ -43,6 +43,8 @@ class Excitation {
   Numbers excitation(double amplitude, double change = 0) const;
 
  private:
+  /// How far the solid moves in a step; undefined if it fails.
+  double motion();
   bool is_fluid() const { return partner_.role() == "fluid"; }
 
   Partner& partner_;
