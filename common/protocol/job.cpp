@@ -70,10 +70,14 @@ Pids launchers() {
   close_range(0, ~0U, 0);  // mpirun waits for the end of the pipes and sockets that were inherited
   usleep(500'000);
   for (const std::int64_t pid : pids) kill(static_cast<pid_t>(pid), SIGKILL);
-  for (int i = 0; i < 25; ++i) {
+  bool waiting = true;
+  for (int i = 0; i < 25 && waiting; ++i) {
     usleep(100'000);
-    for (std::int64_t& pid : launchers)
+    waiting = false;
+    for (std::int64_t& pid : launchers) {
       if (pid != 0 && kill(static_cast<pid_t>(pid), 0) != 0) pid = 0;
+      waiting = waiting || pid != 0;
+    }
   }
   for (const std::int64_t pid : launchers)
     if (pid != 0) kill(static_cast<pid_t>(pid), SIGKILL);

@@ -51,6 +51,16 @@ TEST(Foreign, Examples_conform) {
   }
 }
 
+TEST(Foreign, Python_with_mpi_of_its_own_conforms) {
+  const std::string code =
+      "import runpy, tether; from mpi4py import MPI; plain = tether.serve; "
+      "tether.serve = lambda role, make: plain(role, make, MPI.COMM_WORLD); runpy.run_path('" +
+      python_solid + "')";
+  const auto job = run_job({product_program("tether_conform"), "/usr/bin/python3", "-c", code}, python_path);
+  EXPECT_EQ(job.exit_code, 0) << job.output << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
 TEST(Foreign, The_conformance_check_reports_a_death) {
   const auto job = run_job({product_program("tether_conform"), test_program("fake_solid")},
                            {{"TETHER_FAKE", "solid.kill=SolidTangent"}});

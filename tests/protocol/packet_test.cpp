@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace tether::protocol {
 namespace {
@@ -63,6 +65,24 @@ TEST(Packet, Knows_names_and_limits) {
   EXPECT_EQ(kind_name<ToPartner>(77), "kind 77");
   EXPECT_NO_THROW(check_message_size("State", largest_message));
   EXPECT_THROW(check_message_size("State", largest_message + 1), RunError);
+}
+
+/// The rows "| tag | `Name` |" of a direction's table that docs/protocol.md lacks.
+template <class Direction>
+std::vector<std::string> undocumented() {
+  std::ifstream file("docs/protocol.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::string> missing;
+  for (int kind = 0; kind < static_cast<int>(std::variant_size_v<Direction>); ++kind) {
+    const std::string row = fmt::format("| {} | `{}` |", kind, kind_name<Direction>(kind));
+    if (page.find(row) == std::string::npos) missing.push_back(row);
+  }
+  return missing;
+}
+
+TEST(Packet, Every_message_is_documented_with_its_tag) {
+  EXPECT_EQ(undocumented<ToPartner>(), std::vector<std::string>{});
+  EXPECT_EQ(undocumented<ToMaster>(), std::vector<std::string>{});
 }
 
 }  // namespace

@@ -182,14 +182,22 @@ def _converse(library, partner, code):
             library.tether_fail(partner, library.tether_error())
 
 
+def _handle(communicator):
+    """What tether_connect takes for an mpi4py communicator or None."""
+    if communicator is None:
+        return -1
+    return -2 if communicator.Get_name() == "MPI_COMM_WORLD" else communicator.py2f()
+
+
 def serve(role, make, communicator=None):
     """Connects as `role` ("fluid" or "solid"), calls make() for the code and lets it answer until the job is over.
 
     make: a class or function without arguments; it finds the case file in sys.argv. communicator: mpi4py communicator of
-    this code's processes, all of which call serve. Returns the exit code.
+    this code's processes, all of which call serve; COMM_WORLD means those of this program, also on an mpirun line that has
+    others. Returns the exit code.
     """
     library = _load_library()
-    partner = library.tether_connect(role.encode(), -1 if communicator is None else communicator.py2f())
+    partner = library.tether_connect(role.encode(), _handle(communicator))
     if not partner:
         raise RuntimeError(library.tether_error().decode())
     if library.tether_is_leader(partner):
