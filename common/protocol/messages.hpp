@@ -31,8 +31,8 @@ inline constexpr std::int64_t version = 1;
 /// A number of the partner that the master may set by name.
 struct ParameterInfo {
   std::string name, meaning, unit, transform;
-  double value = 0, absent = 0, lower = 0, upper = 0,
-         prior_deviation = 0;  ///< absent, prior_deviation: NaN if undefined
+  double value = 0, absent = 0, lower = 0, upper = 0;  ///< absent: NaN if there is no such value
+  double prior_deviation = 0;                          ///< NaN if undefined
   TETHER_FIELDS(name, meaning, unit, transform, value, absent, lower, upper, prior_deviation)
 };
 

@@ -38,14 +38,14 @@ int run_master(const std::string& role, const std::function<void(Session&)>& bod
 
 namespace detail {
 
-int run_partner(const std::string& role, const std::function<void(Channel&, const Welcome&)>& life) {
+int run_partner(const std::string& role, const std::function<void(const Session::Link&, Session&)>& life) {
   std::unique_ptr<Session> session;
   bool orphaned = false;
   const int code = guarded(role, [&] {
     session = std::make_unique<Session>(role);
     const auto link = session->connect();
     try {
-      life(*link.channel, link.welcome);
+      life(link, *session);
     } catch (const PeerDied&) {
       orphaned = true;  // no message: whoever started the master sees its end
     }

@@ -14,23 +14,30 @@ namespace tether::protocol {
 int run_master(const std::string& role, const std::function<void(Session&)>& body);
 
 namespace detail {
-int run_partner(const std::string& role, const std::function<void(Channel&, const Welcome&)>& life);
+int run_partner(const std::string& role, const std::function<void(const Session::Link&, Session&)>& life);
 void refuse(Channel& master);
 }  // namespace detail
 
 /// A partner's main. `build(welcome)` reads the case and returns the handler: `Hello hello()` and one call operator for
-/// each message of `Requests` (serve.hpp). What `build` throws is reported by the master.
+/// each message of `Requests` (serve.hpp). A partner that is a master itself takes `build(welcome, session)`. What
+/// `build` throws is reported by the master.
 template <class Requests, class Build>
 int run_partner(const std::string& role, Build build) {
-  return detail::run_partner(role, [&build](Channel& master, const Welcome& welcome) {
-    using Handler = decltype(build(welcome));
+  return detail::run_partner(role, [&build](const Session::Link& link, Session& session) {
+    const auto built = [&] {
+      if constexpr (std::is_invocable_v<Build, const Welcome&, Session&>)
+        return build(link.welcome, session);
+      else
+        return build(link.welcome);
+    };
+    using Handler = decltype(built());
     std::unique_ptr<Handler> handler;
     try {
-      handler.reset(new Handler(build(welcome)));
+      handler.reset(new Handler(built()));
     } catch (...) {
-      return detail::refuse(master);
+      return detail::refuse(*link.channel);
     }
-    serve<Requests>(master, handler->hello(), *handler);
+    serve<Requests>(*link.channel, handler->hello(), *handler);
   });
 }
 

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <ctime>
 
 namespace tether::protocol {
 
@@ -10,10 +12,17 @@ namespace {
 
 using Handler = void (*)(int);
 
-volatile std::sig_atomic_t signal_seen = 0;
+constexpr double grace = 0.5;         // seconds
+std::atomic<double> signal_time = 0;  // 0: none came
 
-void note(int signal) {
-  signal_seen = signal;
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+void note(int) {
+  signal_time = now();
 }
 
 void end_later(int) {
@@ -39,7 +48,11 @@ void report_signals() {
 }
 
 bool interrupted() {
-  return signal_seen != 0;
+  return signal_time != 0;
+}
+
+void check_interrupted() {
+  if (interrupted() && now() - signal_time > grace) throw Interrupted();
 }
 
 void delay_termination() {

@@ -15,6 +15,8 @@ struct Interrupted : RunError {
 /// it.
 void report_signals();
 bool interrupted();
+/// Throws Interrupted half a second after the signal: until then a partner may tell of a death that came before it.
+void check_interrupted();
 
 /// A partner: SIGTERM takes effect after one second, so that its master does not mistake it for the process that died.
 void delay_termination();

@@ -62,7 +62,7 @@ bool wait_until(const std::function<bool()>& done, const Watch& watch, double li
     now = Clock::now();
     if (now >= look || interrupted()) {
       watch.check();
-      if (interrupted()) throw Interrupted();
+      check_interrupted();
       look = now + look_every;
     }
     if (std::chrono::duration<double>(now - start).count() > limit) return false;

@@ -96,6 +96,42 @@ TEST(Death, Even_what_cleans_up_is_gone_within_five_seconds) {
   EXPECT_LT(job.seconds + seconds_until_empty(), 5);
 }
 
+/// Three levels: identification_master, two fsi_masters, two fluids and solids.
+std::vector<std::string> groups_command(Start start) {
+  const auto program = [](const char* name) { return test_program(name); };
+  if (start == Start::alone) return {program("fake_top")};
+  auto words = mpirun();
+  words.insert(words.end(), {"-n", "1", program("fake_top")});
+  if (start == Start::mpmd)
+    words.insert(words.end(), {":", "-n", "2", program("fake_group"), ":", "-n", "2", program("fake_fluid"), ":", "-n",
+                               "2", program("fake_solid")});
+  return words;
+}
+
+TEST(Groups, Give_the_same_spawned_or_on_one_line) {
+  const auto spawned = run_job(groups_command(Start::mpirun)), one_line = run_job(groups_command(Start::mpmd));
+  EXPECT_EQ(spawned.exit_code, 0) << spawned.errors;
+  EXPECT_EQ(one_line.exit_code, 0) << one_line.errors;
+  EXPECT_NE(spawned.output.find("step 2"), std::string::npos);
+  EXPECT_EQ(spawned.output, one_line.output);
+  EXPECT_TRUE(spawned.orphans.empty() && one_line.orphans.empty());
+}
+
+TEST(Groups, A_death_on_any_level_ends_all_three) {
+  for (const Start start : {Start::alone, Start::mpirun, Start::mpmd}) {
+    const auto low = run_job(groups_command(start), {{"TETHER_FAKE", "fluid.kill=FluidEvaluate"}});
+    EXPECT_EQ(without_details(low.errors),
+              "identification_master: fsi_master failed while answering Observe: fluid died while computing step 0 "
+              "(FluidEvaluate)\n");
+    EXPECT_TRUE(low.orphans.empty());
+    EXPECT_LT(low.seconds, 7);
+    const auto middle = run_job(groups_command(start), {{"TETHER_FAKE", "fsi_master.kill=Observe"}});
+    EXPECT_EQ(without_details(middle.errors), "identification_master: fsi_master died while answering Observe\n");
+    EXPECT_TRUE(middle.orphans.empty());
+    EXPECT_LT(middle.seconds, 7);
+  }
+}
+
 TEST(Launch, A_missing_or_unusable_program_is_an_input_error) {
   const auto missing = run_job({test_program("fake_master"), "fake_fluid", "no_such_solid", "3"});
   EXPECT_EQ(missing.exit_code, 2);
