@@ -63,8 +63,9 @@ Pids launchers() {
   return pids;
 }
 
-/// The reaper's life: only calls that are allowed after a fork in a program with threads.
-[[noreturn]] void reap(const Pids& pids, Pids& launchers) {
+/// The reaper's life: only calls that are allowed after a fork in a program with threads. `scratch`: what an mpirun
+/// that has to be killed leaves on disk.
+[[noreturn]] void reap(const Pids& pids, Pids& launchers, const char* scratch) {
   setsid();
   prctl(PR_SET_NAME, "tether-reaper");
   close_range(0, ~0U, 0);  // mpirun waits for the end of the pipes and sockets that were inherited
@@ -81,6 +82,7 @@ Pids launchers() {
   }
   for (const std::int64_t pid : launchers)
     if (pid != 0) kill(static_cast<pid_t>(pid), SIGKILL);
+  if (waiting && scratch != nullptr) execl("/bin/rm", "rm", "-rf", scratch, nullptr);
   _exit(0);
 }
 
@@ -106,7 +108,8 @@ Peer marking_master() {
 void leave_reaper(const Pids& pids) {
   Pids last = launchers();
   if (pids.empty() && last.empty()) return;
-  if (fork() == 0) reap(pids, last);
+  const char* scratch = std::getenv("PMIX_SERVER_TMPDIR");
+  if (fork() == 0) reap(pids, last, scratch);
 }
 
 void end_job(int exit_code, const std::vector<Peer>& others) {

@@ -21,14 +21,17 @@ constexpr const char* starter = "echo $$ >>\"$0\"; exec \"$@\"";
 /// The file for that pid, removed with this object.
 class PidFile {
  public:
-  PidFile() : path_(std::filesystem::temp_directory_path() / fmt::format("tether-{}-{}", process_id(), ++count_)) {}
-  ~PidFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+  PidFile() : path_(std::filesystem::temp_directory_path() / fmt::format("tether-{}-{}", process_id(), ++count_)) {
+    remove();
   }
+  ~PidFile() { remove(); }
   PidFile(const PidFile&) = delete;
   PidFile& operator=(const PidFile&) = delete;
   std::string path() const { return path_.string(); }
+  void remove() const {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
   /// 0 before it is written, and for ever if the process is on another host.
   std::int64_t pid() const {
     std::int64_t pid = 0;
@@ -44,18 +47,21 @@ class PidFile {
 /// MPI_Comm_spawn neither ends nor fails if the program never reaches MPI_Init: this ends the job instead.
 void check_spawning(double seconds, const PidFile& file, const std::string& program, const std::string& master_role) {
   const std::int64_t pid = file.pid();
-  if (interrupted() || (pid != 0 && !is_running(pid))) give_up(master_role, program + " ended before it reached MPI");
-  if (seconds > start_limit())
-    give_up(master_role, fmt::format("{} did not reach MPI within {} s", program, start_limit()));
+  const bool ended = interrupted() || (pid != 0 && !is_running(pid));
+  if (!ended && seconds <= start_limit()) return;
+  file.remove();
+  if (ended) give_up(master_role, program + " ended before it reached MPI");
+  give_up(master_role, fmt::format("{} did not reach MPI within {} s", program, start_limit()));
 }
 
-/// More processes than cores, none bound to one, and no pages of mpirun's own about a process that died; unless the
-/// user said otherwise.
+/// Unless the user said otherwise: more processes than cores, none bound to one, no pages of mpirun's own about a
+/// process that died, and no segments of shared memory, which would stay behind it.
 void prepare_open_mpi() {
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
   setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
+  setenv("OMPI_MCA_btl", "self,tcp", 0);
 }
 
 /// MPI_Init of an MPMD line waits for all its programs. Only the first of them tells that it is in vain.

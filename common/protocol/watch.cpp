@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int spins = 50;
+constexpr auto spin_time = std::chrono::microseconds(100);
 constexpr Clock::duration first_nap = std::chrono::microseconds(10);
 constexpr auto look_every = std::chrono::milliseconds(200);
 
@@ -53,10 +53,12 @@ void Watch::follow(const Peer& master) {
 }
 
 bool wait_until(const std::function<bool()>& done, const Watch& watch, double limit) {
-  for (int i = 0; i < spins; ++i)
-    if (done()) return true;
   const auto start = Clock::now();
   auto look = start + look_every, now = start;
+  for (; now - start < spin_time; now = Clock::now()) {
+    if (done()) return true;
+    std::this_thread::yield();
+  }
   for (auto nap = first_nap; !done(); nap = next_nap(nap, now - start)) {
     std::this_thread::sleep_for(nap);
     now = Clock::now();

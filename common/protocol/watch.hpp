@@ -38,9 +38,9 @@ class Watch {
 /// Whether the peer is known to be gone: its pid does not run on this host. What other hosts do is mpirun's to notice.
 bool is_dead(const Peer& peer);
 
-/// Waits until `done` without burning a core: about 50 tries, then naps of 10 us, doubling up to 0.5 ms, in long waits
-/// 1 % of the time waited (at most 5 ms). Looks after `watch` every 0.2 s. False if `limit` seconds passed. Throws
-/// PeerDied, Interrupted.
+/// Waits until `done` without burning a core: tries for 0.1 ms, then naps of 10 us, doubling up to 0.5 ms, in long
+/// waits 1 % of the time waited (at most 5 ms). Looks after `watch` every 0.2 s. False if `limit` seconds passed.
+/// Throws PeerDied, Interrupted.
 bool wait_until(const std::function<bool()>& done, const Watch& watch, double limit = infinite);
 
 }  // namespace tether::protocol
