@@ -11,7 +11,8 @@
  *   }
  *   return tether_end(partner);
  *
- * Arrays of vectors are node by node, x0 y0 z0 x1 y1 z1 ..., in the order of the description's points. Units are the case's.
+ * Arrays of vectors are node by node, x0 y0 z0 x1 y1 z1 ..., in the order of the description's points.
+ * Units are the case's.
  * Link with -ltether_client. All functions are to be called from one thread. If the master dies, the process is ended.
  */
 #ifndef TETHER_H
@@ -69,7 +70,7 @@ typedef enum {
   TETHER_FLUID_TANGENT = 10,       /* velocity (change)                            reply: change of load */
   TETHER_SOLID_EVALUATE = 11,      /* load                                         reply: displacement, velocity */
   TETHER_SOLID_TANGENT = 12,       /* load (change)                                reply: changes of both */
-  TETHER_SOLID_RESIDUAL = 13,      /* values (correction), load                    reply: residual, displacement, velocity */
+  TETHER_SOLID_RESIDUAL = 13,      /* values (correction), load             reply: residual, displacement, velocity */
   TETHER_SOLID_PRODUCT = 14,       /* values (direction)                           reply: product */
   TETHER_SOLID_PRECONDITION = 15,  /* values (residual)                            reply: correction */
   TETHER_OBSERVE = 16              /* time, values (points)                        reply: distances, normals, weights */

@@ -1,4 +1,4 @@
-/* A fluid of your own in C: load = L0(t) - A V on each node, with a tangent, and MPI of its own (any number of processes).
+/* A fluid of your own in C: load = L0(t) - A V on each node, with a tangent, and MPI of its own (several processes).
  * Build: mpicc linear_fluid.c -ltether_client. Case file: coupling.programs.fluid: /path/to/linear_fluid */
 #include <math.h>
 #include <mpi.h>
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   tether_partner* p = tether_connect("fluid", TETHER_ALL_PROCESSES);
   if (!p) return 1;
   make_tube();
-  if (tether_is_leader(p)) { /* a real code passes each request on to its others: MPI_Comm_f2c(tether_communicator(p)) */
+  if (tether_is_leader(p)) { /* a real code broadcasts each request: MPI_Comm_f2c(tether_communicator(p)) */
     tether_introduce(p, &(tether_description){.program = "linear fluid 1", .has_tangent = 1, .has_state = 1,
         .state_size = 1, .observable_count = 1, .observables = &pressure, .node_count = n / 3, .points = points,
         .triangle_count = 2 * around * (along - 1), .triangles = triangles});

@@ -4,7 +4,7 @@ Write a class with a method for each request that your code answers, and serve i
 
     class Spring:
         program = "my solid 1"
-        points, triangles = ...                         # of the interface: (n, 3) floats, (m, 3) ints, normals out of the fluid
+        points, triangles = ...    # of the interface: (n, 3) floats, (m, 3) ints; normals out of the fluid
         def begin_step(self, step, time, dt, predicted): ...
         def evaluate(self, load): return displacement, velocity
         def end_step(self, accepted): ...
@@ -28,8 +28,8 @@ Arrays of vectors have the shape (nodes, 3). What the class can do is announced 
              SolidPrecondition           precondition(residual)                     vector
 
 `parameters`: dicts with name, value and optionally meaning, unit, transform, absent, lower, upper, prior_deviation.
-`observables`: pairs (name, unit). An exception that a method raises is reported by the master. MPI: the library starts it, or
-give the mpi4py communicator of your processes, of which only rank 0 is asked.
+`observables`: pairs (name, unit). An exception that a method raises is reported by the master. MPI: the library
+starts it, or give the mpi4py communicator of your processes, of which only rank 0 is asked.
 """
 
 import ctypes
@@ -44,7 +44,7 @@ _int = ctypes.POINTER(ctypes.c_int64)
 
 
 def _fields(text):
-    kinds = {"s": ctypes.c_char_p, "d": ctypes.c_double, "i": ctypes.c_int, "l": ctypes.c_int64, "D": _double, "L": _int}
+    kinds = dict(s=ctypes.c_char_p, d=ctypes.c_double, i=ctypes.c_int, l=ctypes.c_int64, D=_double, L=_int)
     return [(word[2:], kinds[word[0]]) for word in text.split()]
 
 
@@ -109,8 +109,8 @@ def _vectors(array):
 
 def _parameter(entry):
     text = [str(entry.get(key, "")).encode() for key in ("name", "meaning", "unit")]
-    numbers = [entry["value"], entry.get("absent", math.nan), entry.get("lower", -math.inf), entry.get("upper", math.inf),
-               entry.get("prior_deviation", math.nan)]
+    numbers = [entry["value"], entry.get("absent", math.nan), entry.get("lower", -math.inf),
+               entry.get("upper", math.inf), entry.get("prior_deviation", math.nan)]
     return _Parameter(*text, entry.get("transform", "linear").encode(), *map(float, numbers))
 
 
@@ -192,9 +192,9 @@ def _handle(communicator):
 def serve(role, make, communicator=None):
     """Connects as `role` ("fluid" or "solid"), calls make() for the code and lets it answer until the job is over.
 
-    make: a class or function without arguments; it finds the case file in sys.argv. communicator: mpi4py communicator of
-    this code's processes, all of which call serve; COMM_WORLD means those of this program, also on an mpirun line that has
-    others. Returns the exit code.
+    make: a class or function without arguments; it finds the case file in sys.argv. communicator: mpi4py
+    communicator of this code's processes, all of which call serve; COMM_WORLD means those of this program, also on
+    an mpirun line that has others. Returns the exit code.
     """
     library = _load_library()
     partner = library.tether_connect(role.encode(), _handle(communicator))
