@@ -11,6 +11,7 @@ namespace {
 /// much as 25 solves).
 constexpr int calls_lost_to_age = 6;
 constexpr double newton_tolerance = 1e-9;      ///< of the correction, relative to the iterate
+constexpr double rounding = 1e-14;             ///< smallest change of position that the forces can tell, over the size
 constexpr double correction_tolerance = 1e-4;  ///< of each correction's conjugate gradients: Newton repeats them anyway
 constexpr double tangent_tolerance = 1e-10;    ///< of a linearised answer's
 constexpr int most_newton_iterations = 15, most_linear_iterations = 200;
@@ -73,8 +74,8 @@ InterfaceMotion SolidSolver::evaluate(const Points& load) {
     if (!correction.allFinite()) break;
     iterate_.reshaped() += correction;
     tangent_is_current_ = false;
-    if (solved && correction.norm() <= newton_tolerance * std::max(iterate_.norm(), displacement_.norm() / dt_ * 1e-9))
-      return interface_motion();
+    const double least = rounding * model_.mesh().points.norm() / dt_;
+    if (solved && correction.norm() <= std::max(newton_tolerance * iterate_.norm(), least)) return interface_motion();
   }
   throw run_error("the wall's equations did not converge in {} Newton iterations", most_newton_iterations);
 }
