@@ -1,6 +1,8 @@
 #include "solid/solid_solver.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "common/base/error.hpp"
 
@@ -42,7 +44,8 @@ void SolidSolver::begin_step(double time, double dt) {
 
 VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
   if (correction.size() > 0) iterate_.reshaped() += correction;
-  // A correction always follows the first evaluation; after a later one there may be none, and `product` makes the tangent if there is.
+  // A correction always follows the first evaluation; after a later one there may be none, and `product` makes the
+  // tangent if there is.
   return out_of_balance(load, evaluations_++ == 0);
 }
 
@@ -161,14 +164,27 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
   origin_ = origin;
 }
 
+bool SolidSolver::FactorOrigin::makes_same_factor_as(const FactorOrigin& other) const {
+  return dt == other.dt && displacement == other.displacement && parameters == other.parameters;
+}
+
+double SolidSolver::FactorOrigin::mark() const {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, over whole numbers instead of bytes
+  const auto add = [&hash](double number) { hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u; };
+  for (const double number : displacement.reshaped()) add(number);
+  for (const double number : parameters) add(number);
+  add(dt);
+  return static_cast<double>(hash >> 12);  // 52 bits are a whole number in a double
+}
+
 Eigen::Index SolidSolver::state_size() const {
-  return 4 * displacement_.size() + 3 + static_cast<Eigen::Index>(origin_.parameters.size());
+  return 4 * displacement_.size() + 4 + static_cast<Eigen::Index>(origin_.parameters.size());
 }
 
 VectorXd SolidSolver::state() const {
   VectorXd state(state_size());
   state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), origin_.displacement.reshaped(),
-      origin_.dt, origin_.first_calls, origin_.last_calls,
+      origin_.dt, origin_.first_calls, origin_.last_calls, origin_.mark(),
       Eigen::Map<const VectorXd>(origin_.parameters.data(), static_cast<Eigen::Index>(origin_.parameters.size()));
   return state;
 }
@@ -186,11 +202,14 @@ void SolidSolver::set_state(const VectorXd& state) {
   origin.dt = state[4 * n];
   origin.first_calls = state[4 * n + 1];
   origin.last_calls = state[4 * n + 2];
-  origin.parameters.assign(state.data() + 4 * n + 3, state.data() + state.size());
-  if (origin.dt > 0 && !factor_.has_factor())
-    make_factor(origin);  // a factor at hand serves as well, but for the last bits
-  origin_.first_calls = origin.first_calls;
-  origin_.last_calls = origin.last_calls;
+  origin.parameters.assign(state.data() + 4 * n + 4, state.data() + state.size());
+  if (origin.mark() == state[4 * n + 3]) restore_factor(origin);
+}
+
+/// The factor of that origin, made if it is not at hand; none if there was none.
+void SolidSolver::restore_factor(const FactorOrigin& origin) {
+  if (origin.dt > 0 && !origin.makes_same_factor_as(origin_)) make_factor(origin);
+  origin_ = origin;
 }
 
 }  // namespace tether

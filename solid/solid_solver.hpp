@@ -46,7 +46,8 @@ class SolidSolver {
   /// Largest displacement of a node in the last accepted step [length].
   double largest_displacement() const { return displacement_.colwise().norm().maxCoeff(); }
 
-  /// Everything needed to continue bit for bit: y, u, V of the last step, and what the kept factor was made from.
+  /// Everything needed to continue bit for bit: y, u, V of the last step, and what the kept factor was made from, with
+  /// a mark by which a mixture of states is told from a state: it is continued with the factor at hand, at no cost.
   VectorXd state() const;
   Eigen::Index state_size() const;
   void set_state(const VectorXd& state);
@@ -59,6 +60,8 @@ class SolidSolver {
     std::vector<double> parameters;
     double first_calls = 0,
            last_calls = 0;  ///< of `precondition` for one correction, in the factor's first and latest step
+    bool makes_same_factor_as(const FactorOrigin& other) const;
+    double mark() const;  ///< differs for any other displacement, dt or parameters
   };
 
   /// load - forces at the iterate, zero on clamped unknowns.
@@ -67,6 +70,7 @@ class SolidSolver {
   void assemble_tangent();
   void make_factor(const FactorOrigin& origin);
   void renew_factor_if_stale();
+  void restore_factor(const FactorOrigin& origin);
   KrylovResult solve_linear(const VectorXd& rhs, VectorXd& x, double tolerance);
   InterfaceMotion interface_part(const VectorXd& velocity) const;
 
