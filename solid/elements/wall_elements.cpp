@@ -118,10 +118,6 @@ class ElementsOf final : public WallElements {
     return result;
   }
 
-  /// Strains that change less in a step keep the mean strain's stress: what that lacks in energy, of third order, is below
-  /// rounding, and rounding divided by the change would drown the stress.
-  static constexpr double least_change = 1e-5;
-
   /// Gonzalez' discrete gradient (S.6): stress' (s1 - s0) = Phi(s1) - Phi(s0) exactly; tangent: that of the mean
   /// strain, symmetric.
   SampleResponse<samples> conserving(std::size_t e, const Positions& x0, const Positions& x1,
@@ -131,13 +127,23 @@ class ElementsOf final : public WallElements {
                   s1 = element.strains().products(x1) - reference_[e];
     SampleResponse<samples> result = sample_response(element, Samples(0.5 * (s0 + s1)), law);
     const Samples change = s1 - s0, scaled = change.cwiseQuotient(unit_[e].cwiseAbs2());
-    const double size = change.dot(scaled);
-    if (size > least_change * least_change) {
-      const double defect =
-          sample_energy(element, s1, law) - sample_energy(element, s0, law) - result.stress.dot(change);
-      result.stress += defect / size * scaled;
-    }
+    const double square = change.dot(scaled);
+    if (square == 0) return result;
+    const double stored = square > small_change * small_change
+                              ? sample_energy(element, s1, law) - sample_energy(element, s0, law)
+                              : simpson(element, s0, result.stress, s1, law);
+    result.stress += (stored - result.stress.dot(change)) / square * scaled;
     return result;
+  }
+
+  /// Strains whose energies differ by too little to be subtracted: rounding over the change would drown the stress.
+  static constexpr double small_change = 1e-3;
+
+  /// Phi(s1) - Phi(s0) from the stresses at both ends and between, error O(change^5).
+  static double simpson(const Element& element, const Samples& s0, const Samples& middle_stress, const Samples& s1,
+                        const WallLaw& law) {
+    const Samples mean = (sample_stress(element, s0, law) + 4 * middle_stress + sample_stress(element, s1, law)) / 6;
+    return mean.dot(s1 - s0);
   }
 
   static Eigen::Matrix<double, samples, samples> viscous_tangent(const Element& element, double viscosity,
