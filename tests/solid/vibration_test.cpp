@@ -1,0 +1,249 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "solid/materials/registry.hpp"
+#include "solid/solid_solver.hpp"
+#include "tests/solid/tube.hpp"
+
+// Free vibration: frequencies of a beam and a ring, energy over many periods, orders in time.
+namespace tether {
+namespace {
+
+constexpr double young = 1e6, density = 1.0, pi = std::numbers::pi;
+
+SparseMatrix stiffness_matrix(const WallMesh& mesh, const Material& material) {
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  VectorXd force = VectorXd::Zero(mesh.points.size());
+  SparseMatrix tangent = wall->zero_matrix();
+  wall->static_force(mesh.points, material, force, &tangent);
+  return tangent;
+}
+
+VectorXd inertia(const WallElements& wall, const Points& rest, const Material& material, const VectorXd& acceleration) {
+  const Points a = acceleration.reshaped(3, rest.cols()), none = Points::Zero(3, rest.cols());
+  VectorXd force = VectorXd::Zero(rest.size());
+  wall.step_force({rest, none, a, 0.5, 1.0, false}, {&material, 0, density}, force, nullptr);
+  return force;
+}
+
+/// Lowest frequency [1/time] of the modes to which `shape` belongs, by inverse iteration.
+double lowest_frequency(const WallMesh& mesh, double poisson, const std::vector<int>& fixed, const Points& shape) {
+  const auto material = neo_hookean.make(std::array{young, poisson});
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  SparseMatrix k = stiffness_matrix(mesh, *material);
+  constrain(k, fixed, k.coeff(0, 0));
+  Cholesky cholesky;
+  cholesky.analyze(k, 3);
+  cholesky.factor(k);
+  VectorXd mode = shape.reshaped();
+  double square = 0;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    VectorXd load = inertia(*wall, mesh.points, *material, mode);
+    for (int unknown : fixed) load[unknown] = 0;
+    const VectorXd next = cholesky.solve(load);
+    square = next.dot(load) / next.dot(inertia(*wall, mesh.points, *material, next));
+    mode = next.normalized();
+  }
+  return std::sqrt(square) / (2 * pi);
+}
+
+constexpr double beam_length = 10, beam_height = 0.2;
+
+/// Bends about y; its width is two cells of `along` over the length.
+WallMesh beam(int along, int layers = 1) {
+  return plate({beam_length, 2 * beam_length / along, beam_height}, {along, 2}, layers);
+}
+
+/// Euler and Bernoulli's first frequency of a cantilever: cos(b) cosh(b) = -1.
+double cantilever_frequency() {
+  const double b = 1.875104068711961;
+  return b * b / (2 * pi * beam_length * beam_length) * std::sqrt(young * beam_height * beam_height / (12 * density));
+}
+
+double beam_frequency_error(int along, ElementKind kind = ElementKind::prism) {
+  const WallMesh mesh = with_elements(beam(along), kind);
+  Points shape = Points::Zero(3, mesh.points.cols());
+  shape.row(2) = mesh.points.row(0).array().square();
+  return lowest_frequency(mesh, 0, unknowns_of(nodes_of(mesh.rings[0].triangles)), shape) / cantilever_frequency() - 1;
+}
+
+TEST(Cantilever, FirstFrequencyIsEulersAndBernoullis) {
+  const double coarse = beam_frequency_error(10), middle = beam_frequency_error(20), fine = beam_frequency_error(40);
+  RecordProperty("error", fmt::format("{:.5f} {:.5f} {:.5f}", coarse, middle, fine));
+  EXPECT_LT(std::abs(coarse), 0.01);
+  EXPECT_LT(std::abs(fine), 0.001);
+}
+
+/// Breathing of a thin ring in plane strain: omega^2 = E/((1 - nu^2) rho R^2), R of the middle surface.
+double breathing_error(int around, double poisson) {
+  const TubeMesh tube{around, 1, ElementKind::prism, 1.0 - 0.005, 0.01};
+  const WallMesh mesh = tube_slice(tube);
+  Points shape = mesh.points;
+  shape.row(2).setZero();
+  std::vector<int> fixed = plane_strain_supports(mesh);
+  const double exact = std::sqrt(young / ((1 - poisson * poisson) * density)) / (2 * pi);
+  const auto material = neo_hookean.make(std::array{young, poisson});
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  // Rayleigh's quotient of the radial shape with the thickness free to follow: the stiffness is that of inflation.
+  const Points y = linear_response(mesh, *material, inertia(*wall, mesh.points, *material, shape.reshaped()), fixed);
+  const VectorXd load = inertia(*wall, mesh.points, *material, shape.reshaped());
+  const VectorXd back = inertia(*wall, mesh.points, *material, y.reshaped());
+  return std::sqrt(load.dot(y.reshaped()) / back.dot(y.reshaped())) / (2 * pi) / exact - 1;
+}
+
+TEST(Ring, BreathesAtItsFrequency) {
+  for (const double poisson : {0.3, 0.49}) {
+    const double coarse = breathing_error(24, poisson), fine = breathing_error(48, poisson);
+    RecordProperty("error", fmt::format("{:.5f} {:.5f}", coarse, fine));
+    EXPECT_LT(std::abs(coarse), 0.01);
+    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+  }
+}
+
+/// A short beam bent by a tip force and let go.
+struct Swing {
+  Swing(double theta, bool conserve_energy, double viscosity = 0, double tip_force = 150)
+      : mesh(plate({4, 1, 0.4}, {8, 2}, 1)),
+        model(mesh,
+              {.material = "neo_hookean",
+               .material_values = {young, 0.3},
+               .density = density,
+               .viscosity = viscosity,
+               .theta = theta,
+               .conserve_energy = conserve_energy},
+              mesh.points, nodes_of(mesh.rings[0].triangles), {}),
+        solver(model),
+        load(Points::Zero(3, mesh.interface_nodes)) {
+    if (tip_force == 0) return;
+    VectorXd force = VectorXd::Zero(mesh.points.size());
+    const std::vector<int> tip = nodes_of(mesh.rings[1].triangles);
+    for (int node : tip) force[3 * node + 2] = tip_force / static_cast<double>(tip.size());
+    const StaticLoad pull = [&](const Points&, VectorXd& f, SparseMatrix*) { f += force; };
+    const StaticResult bent =
+        solve_static(model.elements(), model.material(), mesh.points, pull, model.clamped_unknowns());
+    EXPECT_TRUE(bent.converged);
+    VectorXd state = solver.state();
+    state.head(mesh.points.size()) = (bent.positions - mesh.points).reshaped();
+    solver.set_state(state);
+  }
+  void step(double dt) {
+    solver.begin_step(time, dt);
+    solver.evaluate(load);
+    solver.accept();
+    time += dt;
+  }
+  double energy() const {
+    const VectorXd u = solver.velocity().reshaped();
+    const double kinetic = u.dot(inertia(model.elements(), mesh.points, model.material(), u)) / 2;
+    return kinetic + model.elements().energy(mesh.points + solver.displacement(), model.material());
+  }
+  double tip() const { return solver.displacement()(2, 8); }
+
+  WallMesh mesh;
+  WallModel model;
+  SolidSolver solver;
+  Points load;
+  double time = 0;
+};
+
+constexpr double period = 0.2505;  // of the swing, roughly: Euler and Bernoulli say 0.248
+
+TEST(FreeVibration, EnergyIsConservedOverManyPeriods) {
+  Swing swing(0.5, true);
+  const double start = swing.energy(), amplitude = swing.tip();
+  EXPECT_GT(amplitude, 0.2) << "a finite rotation";
+  double worst = 0;
+  int turns = 0;
+  double last = amplitude;
+  for (int step = 0; step < 20 * 40; ++step) {
+    swing.step(period / 40);
+    worst = std::max(worst, std::abs(swing.energy() / start - 1));
+    turns += last > 0 && swing.tip() <= 0;
+    last = swing.tip();
+  }
+  RecordProperty("energy", fmt::format("conserving {:.1e}", worst));
+  EXPECT_GE(turns, 19);
+  EXPECT_LE(worst, 1e-9);
+}
+
+TEST(FreeVibration, TheMidpointRuleKeepsItsEnergyBounded) {
+  Swing swing(0.5, false);
+  const double start = swing.energy();
+  double worst = 0;
+  for (int step = 0; step < 20 * 40; ++step) {
+    swing.step(period / 40);
+    worst = std::max(worst, std::abs(swing.energy() / start - 1));
+  }
+  RecordProperty("energy", fmt::format("midpoint {:.1e}", worst));
+  EXPECT_LE(worst, 0.01);
+  EXPECT_GT(worst, 1e-6) << "it is not the conserving rule";
+}
+
+TEST(FreeVibration, ThetaAboveOneHalfDamps) {
+  Swing swing(0.55, false);
+  double last = swing.energy();
+  for (int step = 0; step < 80; ++step) {
+    swing.step(period / 40);
+    EXPECT_LT(swing.energy(), last);
+    last = swing.energy();
+  }
+}
+
+/// Tip after a push that rises smoothly from nothing, so that only slow modes move, in so many steps.
+double tip_after(int steps, double theta, bool conserve_energy) {
+  Swing swing(theta, conserve_energy, 0, 0);
+  const double end = 0.6 * period, dt = end / steps;
+  const std::vector<int> tip = nodes_of(swing.mesh.rings[1].triangles);
+  for (int step = 0; step < steps; ++step) {
+    const double rise = std::pow(std::sin(pi / 2 * (step + theta) / steps), 4);
+    for (int node : tip)
+      if (node < swing.mesh.interface_nodes) swing.load(2, node) = 100 * rise;
+    swing.step(dt);
+  }
+  return swing.tip();
+}
+
+double order_in_time(bool conserve_energy) {
+  double tip[3];
+  for (int i = 0; i < 3; ++i) tip[i] = tip_after(40 << i, 0.5, conserve_energy);
+  return std::log2((tip[0] - tip[1]) / (tip[1] - tip[2]));
+}
+
+TEST(TimeOrder, IsTwoAtTheMidpoint) {
+  const double midpoint = order_in_time(false), conserving = order_in_time(true);
+  RecordProperty("order", fmt::format("midpoint {:.3f} conserving {:.3f}", midpoint, conserving));
+  EXPECT_NEAR(midpoint, 2, 0.05);
+  EXPECT_NEAR(conserving, 2, 0.05);
+}
+
+/// What theta = 0.55 changes is of first order; below some hundred steps a period it hides behind the second.
+TEST(TimeOrder, IsOneBeyondTheMidpoint) {
+  double change[2];
+  for (int i = 0; i < 2; ++i) change[i] = tip_after(40 << i, 0.55, false) - tip_after(40 << i, 0.5, false);
+  const double order = std::log2(change[0] / change[1]);
+  RecordProperty("order", fmt::format("theta 0.55 {:.3f}", order));
+  EXPECT_NEAR(order, 1, 0.05);
+}
+
+/// With the conserving rule, what the energy loses in a step is what the viscous force takes: dt V . f_visc >= 0.
+TEST(FreeVibration, ViscosityDissipatesExactlyItsPower) {
+  Swing swing(0.5, true, 2000);
+  for (int step = 0; step < 40; ++step) {
+    const double before = swing.energy(), dt = period / 40;
+    const Points start = swing.mesh.points + swing.solver.displacement();
+    swing.step(dt);
+    const Points v = (swing.mesh.points + swing.solver.displacement() - start) / dt, none = Points::Zero(3, v.cols());
+    const auto force = [&](double viscosity) {
+      VectorXd f = VectorXd::Zero(v.size());
+      swing.model.elements().step_force({start, v, none, 0.5, dt, true}, {&swing.model.material(), viscosity, density},
+                                        f, nullptr);
+      return f;
+    };
+    const double taken = dt * (force(2000) - force(0)).dot(v.reshaped());
+    EXPECT_GE(taken, 0);
+    EXPECT_NEAR(before - swing.energy(), taken, 1e-9 * before);
+  }
+}
+
+}  // namespace
+}  // namespace tether
