@@ -7,15 +7,15 @@ namespace tether {
 struct StressFreeResult {
   bool converged = false;
   int iterations = 0;
-  double residual = 0;  ///< last correction over the largest imaged distance from the axis of its bounding box
+  double residual = 0;  ///< last correction over the vessel's size: half the smallest side of its bounding box
   Points positions;     ///< of the wall without stress, one column a node
 };
 
 /// The stress-free wall that, inflated by `pressure`, takes the imaged shape: backward displacement (Bols et al. 2013,
 /// J. Comput. Appl. Math.) with tangent steps and Anderson's acceleration, X <- X - K(X)^-1 (f_pressure -
 /// f_int(x_imaged; X)) until the imaged shape is in equilibrium; in increments of pressure, which the tension of the
-/// one before makes stable. `fixed`: clamped unknowns. Supports exert nothing at the imaged shape. `tolerance`: of the
-/// last correction, over the vessel's size. Not converging is a result.
+/// one before makes stable (S.12). `fixed`: clamped unknowns. Supports exert nothing at the imaged shape. `tolerance`:
+/// of the last correction, over the vessel's size. Not converging is a result.
 StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material& material, double pressure,
                                            const std::vector<int>& fixed, double tolerance = 1e-9);
 

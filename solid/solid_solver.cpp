@@ -146,7 +146,7 @@ void SolidSolver::renew_factor_if_stale() {
   make_factor({displacement_, dt_, model_.parameters().values(), 0, 0});
 }
 
-/// Factor of the tangent of a step that starts and stays at origin.displacement.
+/// Factor of the tangent of a step that starts and stays at origin.displacement (S.11).
 void SolidSolver::make_factor(const FactorOrigin& origin) {
   const std::vector<double> now = model_.parameters().values();
   const auto set_all = [this](const std::vector<double>& values) {

@@ -29,8 +29,8 @@ class SolidSolver {
   /// A kept factor's solve: close to the inverse of `product`; zero on clamped unknowns.
   VectorXd precondition(const VectorXd& residual);
 
-  /// Solve the step under the load by Newton; each correction by conjugate gradients with the kept factor. Throws
-  /// RunError if it fails.
+  /// Solve the step under the load by Newton; each correction by conjugate gradients with the kept factor (S.11).
+  /// Throws RunError if it fails.
   InterfaceMotion evaluate(const Points& load);
   /// The same, linearised at the last evaluation.
   InterfaceMotion tangent(const Points& load_change);

@@ -18,7 +18,7 @@ struct DiscSettings {
 /// the rim. In each ring the nodes of even place come first, at the rim of a flipped one those of odd place: cutting the prisms
 /// between discs, every other one flipped, by the smaller node index then lets diagonals meet crosswise at every second
 /// node of the interface. That is symmetric, without a preferred sense of rotation, and the one pattern on which walls
-/// of nearly incompressible prisms do not lock (docs/decisions/0003-wall-element.md).
+/// of nearly incompressible prisms do not lock (docs/decisions/0020-wall-element.md).
 struct Disc {
   struct Ring {
     int first, count;

@@ -11,7 +11,7 @@ namespace tether {
 /// A material as an element uses it. The thickness strain's variation over a triangle is scaled by gamma,
 /// gamma^2 = mu/(4 (lambda + 2 mu)) at small strain: full resistance would lock the plane of a nearly incompressible
 /// wall (ovalisation with nu = 0.499: -38 % at 24 nodes around), none would leave the thickness of single nodes free
-/// (docs/decisions/0003-wall-element.md).
+/// (docs/decisions/0020-wall-element.md). (S.9)
 struct WallLaw {
   explicit WallLaw(const Material& elastic) : material(elastic) {
     const Voigt66 c = stress_and_tangent(elastic, Voigt::Zero()).tangent;
@@ -22,7 +22,7 @@ struct WallLaw {
 };
 
 /// What a strain of one element costs and resists, its enhanced mode eliminated: Phi(s) = min over alpha of sum_q w_q
-/// W(M_q s + m_q alpha).
+/// W(M_q s + m_q alpha). (S.10)
 template <int samples>
 struct SampleResponse {
   using Values = Eigen::Matrix<double, samples, 1>;
@@ -32,7 +32,7 @@ struct SampleResponse {
       Eigen::Matrix<double, samples, samples>::Zero();  ///< d2Phi/ds2, if asked for
 };
 
-/// The amplitude alpha of the enhanced mode: sum_q w_q m_q' S(M_q s + m_q alpha) = 0, by Newton from alpha = 0.
+/// The amplitude alpha of the enhanced mode: sum_q w_q m_q' S(M_q s + m_q alpha) = 0, by Newton from alpha = 0 (S.10).
 template <class Element>
 double enhanced_amplitude(const Element& element, const std::array<Voigt, Element::points>& strain,
                           const WallLaw& law) {
@@ -94,7 +94,7 @@ Eigen::Matrix<double, Element::samples, 1> sample_stress(const Element& element,
   return sum;
 }
 
-/// dPhi/ds and d2Phi/ds2 = D_ss - D_sa D_as / D_aa (static condensation of the enhanced mode).
+/// dPhi/ds and d2Phi/ds2 = D_ss - D_sa D_as / D_aa (static condensation). (S.10)
 template <class Element>
 SampleResponse<Element::samples> sample_response(const Element& element,
                                                  const Eigen::Matrix<double, Element::samples, 1>& s,

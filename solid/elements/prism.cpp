@@ -44,7 +44,7 @@ Eigen::Matrix<double, 6, 3> derivatives(const Place& p) {
 
 /// Samples 0-2 and 3-5: E11, E22, 2 E12 at the lower and upper Gauss level; 6-8: E33 linearised around the mean
 /// vertical edge, at the three of them; 9: 2 E13 at (1/2, 0); 10: 2 E23 at (0, 1/2); 11: 2 (E23 - E13) at (1/2, 1/2);
-/// the shears at zeta = 0.
+/// the shears at zeta = 0. (S.7)
 Strains make_strains() {
   Strains s;
   const auto set = [&s](int k, double factor, const NodeVector& a, const NodeVector& b) {
@@ -78,7 +78,7 @@ void set_shear(PrismElement::Map& map, const Place& p, const Eigen::Matrix<doubl
 
 /// First-order change of the mean over the vertices of |g3 - mean g3|^2/2 = (D1^2 + D2^2 - D1.D2)/9, with D_a the
 /// change of g3 along xi_a, by the in-plane samples: D_a . g_b is half the difference of E_ab between the levels over
-/// gauss.
+/// gauss. (S.8)
 Eigen::Matrix<double, 6, 1> fan_of(const PrismElement::Positions& reference, const Mat3& contravariant) {
   const auto edge = [&](double xi, double eta) -> Vec3 { return reference * derivatives({xi, eta, 0}).col(2); };
   const Vec3 d1 = edge(1, 0) - edge(0, 0), d2 = edge(0, 1) - edge(0, 0);

@@ -9,7 +9,7 @@ namespace tether {
 /// only.
 ///
 /// Parent coordinates (xi, eta) on the triangle, zeta in [-1, 1] from the lumen outward. Green-Lagrange strains in
-/// these coordinates, with
+/// these coordinates (S.7), with
 /// - in-plane 11, 22, 12: as they are, at the two Gauss levels zeta = -+1/sqrt(3);
 /// - transverse shear 13, 23: from the edges' midpoints, constant tangential strain along each edge (MITC3: Lee and
 /// Bathe 2004): no shear locking;
@@ -18,9 +18,9 @@ namespace tether {
 /// lengths: tilts against each other, which the shears at the midpoints do not see, would shorten the wall at second
 /// order and make it give way under a few percent of its shear modulus as pressure. What bending changes in those
 /// lengths where the edges fan out, in a curved wall, is put back from the in-plane samples: no curvature-thickness
-/// locking (Betsch and Stein 1995);
+/// locking (Betsch and Stein 1995) (S.8);
 /// - one enhanced mode, linear in zeta, of the thickness strain (Buechter, Ramm and Roehl 1994; Simo and Rifai 1990),
-/// eliminated in the element: no Poisson-thickness and no volumetric locking in bending.
+/// eliminated in the element: no Poisson-thickness and no volumetric locking in bending (S.10).
 /// These are twelve numbers, as many as the element has ways to deform.
 struct PrismElement {
   static constexpr int nodes = 6, samples = 12, points = 6;

@@ -6,7 +6,7 @@ namespace tether {
 
 /// The strains from which an element is made: each is c/2 (g_a . g_b - G_a . G_b), with g = sum over nodes of a
 /// derivative times the node's position. Quadratic in the positions, so that differences and midpoints are exact
-/// (energy conservation) and second derivatives constant.
+/// (energy conservation) and second derivatives constant (S.2).
 template <int nodes, int count>
 struct StrainSamples {
   Eigen::Matrix<double, nodes, count> a =
@@ -40,7 +40,8 @@ struct StrainSamples {
     return result;
   }
 
-  /// Second derivative of sum_k stress_k s_k by the positions: a scalar per pair of nodes, times the 3 x 3 identity.
+  /// Second derivative of sum_k stress_k s_k by the positions: a scalar per pair of nodes, times the 3 x 3 identity
+  /// (S.3).
   Eigen::Matrix<double, nodes, nodes> geometric(const Values& stress) const {
     const Eigen::Matrix<double, nodes, nodes> half =
         a * (0.5 * factor.cwiseProduct(stress)).asDiagonal() * b.transpose();

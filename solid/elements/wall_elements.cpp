@@ -177,7 +177,7 @@ class ElementsOf final : public WallElements {
 };
 
 /// sigma = F S F'/J at each quadrature point, averaged; F from U'U = C would lose the rotation, so F comes from the
-/// element's mean gradient.
+/// element's mean gradient. (S.13)
 template <class Element>
 Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(const Points& x,
                                                                             const Material& material) const {

@@ -15,7 +15,8 @@ struct StepMotion {
   const Points& velocity;      ///< V = (end - start)/dt
   const Points& acceleration;  ///< (V - u0)/(theta dt)
   double theta, dt;
-  bool conserve_energy;        ///< discrete gradient between start and end (theta = 1/2), else the stress at start + theta dt V
+  bool conserve_energy;  ///< discrete gradient between start and end (theta = 1/2), else the stress at start + theta dt
+                         ///< V
 };
 
 /// What a wall element is made of.

@@ -22,7 +22,7 @@ class Material {
   virtual Potential potential(double i1, double i2, double j) const = 0;
 };
 
-/// Second Piola-Kirchhoff stress S = dW/dE (S.3) [pressure] and tangent dS/dE.
+/// Second Piola-Kirchhoff stress S = dW/dE (S.1) [pressure] and tangent dS/dE.
 struct StressAndTangent {
   Voigt stress;
   Voigt66 tangent;
