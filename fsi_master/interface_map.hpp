@@ -37,9 +37,6 @@ class InterfaceMap {
   int solid_nodes_ = 0;
 };
 
-/// Barycentric coordinates of the point of triangle (a, b, c) closest to p.
-Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 /// Diagonal of the bounding box.
 double diagonal(const Points& points);
 

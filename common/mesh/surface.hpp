@@ -22,6 +22,9 @@ Vec3 centroid(const Points& points, const std::vector<Triangle>& triangles);
 /// one column a point of `points`, zero where no triangle is.
 Points nodal_normals(const Points& points, const std::vector<Triangle>& triangles);
 
+/// Barycentric coordinates of the point of triangle (a, b, c) closest to p.
+Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// A plane through `origin` with unit `normal`.
 struct Plane {
   Vec3 origin, normal;

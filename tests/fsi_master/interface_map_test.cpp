@@ -93,16 +93,5 @@ TEST(InterfaceMap, NearestTriangleRefusesASurfaceElsewhere) {
   EXPECT_THROW(InterfaceMap::nearest_triangle(fluid, solid, 0.5), InputError);
 }
 
-TEST(ClosestInTriangle, EveryFeature) {
-  const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
-  EXPECT_EQ(closest_in_triangle({-1, -1, 2}, a, b, c), Vec3(1, 0, 0));
-  EXPECT_EQ(closest_in_triangle({3, -1, 2}, a, b, c), Vec3(0, 1, 0));
-  EXPECT_EQ(closest_in_triangle({-1, 3, 2}, a, b, c), Vec3(0, 0, 1));
-  EXPECT_EQ(closest_in_triangle({0.25, -1, 2}, a, b, c), Vec3(0.75, 0.25, 0));
-  EXPECT_EQ(closest_in_triangle({-1, 0.25, 2}, a, b, c), Vec3(0.75, 0, 0.25));
-  EXPECT_LT((closest_in_triangle({1, 1, 2}, a, b, c) - Vec3(0, 0.5, 0.5)).norm(), 1e-15);
-  EXPECT_LT((closest_in_triangle({0.25, 0.5, 2}, a, b, c) - Vec3(0.25, 0.25, 0.5)).norm(), 1e-15);
-}
-
 }  // namespace
 }  // namespace tether

@@ -6,6 +6,7 @@
 
 #include "common/mesh/box.hpp"
 #include "common/mesh/quality.hpp"
+#include "common/mesh/surface.hpp"
 #include "tests/mesh/mesh_assertions.hpp"
 
 namespace tether {
@@ -59,6 +60,17 @@ TEST(Quality, is_one_for_a_regular_tetrahedron_and_known_for_a_corner) {
   const Points corner = (Points(3, 4) << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1).finished();
   EXPECT_NEAR(radius_ratio(corner, {0, 1, 2, 3}), 3 * (1 / (3 + std::sqrt(3.0))) / (std::sqrt(3.0) / 2), 1e-14);
   EXPECT_EQ(radius_ratio(corner, {0, 2, 1, 3}), 0);
+}
+
+TEST(Closest_point_of_a_triangle, lies_on_a_corner_an_edge_or_inside) {
+  const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+  EXPECT_EQ(closest_in_triangle({-1, -1, 2}, a, b, c), Vec3(1, 0, 0));
+  EXPECT_EQ(closest_in_triangle({3, -1, 2}, a, b, c), Vec3(0, 1, 0));
+  EXPECT_EQ(closest_in_triangle({-1, 3, 2}, a, b, c), Vec3(0, 0, 1));
+  EXPECT_EQ(closest_in_triangle({0.25, -1, 2}, a, b, c), Vec3(0.75, 0.25, 0));
+  EXPECT_EQ(closest_in_triangle({-1, 0.25, 2}, a, b, c), Vec3(0.75, 0, 0.25));
+  EXPECT_LT((closest_in_triangle({1, 1, 2}, a, b, c) - Vec3(0, 0.5, 0.5)).norm(), 1e-15);
+  EXPECT_LT((closest_in_triangle({0.25, 0.5, 2}, a, b, c) - Vec3(0.25, 0.25, 0.5)).norm(), 1e-15);
 }
 
 }  // namespace
