@@ -5,6 +5,7 @@
 #include "common/base/error.hpp"
 #include "fluid/inlets/inflow.hpp"
 #include "fluid/outlets/outlet.hpp"
+#include "fluid/probe.hpp"
 #include "fluid/rheologies/rheology.hpp"
 
 namespace tether::fluid {
@@ -40,6 +41,21 @@ void check_names(const Named<Section>& sections, const std::vector<Patch>& patch
   for (const auto& [name, section] : sections)
     if (std::none_of(patches.begin(), patches.end(), [&name = name](const Patch& p) { return p.name == name; }))
       throw input_error("{}: the fluid mesh has no such face; it has: {}", file.where(field + "." + name), known);
+}
+
+/// Probes and the faces at the ends share the names of observables.
+void check_probes(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file) {
+  for (const auto& [name, position] : fluid.probes) {
+    const std::string where = file.where("fluid.probes." + name);
+    for (const auto* patches : {&mesh.inlets, &mesh.outlets})
+      if (std::any_of(patches->begin(), patches->end(), [&name = name](const Patch& p) { return p.name == name; }))
+        throw input_error("{}: is the name of an inlet or outlet, which has a pressure of its own", where);
+    try {
+      place_probe(name, position, mesh);
+    } catch (const InputError& error) {
+      throw input_error("{}: {}", where, error.what());
+    }
+  }
 }
 
 /// The curve of a prescribed pressure; zero where none is.
@@ -96,11 +112,14 @@ void FluidCase::declare(Fields& f) {
            "factor of the force that damps blood entering through an outlet; 0.5 removes all its energy");
   f.groups("inlets", inlets, "by the names of the mesh's inlets");
   f.groups("outlets", outlets, "by the names of the mesh's outlets");
+  f.points("probes", probes, dimension::length,
+           "named points in the imaged blood, moving with the mesh: the pressure there is recorded");
 }
 
 void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file) {
   check_names(fluid.inlets, mesh.inlets, "fluid.inlets", file);
   check_names(fluid.outlets, mesh.outlets, "fluid.outlets", file);
+  check_probes(fluid, mesh, file);
 }
 
 FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
@@ -115,6 +134,7 @@ FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
   for (const auto& [name, outlet] : fluid.outlets)
     settings.outlets[name] = {choice_of(outlet.effect, outlets()),
                               curve_of(outlet.effect, outlet.pressure, file.units())};
+  settings.probes = fluid.probes;
   return settings;
 }
 

@@ -37,10 +37,12 @@ struct FluidCase {
   std::string mesh_motion = "harmonic";
   Named<InletCase> inlets;
   Named<OutletCase> outlets;
+  Named<Vec3> probes;
   void declare(Fields& f);
 };
 
-/// Throws InputError for an inlet or outlet that the mesh does not have, or of which the case says nothing.
+/// Throws InputError for an inlet or outlet that the mesh does not have, or of which the case says nothing, and for a
+/// probe that is not in the blood or has the name of an inlet or outlet.
 void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file);
 
 /// Reads the curves. The wall bears the image's pressure as well if it is prestressed by it. Throws InputError.

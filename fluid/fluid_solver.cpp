@@ -42,6 +42,12 @@ std::vector<Opening> make_openings(const FluidDomain& domain, const FluidSetting
   return result;
 }
 
+std::vector<Probe> make_probes(const FluidMesh& mesh, const FluidSettings& settings) {
+  std::vector<Probe> result;
+  for (const auto& [name, position] : settings.probes) result.push_back(place_probe(name, position, mesh));
+  return result;
+}
+
 template <class Settings>
 void check_faces_exist(const std::map<std::string, Settings>& named, const std::vector<EndFace>& faces,
                        const char* kind) {
@@ -71,6 +77,7 @@ FluidSolver::FluidSolver(FluidMesh mesh, const FluidSettings& settings)
       flow_inlets_(make_flow_inlets(domain_, settings)),
       openings_(make_openings(domain_, settings)),
       open_faces_(faces_of(openings_)),
+      probes_(make_probes(domain_.mesh(), settings)),
       body_acceleration_(settings.body_acceleration),
       linear_tolerance_(settings.linear_tolerance),
       advection_diffusion_(domain_, fixed_nodes(domain_, flow_inlets_)),

@@ -8,6 +8,7 @@
 #include "fluid/advection_diffusion.hpp"
 #include "fluid/fluid_domain.hpp"
 #include "fluid/openings.hpp"
+#include "fluid/probe.hpp"
 #include "fluid/projection.hpp"
 #include "fluid/settings.hpp"
 
@@ -118,6 +119,7 @@ class FluidSolver {
   std::vector<FlowInlet> flow_inlets_;
   std::vector<Opening> openings_;
   std::vector<const Surface*> open_faces_;
+  std::vector<Probe> probes_;
   std::function<Vec3(const Vec3&, double)> body_acceleration_;
   double linear_tolerance_;
 

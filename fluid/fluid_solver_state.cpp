@@ -92,6 +92,7 @@ void FluidSolver::declare_observables() {
     if (opening.beyond->stores())
       observables_.push_back({opening.face().name + ".windkessel_pressure", dimension::pressure});
   }
+  for (const Probe& probe : probes_) observables_.push_back({probe.name + ".pressure", dimension::pressure});
   observables_.push_back({"volume", dimension::volume});
   observables_.push_back({"mass_balance_error", dimension::flow});
   observables_.push_back({"volume_balance_error", dimension::flow});
@@ -116,6 +117,7 @@ void FluidSolver::observe() {
     values.push_back(opening.face().mean(opening.face().local(solution.pressure)));
     if (opening.beyond->stores()) values.push_back(opening.beyond->advanced(trial_.inputs[i], outflow));
   }
+  for (const Probe& probe : probes_) values.push_back(probe.value(solution.pressure));
   const double volume = domain_.volume(trial_.interface_displacement);
   values.push_back(volume);
   values.push_back(net_inflow - trial_.interface_flux - trial_.swept);

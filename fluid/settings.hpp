@@ -4,6 +4,8 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/base/configured.hpp"
 #include "common/base/curve.hpp"
@@ -43,6 +45,8 @@ struct FluidSettings {
   MeshMotionKind mesh_motion = MeshMotionKind::harmonic;
   std::map<std::string, InletSettings> inlets;  ///< by the name of the mesh's face
   std::map<std::string, OutletSettings> outlets;
+  /// Places of the reference mesh where the pressure is reported, by name.
+  std::vector<std::pair<std::string, Vec3>> probes;
   /// Force per mass at a point and time, such as gravity; empty: none.
   std::function<Vec3(const Vec3& x, double time)> body_acceleration;
   double linear_tolerance = 1e-9;  ///< of the advection-diffusion solve, relative

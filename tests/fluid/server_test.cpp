@@ -74,6 +74,9 @@ TEST(FluidCase, MistakesAreNamedWithTheirPlace) {
          {"case.yaml:10", "outlet"});
   expect(wrong("type: resistance, resistance: 100", "type: windkessel, proximal_resistance: 1"),
          {"case.yaml:10", "distal_resistance", "must be given"});
+  expect(read(valid_fluid + "  probes: {middle: [0.5, 0.5, 0.5], beside: [1.25, 0.5, 0.5]}\n"),
+         {"case.yaml:11", "fluid.probes.beside", "(1.25, 0.5, 0.5)", "0.25 from its surface"});
+  expect(read(valid_fluid + "  probes: {outlet: [0.5, 0.5, 0.5]}\n"), {"case.yaml:11", "fluid.probes.outlet", "own"});
 }
 
 FluidServer make_server() {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "common/mesh/mesh.hpp"
+
+namespace tether::fluid {
+
+/// A place in the blood where the pressure is reported. It moves with the mesh: it keeps its place in its tetrahedron.
+struct Probe {
+  std::string name;
+  Tetrahedron tetrahedron{};                               ///< nodes of the one that holds it in the reference mesh
+  Eigen::Vector4d weights = Eigen::Vector4d::Constant(0);  ///< barycentric coordinates in it
+
+  /// Of a nodal field, at this place.
+  double value(const VectorXd& field) const;
+};
+
+/// Throws InputError with the distance from the lumen's surface if no tetrahedron of the mesh holds the position.
+Probe place_probe(const std::string& name, const Vec3& position, const FluidMesh& mesh);
+
+}  // namespace tether::fluid
