@@ -16,6 +16,7 @@ COMMON = {
     "common/fem": ["base", "linalg", "mesh"],
     "common/io": ["base", "config", "linalg", "mesh"],
     "common/case": ["base", "config", "io", "linalg", "mesh"],
+    "common/observation": ["base", "case", "config", "io", "mesh"],
     "common/protocol": ["base", "config"],
 }
 PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "tether"]
