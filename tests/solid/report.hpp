@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 
@@ -18,6 +21,19 @@ inline void report(const std::string& what, std::span<const int> resolutions, st
   for (std::size_t i = 1; i < errors.size(); ++i)
     std::printf(" %.2f", std::log(errors[i - 1] / errors[i]) / std::log(double(resolutions[i]) / resolutions[i - 1]));
   std::printf(" |\n");
+}
+
+inline void report(const std::string& what, double value) {
+  std::printf("| %s | %.2g |\n", what.c_str(), value);
+}
+
+/// Two columns into the folder named by the environment's TETHER_SERIES, for tools/verification-plots; otherwise
+/// nothing.
+inline void write_series(const std::string& name, std::span<const double> x, std::span<const double> y) {
+  const char* folder = std::getenv("TETHER_SERIES");
+  if (folder == nullptr) return;
+  std::ofstream file(std::filesystem::path(folder) / (name + ".txt"));
+  for (std::size_t i = 0; i < x.size(); ++i) file << x[i] << " " << y[i] << "\n";
 }
 
 }  // namespace tether
