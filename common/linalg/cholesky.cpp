@@ -4,8 +4,7 @@
 #include <omp.h>
 
 #include "common/base/error.hpp"
-
-extern "C" void openblas_set_num_threads(int);
+#include "common/linalg/blas_kernels.hpp"
 
 namespace tether {
 
@@ -16,7 +15,7 @@ struct Cholesky::Data {
   mutable cholmod_dense* work_e = nullptr;
 
   Data() {
-    openblas_set_num_threads(1);  // OpenBLAS reads its environment before main: too early for the program to set it there
+    prepare_blas();
     omp_set_max_active_levels(0);  // CHOLMOD asks for four threads whatever the environment says; they spin, and cost 40 % CPU
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;

@@ -1,0 +1,52 @@
+#include "common/linalg/cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "common/linalg/blas_kernels.hpp"
+
+namespace tether {
+namespace {
+
+/// Finite differences of the Laplacian on n x n x n points.
+SparseMatrix laplacian(int n) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const int stride[3] = {1, n, n * n};
+  for (int i = 0; i < n * n * n; ++i) {
+    entries.emplace_back(i, i, 6.0);
+    for (int axis = 0; axis < 3; ++axis)
+      if (i / stride[axis] % n + 1 < n) {
+        entries.emplace_back(i, i + stride[axis], -1.0);
+        entries.emplace_back(i + stride[axis], i, -1.0);
+      }
+  }
+  SparseMatrix matrix(n * n * n, n * n * n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+TEST(Cholesky, SolvesForOneAndForSeveral) {
+  const SparseMatrix matrix = laplacian(12);
+  Cholesky cholesky;
+  cholesky.factor(matrix);
+  const Eigen::MatrixXd exact = Eigen::MatrixXd::Random(matrix.rows(), 3);
+  Eigen::MatrixXd x = matrix * exact;
+  cholesky.solve_in_place(x);
+  EXPECT_LT((x - exact).norm(), 1e-12 * exact.norm());
+  EXPECT_LT((cholesky.solve(matrix * exact.col(1)) - exact.col(1)).norm(), 1e-12 * exact.norm());
+}
+
+TEST(Blas, UsesWhatTheProcessorOffers) {
+  const bool chosen_by_user = std::getenv("OPENBLAS_CORETYPE") != nullptr;
+  prepare_blas();
+  EXPECT_NE(blas_kernels(), "");
+#ifdef __x86_64__
+  if (!chosen_by_user && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    EXPECT_NE(blas_kernels(), "Prescott");
+  }
+#endif
+}
+
+}  // namespace
+}  // namespace tether
