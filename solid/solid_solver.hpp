@@ -24,7 +24,8 @@ class SolidSolver {
   /// Add `correction` (empty: none) to the iterate and return load - forces, zero on clamped unknowns (S.5). `load`: 3
   /// x interface nodes.
   VectorXd residual(const VectorXd& correction, const Points& load);
-  /// Tangent of the forces at the iterate times a direction: symmetric positive definite.
+  /// Tangent of the forces at the iterate (at the second evaluation of a step still that of the first) times a
+  /// direction: symmetric positive definite.
   VectorXd product(const VectorXd& direction);
   /// A kept factor's solve: close to the inverse of `product`; zero on clamped unknowns.
   VectorXd precondition(const VectorXd& residual);
@@ -79,7 +80,7 @@ class SolidSolver {
   Points iterate_;                                  ///< V
   double time_ = 0, dt_ = 0;
   SparseMatrix tangent_;
-  bool tangent_is_current_ = false;
+  bool tangent_serves_ = false;
   Cholesky factor_;
   FactorOrigin origin_;
   int evaluations_ = 0, calls_ = 0, most_calls_ = 0;
