@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 #include "solid/elements/strain_samples.hpp"
@@ -32,52 +33,53 @@ struct SampleResponse {
       Eigen::Matrix<double, samples, samples>::Zero();  ///< d2Phi/ds2, if asked for
 };
 
-/// The amplitude alpha of the enhanced mode: sum_q w_q m_q' S(M_q s + m_q alpha) = 0, by Newton from alpha = 0 (S.10).
+/// The strains at an element's quadrature points, E_q = M_q s + m_q alpha, and what they are made of.
 template <class Element>
-double enhanced_amplitude(const Element& element, const std::array<Voigt, Element::points>& strain,
-                          const WallLaw& law) {
-  constexpr int most = 25;
-  double alpha = 0, scale = 0;
-  for (const Voigt& e : strain) scale = std::max(scale, e.cwiseAbs().maxCoeff());
-  for (int iteration = 0; iteration < most; ++iteration) {
-    double residual = 0, slope = 0, mode_size = 0;
-    for (int q = 0; q < Element::points; ++q) {
-      const Voigt mode = element.enhanced_mode(q);
-      const auto [stress, tangent] =
-          stress_and_tangent(law.material, strain[static_cast<std::size_t>(q)] + alpha * mode);
-      residual += element.weight(q) * mode.dot(stress);
-      slope += element.weight(q) * mode.dot(tangent * mode);
-      mode_size = std::max(mode_size, mode.cwiseAbs().maxCoeff());
+struct PointStrains {
+  PointStrains(const Element& element, const Eigen::Matrix<double, Element::samples, 1>& s, const WallLaw& law) {
+    for (std::size_t q = 0; q < points; ++q) {
+      map[q] = element.map(static_cast<int>(q), law.thickness_variation);
+      strain[q] = map[q] * s;
     }
-    const double change = -residual / slope;
-    alpha += change;
-    if (std::abs(change) * mode_size <= 1e-7 * scale || !std::isfinite(alpha))
-      break;  // quadratic: what is left is below 1e-13
+    if constexpr (Element::enhanced) enhance(element, law.material);
   }
-  return alpha;
-}
 
-/// Strains at the quadrature points, enhanced mode included.
-template <class Element>
-std::array<Voigt, Element::points> point_strains(const Element& element,
-                                                 const Eigen::Matrix<double, Element::samples, 1>& s,
-                                                 const WallLaw& law) {
-  std::array<Voigt, Element::points> strain;
-  for (int q = 0; q < Element::points; ++q)
-    strain[static_cast<std::size_t>(q)] = element.map(q, law.thickness_variation) * s;
-  if constexpr (Element::enhanced) {
-    const double alpha = enhanced_amplitude(element, strain, law);
-    for (int q = 0; q < Element::points; ++q) strain[static_cast<std::size_t>(q)] += alpha * element.enhanced_mode(q);
+  static constexpr std::size_t points = Element::points;
+  std::array<typename Element::Map, points> map;
+  std::array<Voigt, points> mode;  ///< of an enhanced element only
+  std::array<Voigt, points> strain;
+
+ private:
+  /// The amplitude of the enhanced mode: sum_q w_q m_q' S(M_q s + m_q alpha) = 0, by Newton from alpha = 0 (S.10).
+  void enhance(const Element& element, const Material& material) {
+    constexpr int most = 25;
+    double scale = 0, mode_size = 0;
+    for (std::size_t q = 0; q < points; ++q) {
+      mode[q] = element.enhanced_mode(static_cast<int>(q));
+      mode_size = std::max(mode_size, mode[q].cwiseAbs().maxCoeff());
+      scale = std::max(scale, strain[q].cwiseAbs().maxCoeff());
+    }
+    for (int iteration = 0; iteration < most; ++iteration) {
+      double residual = 0, slope = 0;
+      for (std::size_t q = 0; q < points; ++q) {
+        const auto [force, stiffness] = along(mode[q], material, strain[q]);
+        residual += element.weight(static_cast<int>(q)) * force;
+        slope += element.weight(static_cast<int>(q)) * stiffness;
+      }
+      const double change = -residual / slope;
+      for (std::size_t q = 0; q < points; ++q) strain[q] += change * mode[q];
+      if (std::abs(change) * mode_size <= 1e-7 * scale || !std::isfinite(change))
+        break;  // quadratic: what is left is below 1e-13
+    }
   }
-  return strain;
-}
+};
 
 template <class Element>
 double sample_energy(const Element& element, const Eigen::Matrix<double, Element::samples, 1>& s, const WallLaw& law) {
-  const auto strain = point_strains(element, s, law);
+  const PointStrains<Element> at(element, s, law);
   double sum = 0;
-  for (int q = 0; q < Element::points; ++q)
-    sum += element.weight(q) * energy(law.material, strain[static_cast<std::size_t>(q)]);
+  for (std::size_t q = 0; q < at.points; ++q)
+    sum += element.weight(static_cast<int>(q)) * energy(law.material, at.strain[q]);
   return sum;
 }
 
@@ -86,11 +88,10 @@ template <class Element>
 Eigen::Matrix<double, Element::samples, 1> sample_stress(const Element& element,
                                                          const Eigen::Matrix<double, Element::samples, 1>& s,
                                                          const WallLaw& law) {
-  const auto strain = point_strains(element, s, law);
+  const PointStrains<Element> at(element, s, law);
   Eigen::Matrix<double, Element::samples, 1> sum = Eigen::Matrix<double, Element::samples, 1>::Zero();
-  for (int q = 0; q < Element::points; ++q)
-    sum += element.map(q, law.thickness_variation).transpose() *
-           (element.weight(q) * stress(law.material, strain[static_cast<std::size_t>(q)]));
+  for (std::size_t q = 0; q < at.points; ++q)
+    sum += at.map[q].transpose() * (element.weight(static_cast<int>(q)) * stress(law.material, at.strain[q]));
   return sum;
 }
 
@@ -99,20 +100,19 @@ template <class Element>
 SampleResponse<Element::samples> sample_response(const Element& element,
                                                  const Eigen::Matrix<double, Element::samples, 1>& s,
                                                  const WallLaw& law) {
-  const auto strain = point_strains(element, s, law);
+  const PointStrains<Element> at(element, s, law);
   SampleResponse<Element::samples> result;
   Eigen::Matrix<double, Element::samples, 1> coupling = Eigen::Matrix<double, Element::samples, 1>::Zero();
   double slope = 0;
-  for (int q = 0; q < Element::points; ++q) {
-    const auto map = element.map(q, law.thickness_variation);
-    const auto [stress, tangent] = stress_and_tangent(law.material, strain[static_cast<std::size_t>(q)]);
-    const Eigen::Matrix<double, 6, Element::samples> product = element.weight(q) * tangent * map;
-    result.stress += map.transpose() * (element.weight(q) * stress);
-    result.tangent += map.transpose() * product;
+  for (std::size_t q = 0; q < at.points; ++q) {
+    const double weight = element.weight(static_cast<int>(q));
+    const auto [stress, tangent] = stress_and_tangent(law.material, at.strain[q]);
+    const Eigen::Matrix<double, 6, Element::samples> product = (weight * tangent).lazyProduct(at.map[q]);
+    result.stress += at.map[q].transpose() * (weight * stress);
+    result.tangent += at.map[q].transpose().lazyProduct(product);
     if constexpr (Element::enhanced) {
-      const Voigt mode = element.enhanced_mode(q);
-      coupling += product.transpose() * mode;
-      slope += element.weight(q) * mode.dot(tangent * mode);
+      coupling += product.transpose() * at.mode[q];
+      slope += weight * at.mode[q].dot(tangent * at.mode[q]);
     }
   }
   if constexpr (Element::enhanced) result.tangent -= coupling * (coupling / slope).transpose();

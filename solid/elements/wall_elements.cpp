@@ -77,7 +77,8 @@ class ElementsOf final : public WallElements {
       if (tangent == nullptr) continue;
       Eigen::Matrix<double, samples, samples> by_velocity = advance * response.tangent;
       if (material.viscosity > 0) by_velocity += viscous;
-      scatter_.add(*tangent, e, block(rates, by_velocity, advance * strains.geometric(response.stress) + mass / advance).data());
+      scatter_.add(*tangent, e,
+                   block(rates, by_velocity, advance * strains.geometric(response.stress) + mass / advance).data());
     }
   }
 
@@ -158,11 +159,13 @@ class ElementsOf final : public WallElements {
     return sum;
   }
 
-  /// B' D B, and on the diagonal of each pair of nodes' block what does not depend on the direction (geometric part, mass).
-  static Block block(const typename StrainSamples<nodes, samples>::Rates& rates, const Eigen::Matrix<double, samples, samples>& d,
+  /// B' D B, and on the diagonal of each pair of nodes' block what does not depend on the direction (geometric part,
+  /// mass).
+  static Block block(const typename StrainSamples<nodes, samples>::Rates& rates,
+                     const Eigen::Matrix<double, samples, samples>& d,
                      const Eigen::Matrix<double, nodes, nodes>& isotropic) {
-    const Eigen::Matrix<double, unknowns, samples> product = rates * d;
-    Block result = product * rates.transpose();
+    const Eigen::Matrix<double, unknowns, samples> product = rates.lazyProduct(d);  // Eigen would pack and block these
+    Block result = product.lazyProduct(rates.transpose());
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b < nodes; ++b)
         for (int i = 0; i < 3; ++i) result(3 * a + i, 3 * b + i) += isotropic(a, b);
@@ -185,13 +188,12 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(cons
   Eigen::Matrix<double, 6, Eigen::Dynamic> result(6, static_cast<Eigen::Index>(cells_.size()));
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     const Positions local = gather(x, e);
-    const auto strain =
-        point_strains(elements_[e], Samples(elements_[e].strains().products(local) - reference_[e]), law);
+    const PointStrains<Element> at(elements_[e], Samples(elements_[e].strains().products(local) - reference_[e]), law);
     const Mat3 f = elements_[e].mean_gradient(local);
     Mat3 sum = Mat3::Zero();
     for (int q = 0; q < Element::points; ++q) {
       const Voigt s =
-          elements_[e].weight(q) / elements_[e].volume() * stress(law.material, strain[static_cast<std::size_t>(q)]);
+          elements_[e].weight(q) / elements_[e].volume() * stress(law.material, at.strain[static_cast<std::size_t>(q)]);
       Mat3 tensor;
       tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
       sum += tensor;

@@ -57,8 +57,9 @@ inline void add_volumetric(Potential& w, double bulk, double j) {
 
 /// W += c (I J^-m - 3) for the invariant number `which` (0: I1 with m = 2/3, 1: I2 with m = 4/3).
 inline void add_isochoric(Potential& w, double c, int which, double invariant, double j) {
-  const double m = which == 0 ? 2.0 / 3.0 : 4.0 / 3.0;
-  const double scale = c * std::pow(j, -m);
+  const double m = which == 0 ? 2.0 / 3.0 : 4.0 / 3.0, cubic_root = std::cbrt(j),
+               root_squared = cubic_root * cubic_root;
+  const double scale = c / (which == 0 ? root_squared : root_squared * root_squared);
   w.energy += scale * invariant - 3 * c;
   w.first[which] += scale;
   w.first[2] += -m * scale * invariant / j;

@@ -49,6 +49,29 @@ void add_second_of_j(Voigt66& tangent, const Kinematics& k, double factor) {
     }
 }
 
+/// The symmetric tensor of a strain-like six-vector (with 2 E12 ...).
+Mat3 strain_tensor(const Voigt& e) {
+  Mat3 result;
+  result << e[0], e[3] / 2, e[5] / 2, e[3] / 2, e[1], e[4] / 2, e[5] / 2, e[4] / 2, e[2];
+  return result;
+}
+
+/// d . (d2I2/dE2 d)
+double second_of_i2(const Voigt& d) {
+  const double trace = d.head<3>().sum();
+  return 4 * (trace * trace - d.head<3>().squaredNorm()) - 2 * d.tail<3>().squaredNorm();
+}
+
+/// d . (d2J/dE2 d) = J ((C^-1 : d)^2 - 2 tr (C^-1 d C^-1 d))
+double second_of_j(const Voigt& d, const Kinematics& k) {
+  const Voigt& c = k.inverse;
+  Mat3 inverse;
+  inverse << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2];
+  const Mat3 product = inverse * strain_tensor(d);
+  const double trace = product.trace();
+  return k.j * (trace * trace - 2 * product.cwiseProduct(product.transpose()).sum());
+}
+
 }  // namespace
 
 double energy(const Material& material, const Voigt& strain) {
@@ -68,6 +91,15 @@ StressAndTangent stress_and_tangent(const Material& material, const Voigt& strai
   if (w.first[1] != 0.0) add_second_of_i2(result.tangent, w.first[1]);
   add_second_of_j(result.tangent, k, w.first[2]);
   return result;
+}
+
+ForceAndStiffness along(const Voigt& direction, const Material& material, const Voigt& strain) {
+  const Kinematics k = kinematics(strain);
+  const Potential w = material.potential(k.i1, k.i2, k.j);
+  const Vec3 rates = k.g.transpose() * direction;
+  double stiffness = rates.dot(w.second * rates) + w.first[2] * second_of_j(direction, k);
+  if (w.first[1] != 0.0) stiffness += w.first[1] * second_of_i2(direction);
+  return {w.first.dot(rates), stiffness};
 }
 
 }  // namespace tether

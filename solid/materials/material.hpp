@@ -28,8 +28,14 @@ struct StressAndTangent {
   Voigt66 tangent;
 };
 
+/// d . S and d . (dS/dE d) [pressure]: all that a search along a direction d of strain needs.
+struct ForceAndStiffness {
+  double force, stiffness;
+};
+
 double energy(const Material& material, const Voigt& strain);
 Voigt stress(const Material& material, const Voigt& strain);
 StressAndTangent stress_and_tangent(const Material& material, const Voigt& strain);
+ForceAndStiffness along(const Voigt& direction, const Material& material, const Voigt& strain);
 
 }  // namespace tether

@@ -47,6 +47,18 @@ TEST_P(MaterialContract, TangentIsTheDerivativeOfTheStressAndSymmetric) {
   }
 }
 
+TEST_P(MaterialContract, AlongADirectionItAnswersTheSame) {
+  const auto law = material();
+  Random random(7);
+  for (int sample = 0; sample < 20; ++sample) {
+    const Voigt at = green_lagrange(random_gradient(random, 0.25)), direction = random.matrix(6, 1);
+    const auto [s, tangent] = stress_and_tangent(*law, at);
+    const auto [force, stiffness] = along(direction, *law, at);
+    EXPECT_NEAR(force, direction.dot(s), 1e-13 * (1 + s.norm()) * direction.norm());
+    EXPECT_NEAR(stiffness, direction.dot(tangent * direction), 1e-13 * tangent.norm() * direction.squaredNorm());
+  }
+}
+
 TEST_P(MaterialContract, UnstrainedItHasNeitherEnergyNorStress) {
   const auto law = material();
   EXPECT_NEAR(energy(*law, Voigt::Zero()), 0, 1e-15);
