@@ -1,0 +1,59 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/observation/frame_times.hpp"
+#include "common/observation/lumen_surface.hpp"
+#include "common/observation/sample.hpp"
+
+namespace tether {
+
+/// What is known of the errors of a source.
+struct Noise {
+  double deviation = 0;           ///< of a distance [length]; 0: not stated
+  double correlation_length = 0;  ///< along the wall [length]
+  double correlation_time = 0;    ///< [time]
+};
+
+/// What all sources of lumen data have in common.
+struct SourceSettings {
+  std::string name;
+  int number = 0;
+  double period = 0;                                                ///< 0: not periodic [time]
+  double time_tolerance = 0;                                        ///< FrameTimes [time]
+  double trust_distance = std::numeric_limits<double>::infinity();  ///< farther data are none [length]
+  std::vector<Exclusion> of_node;                                   ///< of the lumen, none or why it is never observed
+  std::vector<int> region;                                          ///< of the lumen's nodes
+  Noise noise;
+};
+
+/// A frame of a source: one surface, or one contour.
+struct Frame {
+  int series = 0;  ///< number of the contour within its source; 0 for surfaces
+  std::size_t number = 0;
+  double time = 0;
+  bool held_out = false;
+};
+
+/// Measurements of the moving lumen: surfaces, or contours in slices.
+class LumenSeries {
+ public:
+  virtual ~LumenSeries() = default;
+
+  /// The model's lumen at positions x, at a time between frames (O.3). Always the same number of samples in the same
+  /// order, whatever x and time: what is not observed has weight 0 and says why. Held-out frames are not used.
+  virtual std::vector<Sample> observe(const Points& x, double time) const = 0;
+  /// The same against one frame, held out or not.
+  virtual std::vector<Sample> observe(const Points& x, const Frame& frame) const = 0;
+  virtual std::vector<Frame> frames() const = 0;
+  virtual const SourceSettings& settings() const = 0;
+  /// What was found and done on loading, one line each: data left out, surfaces turned, holes.
+  virtual const std::vector<std::string>& notes() const = 0;
+};
+
+/// The distance at a place between two frames (O.3): excluded if it is in either.
+Sample between(const Sample& before, const Sample& after, double share);
+
+}  // namespace tether

@@ -1,0 +1,174 @@
+#include "common/observation/surface_check.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/base/error.hpp"
+#include "common/mesh/surface.hpp"
+#include "common/mesh/topology.hpp"
+#include "common/observation/self_intersection.hpp"
+
+namespace tether {
+namespace {
+
+std::string at(const Vec3& x) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x[0], x[1], x[2]);
+}
+
+/// Only the points that triangles use, equal ones as one.
+TriangleSurface welded(const TriangleSurface& given) {
+  std::map<std::array<double, 3>, int> number;
+  TriangleSurface surface;
+  for (Triangle t : given.triangles) {
+    for (int& node : t) {
+      const auto x = given.points.col(node);
+      node = number.emplace(std::array{x[0], x[1], x[2]}, static_cast<int>(number.size())).first->second;
+    }
+    surface.triangles.push_back(t);
+  }
+  surface.points.resize(3, static_cast<Eigen::Index>(number.size()));
+  for (const auto& [x, node] : number) surface.points.col(node) = Vec3(x.data());
+  return surface;
+}
+
+/// Narrower than 1e-10 of its longest side.
+bool without_area(const Points& points, const Triangle& t) {
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    longest = std::max(longest, (points.col(t[i]) - points.col(t[(i + 1) % 3])).norm());
+  return !(area_vector(points, t).norm() > 1e-10 * longest * longest);
+}
+
+void check_edges(const std::string& name, const TriangleSurface& surface) {
+  std::map<Edge, std::array<int, 2>> uses;  // from low to high node, from high to low
+  for (const Triangle& t : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+      ++uses[{low, high}][t[i] == low ? 0 : 1];
+    }
+  int crowded = 0, disagreeing = 0;
+  std::string first_crowded, first_disagreeing;
+  for (const auto& [edge, ways] : uses) {
+    const std::string place = at(0.5 * (surface.points.col(edge[0]) + surface.points.col(edge[1])));
+    if (ways[0] + ways[1] > 2 && crowded++ == 0) first_crowded = place;
+    if (ways[0] + ways[1] == 2 && ways[0] != 1 && disagreeing++ == 0) first_disagreeing = place;
+  }
+  if (crowded > 0)
+    throw input_error("{}: {} edges have more than two triangles, the first near {}: not the surface of a lumen", name,
+                      crowded, first_crowded);
+  if (disagreeing > 0)
+    throw input_error(
+        "{}: the normals of neighbouring triangles disagree at {} edges, the first near {}: inside and outside cannot "
+        "be told",
+        name, disagreeing, first_disagreeing);
+}
+
+/// Leaves out loose pieces that are small.
+void keep_large_parts(TriangleSurface& surface, std::vector<std::string>& notes) {
+  const Parts parts = connected_parts(static_cast<int>(surface.points.cols()), surface.triangles);
+  std::vector<double> area(static_cast<std::size_t>(parts.count), 0.0);
+  const auto part = [&](std::size_t t) { return static_cast<std::size_t>(parts.part[t]); };
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    area[part(t)] += area_vector(surface.points, surface.triangles[t]).norm();
+  const double smallest = 0.05 * total_area(surface.points, surface.triangles);
+  const auto small = std::count_if(area.begin(), area.end(), [&](double a) { return a < smallest; });
+  if (parts.count - small > 1) notes.push_back(fmt::format("consists of {} separate pieces", parts.count - small));
+  if (small == 0) return;
+  std::vector<Triangle> kept;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    if (area[part(t)] >= smallest) kept.push_back(surface.triangles[t]);
+  notes.push_back(
+      fmt::format("{} loose pieces with {} triangles are left out", small, surface.triangles.size() - kept.size()));
+  surface.triangles = std::move(kept);
+  surface = welded(surface);
+}
+
+/// Enclosed volume, each hole closed by a fan about its middle.
+double enclosed_volume(const TriangleSurface& surface, const std::vector<std::vector<int>>& holes) {
+  const auto cone = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.cross(b).dot(c) / 6; };
+  const Vec3 origin = surface.points.rowwise().mean();
+  const auto x = [&](int node) { return Vec3(surface.points.col(node) - origin); };
+  double volume = 0;
+  for (const Triangle& t : surface.triangles) volume += cone(x(t[0]), x(t[1]), x(t[2]));
+  for (const std::vector<int>& hole : holes) {
+    const Vec3 middle = surface.points(Eigen::all, hole).rowwise().mean() - origin;
+    for (std::size_t i = 0; i < hole.size(); ++i) volume += cone(x(hole[(i + 1) % hole.size()]), x(hole[i]), middle);
+  }
+  return volume;
+}
+
+void turn_outward(TriangleSurface& surface, std::vector<std::string>& notes) {
+  const std::vector<std::vector<int>> holes = rims(surface.triangles);
+  if (enclosed_volume(surface, holes) < 0) {
+    for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
+    notes.emplace_back("its normals looked inward; turned");
+  }
+  if (holes.empty()) return;
+  std::string lengths;
+  for (const std::vector<int>& hole : holes) {
+    double length = 0;
+    for (std::size_t i = 0; i < hole.size(); ++i)
+      length += (surface.points.col(hole[i]) - surface.points.col(hole[(i + 1) % hole.size()])).norm();
+    lengths += fmt::format("{}{:.3g}", lengths.empty() ? "" : ", ", length);
+  }
+  notes.push_back(fmt::format("{} open rims, {} long; beside them nothing is observed", holes.size(), lengths));
+}
+
+std::vector<bool> crossing_triangles(const std::string& name, const TriangleSurface& surface,
+                                     std::vector<std::string>& notes) {
+  std::vector<bool> hit = self_intersections(surface);
+  const auto count = static_cast<std::size_t>(std::count(hit.begin(), hit.end(), true));
+  if (count == 0) return {};
+  const auto first = static_cast<std::size_t>(std::find(hit.begin(), hit.end(), true) - hit.begin());
+  const std::string said = fmt::format("{} of {} triangles pass through each other, the first near {}", count,
+                                       hit.size(), at(surface.points.col(surface.triangles[first][0])));
+  if (count * 100 > hit.size()) throw input_error("{}: {}: more than a hundredth", name, said);
+  notes.push_back(said + "; nothing is observed there");
+  return hit;
+}
+
+}  // namespace
+
+CheckedSurface checked_surface(const std::string& name, TriangleSurface given) {
+  if (given.triangles.empty()) throw input_error("{}: holds no triangles: must be the surface of the lumen", name);
+  CheckedSurface result{welded(given), {}, {}};
+  TriangleSurface& surface = result.surface;
+  const auto dropped =
+      std::erase_if(surface.triangles, [&](const Triangle& t) { return without_area(surface.points, t); });
+  if (surface.triangles.empty()) throw input_error("{}: none of its triangles has an area", name);
+  if (dropped > 0) {
+    result.notes.push_back(fmt::format("{} triangles without area are left out", dropped));
+    surface = welded(surface);
+  }
+  check_edges(name, surface);
+  keep_large_parts(surface, result.notes);
+  turn_outward(surface, result.notes);
+  result.flawed = crossing_triangles(name, surface, result.notes);
+  return result;
+}
+
+std::string placement(const Points& data, const Points& model) {
+  const auto box = [](const Points& x) { return at(x.rowwise().minCoeff()) + " to " + at(x.rowwise().maxCoeff()); };
+  const auto size = [](const Points& x) { return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm(); };
+  std::string said = fmt::format("the data reach from {}, the model from {}", box(data), box(model));
+  const double power = std::log10(size(model) / size(data)), whole = std::round(power);
+  if (whole != 0 && std::abs(power - whole) < 0.35)
+    said += fmt::format(". In another unit? Multiplied by {:g} they would be about as large", std::pow(10.0, whole));
+  return said;
+}
+
+void check_overlap(const std::string& name, const TriangleSurface& surface, const LumenSurface& lumen, double reach) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Closest& c : SignedSurface(surface).closest(lumen.points)) {
+    if (!c.on_rim && std::abs(c.distance) <= reach) return;
+    nearest = std::min(nearest, std::abs(c.distance));
+  }
+  throw input_error("{}: does not overlap the model: the nearest place is {:.3g} away, at most {:.3g} would do; {}",
+                    name, nearest, reach, placement(surface.points, lumen.points));
+}
+
+}  // namespace tether
