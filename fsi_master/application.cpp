@@ -89,9 +89,10 @@ void warn_without_state(const StepPartner& partner, bool quiet) {
 
 /// What the three processes have cost so far.
 std::vector<ProcessCost> costs(Crew& crew, const std::vector<Partner*>& partners) {
-  return {{"fsi_master", program_name, {cpu_seconds(), peak_memory_mb()}},
-          {"fluid", partners[0]->hello().program, crew.fluid.usage().get()},
-          {"solid", partners[1]->hello().program, crew.solid.usage().get()}};
+  const auto &fluid = partners[0]->hello(), &solid = partners[1]->hello();
+  return {{"fsi_master", program_name, 0, {cpu_seconds(), peak_memory_mb()}},
+          {"fluid", fluid.program, fluid.unknowns, crew.fluid.usage().get()},
+          {"solid", solid.program, solid.unknowns, crew.solid.usage().get()}};
 }
 
 void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner& solid_process) {

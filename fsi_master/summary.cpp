@@ -21,25 +21,30 @@ Json pressure_range(const Extent& pressure, const UnitSystem& units) {
           {"max_mmHg", units.to_mmhg(pressure.max)}};
 }
 
-Json processes(const std::vector<ProcessCost>& all, double PartnerUsage::*member) {
+/// A number of each process, and their sum.
+template <class Number>
+Json processes(const std::vector<ProcessCost>& all, const Number& number) {
   Json json;
   double total = 0;
   for (const auto& process : all) {
-    json[process.name] = process.usage.*member;
-    total += process.usage.*member;
+    json[process.name] = number(process);
+    total += number(process);
   }
   json["total"] = total;
   return json;
 }
 
 void add_costs(Json& json, const RunFacts& facts, const RunStatistics& s, double steps_now) {
-  double loop = 0;
-  for (const auto& process : facts.processes) loop += process.loop_cpu_seconds;
+  const auto& all = facts.processes;
+  const auto loop = processes(all, [](const ProcessCost& p) { return p.loop_cpu_seconds; });
   json["wall_seconds"] = s.wall_seconds;
   json["seconds_per_step"] = s.evaluations.count > 0 ? s.wall_seconds / s.evaluations.count : 0.0;
-  json["cpu_seconds_per_step"] = steps_now > 0 ? loop / steps_now : 0.0;
-  json["cpu_seconds"] = processes(facts.processes, &PartnerUsage::cpu_seconds);
-  json["peak_memory_mb"] = processes(facts.processes, &PartnerUsage::peak_memory_mb);
+  json["cpu_seconds_per_step"] = steps_now > 0 ? loop["total"].get<double>() / steps_now : 0.0;
+  json["cpu_seconds"] = processes(all, [](const ProcessCost& p) { return p.usage.cpu_seconds; });
+  json["loop_cpu_seconds"] = loop;
+  json["peak_memory_mb"] = processes(all, [](const ProcessCost& p) { return p.usage.peak_memory_mb; });
+  for (const auto& process : all)
+    if (process.unknowns > 0) json["unknowns"][process.name] = process.unknowns;
 }
 
 void add_results(Json& json, const Simulation& simulation) {

@@ -10,6 +10,7 @@ namespace tether {
 /// What one process cost; `loop_cpu_seconds` is its part between the first and the last step.
 struct ProcessCost {
   std::string name, program;
+  std::int64_t unknowns = 0;  ///< as it announces them; the master has none
   PartnerUsage usage;
   double loop_cpu_seconds = 0;
 };
