@@ -127,7 +127,7 @@ FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
   FluidSettings settings;
   settings.blood.values = {{"density", fluid.density},
                            {"backflow_stabilisation", fluid.backflow_stabilisation},
-                           {"wall_load_offset", image.prestressed() ? image.pressure : 0.0}};
+                           {"wall_load_offset", image.loads_wall() ? image.pressure : 0.0}};
   settings.rheology = choice_of(fluid.rheology, rheologies());
   settings.mesh_motion = mesh_motion_named(fluid.mesh_motion);
   for (const auto& [name, inlet] : fluid.inlets) settings.inlets[name] = settings_of(inlet, file.units());

@@ -45,7 +45,7 @@ struct FluidCase {
 /// probe that is not in the blood or has the name of an inlet or outlet.
 void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file);
 
-/// Reads the curves. The wall bears the image's pressure as well if it is prestressed by it. Throws InputError.
+/// Reads the curves. The wall bears the image's pressure as well if the case says so. Throws InputError.
 FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file);
 
 }  // namespace tether::fluid

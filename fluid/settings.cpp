@@ -18,7 +18,7 @@ const EffectDeclaration declaration{
       Transform::linear,
       undefined},
      {"wall_load_offset",
-      "pressure added to the load on the wall: the reference pressure, if the wall is prestressed by it",
+      "pressure added to the load on the wall: the reference pressure, if the imaged wall carries it",
       dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
 
 }  // namespace

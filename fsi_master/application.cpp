@@ -82,9 +82,19 @@ void check_points(const Simulation& simulation, const CaseFile& file, double siz
                         file.where("output.points." + point.name), point.distance, size);
 }
 
-void warn_without_state(const StepPartner& partner, bool quiet) {
-  if (!partner.has_state() && !quiet)
-    fmt::print("{} announces no state: this run cannot be resumed, nor used for identification\n", partner.name());
+/// What a person should know before the run: in summary.json, and printed unless quiet.
+std::vector<std::string> notices_of(const std::vector<Partner*>& partners, bool quiet) {
+  std::vector<std::string> all;
+  for (Partner* partner : partners) {
+    const protocol::Hello& hello = partner->hello();
+    for (const std::string& notice : hello.notices) all.push_back(fmt::format("{}: {}", partner->role(), notice));
+    if (!hello.has_state)
+      all.push_back(fmt::format("{} announces no state: this run cannot be resumed, nor used for identification",
+                                partner->role()));
+  }
+  if (!quiet)
+    for (const std::string& notice : all) fmt::print("{}\n", notice);
+  return all;
 }
 
 /// What the three processes have cost so far.
@@ -102,8 +112,7 @@ void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner&
   const CouplingOptions options{master.coupling.tolerance, master.coupling.max_iterations, master.coupling.reuse,
                                 diagonal(solid_surface.points)};
   const auto coupling = make_coupling(master.coupling.method, fluid, solid, options);
-  warn_without_state(fluid, plan.quiet);
-  warn_without_state(solid, plan.quiet);
+  const std::vector<std::string> notices = notices_of({&fluid_process, &solid_process}, plan.quiet);
   const std::string fluid_case = fluid_process.hello().effective_case,
                     solid_case = solid_process.hello().effective_case;
   plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, solid_surface.points);
@@ -123,7 +132,8 @@ void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner&
                  fs::absolute(master.file.path()).string(),
                  coupling->name(),
                  costs(crew, {&fluid_process, &solid_process}),
-                 merged_json({own_sections(master), fluid_case, solid_case})};
+                 merged_json({own_sections(master), fluid_case, solid_case}),
+                 notices};
   for (std::size_t i = 0; i < before.size(); ++i)
     facts.processes[i].loop_cpu_seconds = facts.processes[i].usage.cpu_seconds - before[i].usage.cpu_seconds;
   write_summary(simulation, facts);

@@ -77,6 +77,7 @@ void write_summary(const Simulation& simulation, const RunFacts& facts) {
   add_costs(json, facts, simulation.statistics(), static_cast<double>(plan.last_step - simulation.first_step()));
   json["coupling_method"] = facts.method;
   add_results(json, simulation);
+  json["notices"] = facts.notices;
   for (const auto& process : facts.processes) json["versions"][process.name] = process.program;
   json["effective_case"] = Json::parse(facts.effective_case);
   std::ofstream file(plan.output / "summary.json");

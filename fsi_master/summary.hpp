@@ -20,6 +20,7 @@ struct RunFacts {
   std::string case_name, title, case_file, method;
   std::vector<ProcessCost> processes;
   std::string effective_case;  ///< JSON
+  std::vector<std::string> notices;
 };
 
 /// summary.json: what was run, how it went and what it cost, in the case's units and in mmHg and mm.

@@ -1,5 +1,7 @@
 #include "solid/case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/base/csv.hpp"
@@ -74,17 +76,36 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
 
 Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const std::vector<int>& clamped,
                              const CaseFile& file) {
-  const ImageCase& image = file.common().image;
-  if (!image.prestressed()) return mesh.points;
   const Configured<Material> material(materials(), solid.material.type, solid.material.values);
-  StressFreeResult found = stress_free_configuration(mesh, *material, image.pressure, unknowns_of(clamped));
+  StressFreeResult found =
+      stress_free_configuration(mesh, *material, file.common().image.pressure, unknowns_of(clamped));
   if (!found.converged)
     throw run_error(
-        "{}: no stress-free configuration was found in {} iterations (last correction {:.2g} of the size): the wall "
-        "may be too "
-        "soft for this pressure",
+        "{}: no stress-free shape was found in {} iterations (last correction {:.2g} of the size): the wall is too "
+        "soft "
+        "for this pressure, or the lumen not round enough for a thin wall; 'image.wall: prestressed' needs no such "
+        "shape",
         file.where("image.pressure"), found.iterations, found.residual);
   return std::move(found.positions);
+}
+
+/// Gives the wall its initial stress; says what the surroundings hold.
+std::string prestress(WallModel& wall, double pressure) {
+  const InitialStress initial = find_initial_stress(wall.mesh(), wall.material(), pressure);
+  wall.set_initial_stress(initial);
+  return fmt::format(
+      "prestress: in the imaged shape the wall's tension carries the image's pressure but for {:.1f} % of its forces, "
+      "which "
+      "the surroundings hold as a dead load{}",
+      100 * initial.held_share,
+      initial.held_share > 0.25 ? "; that is much: is the lumen's surface rough, or the pressure too high?" : "");
+}
+
+bool nothing_holds(const SolidCase& solid) {
+  return std::all_of(solid.support.regions.begin(), solid.support.regions.end(), [](const auto& region) {
+    const std::vector<double>& values = region.second.effect.values;
+    return std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
+  });
 }
 
 }  // namespace
@@ -163,7 +184,7 @@ void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const Case
   check_names(solid.rings, mesh.rings, "solid.rings", file);
 }
 
-std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
+PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
   check_against_mesh(solid, mesh, file);
   const WallSettings settings{.material = solid.material.type,
                               .material_values = solid.material.values,
@@ -174,8 +195,14 @@ std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh
                               .support_on_current_area = solid.support.area == "current"};
   const std::vector<int> clamped = clamped_nodes(solid, mesh);
   std::vector<SurfaceSupport> held = make_supports(solid, mesh, file.units());
-  const Points stress_free = stress_free_positions(solid, mesh, clamped, file);
-  return std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held));
+  const ImageCase& image = file.common().image;
+  const Points stress_free =
+      image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;
+  PreparedWall wall;
+  if (nothing_holds(solid)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
+  wall.model = std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held));
+  if (image.loads_wall() && image.wall == "prestressed") wall.notices.push_back(prestress(*wall.model, image.pressure));
+  return wall;
 }
 
 }  // namespace tether

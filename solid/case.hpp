@@ -49,8 +49,14 @@ struct SolidCase {
 /// Throws InputError for a region or ring that the mesh does not have.
 void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file);
 
-/// The wall of a case, ready to move. Rings that the case does not name are clamped. Throws InputError for names that
-/// the mesh does not have, RunError if no stress-free configuration is found.
-std::unique_ptr<WallModel> make_wall_model(const SolidCase& solid, WallMesh mesh, const CaseFile& file);
+/// A wall ready to move, and what a person should know of it.
+struct PreparedWall {
+  std::unique_ptr<WallModel> model;
+  std::vector<std::string> notices;
+};
+
+/// The wall of a case. Rings that the case does not name are clamped. Throws InputError for names that the mesh does not
+/// have, RunError if no stress-free configuration is found.
+PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file);
 
 }  // namespace tether

@@ -1,6 +1,7 @@
 #include "solid/server.hpp"
 
 #include "common/base/error.hpp"
+#include "common/mesh/locator.hpp"
 #include "solid/wall_series.hpp"
 
 namespace tether {
@@ -15,18 +16,40 @@ Eigen::Map<const VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
+Vec3 centre_of(const Points& x, const Triangle& t) {
+  return (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
+}
+
+/// Region of each triangle of the interface: that of the nearest triangle of the outer wall.
+std::vector<int> regions_inside(const WallMesh& mesh) {
+  std::vector<int> region_of;
+  std::vector<Vec3> centres;
+  for (std::size_t region = 0; region < mesh.outside.size(); ++region)
+    for (const Triangle& t : mesh.outside[region].triangles) {
+      region_of.push_back(static_cast<int>(region));
+      centres.push_back(centre_of(mesh.points, t));
+    }
+  const PointLocator locator(
+      Eigen::Map<const Points>(centres.front().data(), 3, static_cast<Eigen::Index>(centres.size())));
+  std::vector<int> result;
+  for (const Triangle& t : mesh.interface)
+    result.push_back(region_of[static_cast<std::size_t>(locator.nearest(centre_of(mesh.points, t)).node)]);
+  return result;
+}
+
 protocol::Motion as_message(const InterfaceMotion& motion) {
   return {as_list(motion.displacement), as_list(motion.velocity)};
 }
 
 }  // namespace
 
-SolidServer::SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case,
+SolidServer::SolidServer(PreparedWall wall, const UnitSystem& units, std::string effective_case,
                          std::filesystem::path output)
-    : model_(std::move(model)),
+    : model_(std::move(wall.model)),
       solver_(std::make_unique<SolidSolver>(*model_)),
       units_(units),
       effective_case_(std::move(effective_case)),
+      notices_(std::move(wall.notices)),
       series_(std::make_unique<WallSeries>(std::move(output))) {}
 
 SolidServer::SolidServer(SolidServer&&) noexcept = default;
@@ -39,6 +62,7 @@ protocol::Hello SolidServer::hello() const {
   hello.state_size = solver_->state_size();
   hello.unknowns = model_->unknowns();
   hello.effective_case = effective_case_;
+  hello.notices = notices_;
   for (const auto& [name, p, value, set] : model_->parameters().entries())
     hello.parameters.push_back({name, p.meaning, units_.symbol(p.dimension), name_of(p.transform), value(), p.absent,
                                 p.range.lower, p.range.upper, p.prior_deviation});
@@ -55,6 +79,7 @@ protocol::Interface SolidServer::operator()(const protocol::GetInterface&) {
   for (const Triangle& triangle : mesh.interface)
     reply.triangles.insert(reply.triangles.end(), triangle.begin(), triangle.end());
   for (const Patch& region : mesh.outside) reply.region_names.push_back(region.name);
+  for (int region : regions_inside(mesh)) reply.regions.push_back(region);
   return reply;
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/base/units.hpp"
 #include "common/protocol/messages.hpp"
+#include "solid/case.hpp"
 #include "solid/solid_solver.hpp"
 
 namespace tether {
@@ -14,7 +15,7 @@ class WallSeries;
 /// What the solid does with each message (common/protocol). A message without a line here does not compile.
 class SolidServer {
  public:
-  SolidServer(std::unique_ptr<WallModel> model, const UnitSystem& units, std::string effective_case,
+  SolidServer(PreparedWall wall, const UnitSystem& units, std::string effective_case,
               std::filesystem::path output);
   SolidServer(SolidServer&&) noexcept;
   ~SolidServer();
@@ -42,6 +43,7 @@ class SolidServer {
   std::unique_ptr<SolidSolver> solver_;
   UnitSystem units_;
   std::string effective_case_;
+  std::vector<std::string> notices_;
   std::unique_ptr<WallSeries> series_;
 };
 

@@ -61,6 +61,11 @@ void WallModel::declare_parameters() {
   }
 }
 
+void WallModel::set_initial_stress(const InitialStress& initial) {
+  elements_->set_initial_stress(initial.virtual_displacement, *material_);
+  held_ = initial.held.reshaped();
+}
+
 void WallModel::place_supports(const Points& displacement) {
   if (!settings_.support_on_current_area) return;
   const Points positions = mesh_.points + displacement;
@@ -71,7 +76,8 @@ VectorXd WallModel::step_forces(const Points& displacement, const Points& start_
                                 double time, double dt, SparseMatrix* tangent) const {
   const double advance = settings_.theta * dt;
   const Points start = mesh_.points + displacement, acceleration = (velocity - start_velocity) / advance;
-  VectorXd forces = VectorXd::Zero(unknowns()), holding = VectorXd::Zero(unknowns());
+  VectorXd forces = VectorXd::Zero(unknowns());
+  VectorXd holding = held_.size() > 0 ? held_ : VectorXd::Zero(unknowns());
   if (tangent != nullptr) std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
   elements_->step_force({start, velocity, acceleration, settings_.theta, dt, settings_.conserve_energy},
                         {&*material_, settings_.viscosity, settings_.density}, forces, tangent);

@@ -6,6 +6,7 @@
 #include "common/base/configured.hpp"
 #include "common/base/parameter_table.hpp"
 #include "solid/elements/wall_elements.hpp"
+#include "solid/initial_stress.hpp"
 #include "solid/surface_support.hpp"
 
 namespace tether {
@@ -31,6 +32,9 @@ class WallModel {
   WallModel(const WallModel&) = delete;  // the parameter table refers into this object
   WallModel& operator=(const WallModel&) = delete;
 
+  /// The imaged wall carries this stress, and the surroundings hold the rest.
+  void set_initial_stress(const InitialStress& initial);
+
   const WallMesh& mesh() const { return mesh_; }
   const WallSettings& settings() const { return settings_; }
   const WallElements& elements() const { return *elements_; }
@@ -43,8 +47,9 @@ class WallModel {
   /// Areas and normals of the supports for a step that starts at displacement y (S.4).
   void place_supports(const Points& displacement);
 
-  /// Left side of the step's equations (S.5): inertia, internal and support forces; tangent, if not null, is set to its
-  /// derivative by V, clamped unknowns eliminated. Entries of clamped unknowns are zero.
+  /// Left side of the step's equations (S.5): inertia, internal and support forces, less what the surroundings hold;
+  /// tangent, if not null, is set to its derivative by V, clamped unknowns eliminated. Entries of clamped unknowns are
+  /// zero.
   VectorXd step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity, double time,
                        double dt, SparseMatrix* tangent) const;
 
@@ -56,6 +61,7 @@ class WallModel {
   Configured<Material> material_;
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
+  VectorXd held_;  ///< force of the surroundings beside the supports, a dead load; empty if none
   std::vector<int> clamped_;
   ParameterTable parameters_;
 };

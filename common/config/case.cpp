@@ -58,10 +58,16 @@ int TimeCase::steps() const {
 void ImageCase::declare(Fields& f) {
   f.number("pressure", pressure, dimension::pressure, range::any,
            "pressure in the vessel when it was imaged; all pressures of the run are relative to it");
-  f.choice("wall", wall,
-           {{"stress_free", "the imaged wall is free of stress, and carries only what exceeds this pressure"},
-            {"prestressed", "the imaged wall carries this pressure: its stress-free shape is found first"}},
-           "whether the imaged wall carries stress");
+  f.choice(
+      "wall", wall,
+      {{"stress_free", "the imaged wall is free of stress, and carries only what exceeds this pressure"},
+       {"prestressed",
+        "the imaged wall carries this pressure by an initial stress; its elasticity is that around the image; what "
+        "a thin wall cannot carry in this shape, the surroundings hold"},
+       {"inflated",
+        "the imaged wall carries this pressure by its strain from a stress-free shape, which is found first; for "
+        "laws that are known from there, and nearly round lumens"}},
+      "whether the imaged wall carries stress");
 }
 
 void OutputCase::declare(Fields& f) {

@@ -19,7 +19,8 @@ struct ImageCase {
   double pressure = 0.0;
   std::string wall = "stress_free";
   void declare(Fields& f);
-  bool prestressed() const { return wall == "prestressed" && pressure != 0.0; }
+  /// Whether the wall bears the image's pressure at the start, and not only what exceeds it.
+  bool loads_wall() const { return wall != "stress_free" && pressure != 0.0; }
 };
 
 /// What a run writes, beside the tables that it always writes.

@@ -51,7 +51,8 @@ Hello hello_of(const tether_description& d) {
               d.unknowns,
               {},
               {},
-              text(d.effective_case)};
+              text(d.effective_case),
+              {}};
   for (const auto& p : array(d.parameters, d.parameter_count))
     hello.parameters.push_back({text(p.name), text(p.meaning), text(p.unit), text(p.transform), p.value, p.absent,
                                 p.lower, p.upper, p.prior_deviation});

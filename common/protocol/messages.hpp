@@ -63,9 +63,10 @@ struct Hello {
   std::int64_t state_size = 0, unknowns = 0;
   std::vector<ParameterInfo> parameters;
   std::vector<ObservableInfo> observables;
-  std::string effective_case;  ///< its sections of the case as JSON, defaults included
+  std::string effective_case;        ///< its sections of the case as JSON, defaults included
+  std::vector<std::string> notices = {};  ///< what a person should know before the run, a sentence each
   TETHER_MESSAGE(Hello, program, has_tangent, has_operators, has_state, state_size, unknowns, parameters, observables,
-                 effective_case)
+                 effective_case, notices)
 };
 
 // ---- partner -> master, as replies ----------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "solid/elements/element_response.hpp"
 #include "solid/elements/prism.hpp"
 #include "solid/elements/tetrahedron.hpp"
+#include "solid/materials/registry.hpp"
 
 namespace tether {
 namespace {
@@ -24,11 +25,17 @@ class ElementsOf final : public WallElements {
     elements_.reserve(cells.size());
     reference_.reserve(cells.size());
     unit_.reserve(cells.size());
+    unstressed_.reserve(cells.size());
+    initial_.reserve(cells.size());
+    initial_mean_.reserve(cells.size());
     for (std::size_t e = 0; e < cells.size(); ++e) {
       const Positions x = gather(reference, e);
       elements_.emplace_back(x);
       reference_.push_back(elements_.back().strains().products(x));
       unit_.push_back(elements_.back().strains().units(x));
+      unstressed_.push_back(x);
+      initial_.push_back(Samples::Zero());
+      initial_mean_.push_back(Voigt::Zero());
       for (int q = 0; q < Element::points; ++q)
         if (!(elements_.back().weight(q) > 0))
           throw run_error("wall element {} at ({:.4g} {:.4g} {:.4g}) has no positive volume", e, x.row(0).mean(),
@@ -44,10 +51,11 @@ class ElementsOf final : public WallElements {
       const auto rates = element.strains().rates(local);
       const Samples s = element.strains().products(local) - reference_[e];
       if (tangent == nullptr) {
-        scatter(rates * sample_stress(element, s, law), e, force);
+        scatter(rates * (sample_stress(element, s, law) + initial_[e]), e, force);
         continue;
       }
-      const auto response = sample_response(element, s, law);
+      auto response = sample_response(element, s, law);
+      response.stress += initial_[e];
       scatter(rates * response.stress, e, force);
       scatter_.add(*tangent, e, block(rates, response.tangent, element.strains().geometric(response.stress)).data());
     }
@@ -66,6 +74,7 @@ class ElementsOf final : public WallElements {
       SampleResponse<samples> response = motion.conserve_energy
                                              ? conserving(e, start, start + motion.dt * velocity, law)
                                              : at_positions(e, middle, law, tangent != nullptr);
+      response.stress += initial_[e];
       Eigen::Matrix<double, samples, samples> viscous;
       if (material.viscosity > 0) {
         viscous = viscous_tangent(element, material.viscosity, law.thickness_variation);
@@ -85,8 +94,10 @@ class ElementsOf final : public WallElements {
   double energy(const Points& x, const Material& material) const override {
     double sum = 0;
     const WallLaw law(material);
-    for (std::size_t e = 0; e < cells_.size(); ++e)
-      sum += sample_energy(elements_[e], Samples(elements_[e].strains().products(gather(x, e)) - reference_[e]), law);
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const Samples s = elements_[e].strains().products(gather(x, e)) - reference_[e];
+      sum += sample_energy(elements_[e], s, law) + initial_[e].dot(s);
+    }
     return sum;
   }
 
@@ -98,6 +109,7 @@ class ElementsOf final : public WallElements {
 
   Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const override;
   SparseMatrix zero_matrix() const override { return scatter_.zero_matrix(); }
+  void set_initial_stress(const Points& u, const Material& material) override;
 
  private:
   Positions gather(const Points& x, std::size_t e) const {
@@ -147,6 +159,14 @@ class ElementsOf final : public WallElements {
     return mean.dot(s1 - s0);
   }
 
+  static Voigt mean_stress(const Element& element, const std::array<Voigt, Element::points>& strain,
+                           const WallLaw& law) {
+    Voigt sum = Voigt::Zero();
+    for (int q = 0; q < Element::points; ++q)
+      sum += element.weight(q) / element.volume() * stress(law.material, strain[static_cast<std::size_t>(q)]);
+    return sum;
+  }
+
   static Eigen::Matrix<double, samples, samples> viscous_tangent(const Element& element, double viscosity,
                                                                  double thickness_variation) {
     Eigen::Matrix<double, samples, samples> sum = Eigen::Matrix<double, samples, samples>::Zero();
@@ -174,10 +194,26 @@ class ElementsOf final : public WallElements {
 
   std::vector<Cell> cells_;
   std::vector<Element> elements_;
-  std::vector<Samples> reference_;  ///< products at the stress-free positions
-  std::vector<Samples> unit_;       ///< samples of unit strain there
+  std::vector<Samples> reference_;   ///< products at the stress-free positions
+  std::vector<Samples> unit_;        ///< samples of unit strain there
+  std::vector<Samples> initial_;     ///< initial stress, dual to the samples
+  std::vector<Voigt> initial_mean_;  ///< its mean over the element
+  std::vector<Positions> unstressed_;
   ScatterMap scatter_;
 };
+
+template <class Element>
+void ElementsOf<Element>::set_initial_stress(const Points& u, const Material& material) {
+  const Voigt66 C = stress_and_tangent(material, Voigt::Zero()).tangent;
+  const double lambda = C(0, 1), mu = C(3, 3), sum = lambda + mu;
+  const auto linear = saint_venant_kirchhoff.make(std::array{mu * (3 * lambda + 2 * mu) / sum, lambda / (2 * sum)});
+  const WallLaw law(*linear);
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    const Samples s = elements_[e].strains().rates(unstressed_[e]).transpose() * gather(u, e).reshaped();
+    initial_[e] = sample_stress(elements_[e], s, law);
+    initial_mean_[e] = mean_stress(elements_[e], PointStrains<Element>(elements_[e], s, law).strain, law);
+  }
+}
 
 /// sigma = F S F'/J at each quadrature point, averaged; F from U'U = C would lose the rotation, so F comes from the
 /// element's mean gradient. (S.13)
@@ -190,15 +226,10 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(cons
     const Positions local = gather(x, e);
     const PointStrains<Element> at(elements_[e], Samples(elements_[e].strains().products(local) - reference_[e]), law);
     const Mat3 f = elements_[e].mean_gradient(local);
-    Mat3 sum = Mat3::Zero();
-    for (int q = 0; q < Element::points; ++q) {
-      const Voigt s =
-          elements_[e].weight(q) / elements_[e].volume() * stress(law.material, at.strain[static_cast<std::size_t>(q)]);
-      Mat3 tensor;
-      tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-      sum += tensor;
-    }
-    const Mat3 sigma = f * sum * f.transpose() / f.determinant();
+    const Voigt s = initial_mean_[e] + mean_stress(elements_[e], at.strain, law);
+    Mat3 tensor;
+    tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    const Mat3 sigma = f * tensor * f.transpose() / f.determinant();
     result.col(static_cast<Eigen::Index>(e)) << sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2),
         sigma(0, 2);
   }

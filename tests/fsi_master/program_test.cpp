@@ -115,7 +115,7 @@ TEST_F(Program, WrongInputOfAPartnerIsTheUsersMessage) {
 TEST_F(Program, ACodeWithoutStateIsSimulatedButNotResumed) {
   const ChildEnd first = run("out", {}, "fluid.state=no");
   EXPECT_EQ(first.exit_code, 0) << first.errors;
-  EXPECT_NE(first.output.find("the fluid (fake fluid 1) announces no state"), std::string::npos) << first.output;
+  EXPECT_NE(first.output.find("fluid (fake fluid 1) announces no state"), std::string::npos) << first.output;
   const ChildEnd second = run("out", {"--resume", "--quiet"}, "fluid.state=no");
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_NE(second.errors.find("the fluid (fake fluid 1) announced no state"), std::string::npos) << second.errors;

@@ -1,0 +1,61 @@
+#include "solid/initial_stress.hpp"
+
+#include "common/linalg/cholesky.hpp"
+#include "common/mesh/surface.hpp"
+#include "solid/prestress.hpp"
+
+namespace tether {
+namespace {
+
+/// E h/((1 - nu^2) R^2) with the lumen's mean radius R [pressure/length]: the area of a tube moved along its normals by
+/// d grows by d/R.
+double inflation_stiffness(const WallMesh& mesh, const WallElements& wall, const Material& material) {
+  const double area = total_area(mesh.points, mesh.interface), thickness = wall.volume() / area, d = 1e-4 * thickness;
+  const Points moved = mesh.points + d * nodal_normals(mesh.points, mesh.interface);
+  const double curvature = (total_area(moved, mesh.interface) - area) / (d * area);
+  const Voigt66 C = stress_and_tangent(material, Voigt::Zero()).tangent;
+  return (C(0, 0) - C(0, 1) * C(0, 1) / C(0, 0)) * thickness * curvature * curvature;
+}
+
+/// matrix += k M_b, lumped.
+void add_tissue(const WallMesh& mesh, double k, SparseMatrix& matrix) {
+  for (const Patch& region : mesh.outside)
+    for (const Triangle& t : region.triangles) {
+      const double share = k * area_vector(mesh.points, t).norm() / 3;
+      for (int node : t)
+        for (int i = 0; i < 3; ++i) matrix.coeffRef(3 * node + i, 3 * node + i) += share;
+    }
+}
+
+double sum_of_magnitudes(const Points& forces) {
+  return forces.colwise().norm().sum();
+}
+
+}  // namespace
+
+InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure) {
+  constexpr int steps = 10;  // tension is then right to 2^-10
+  const auto wall = make_wall_elements(mesh, mesh.points);
+  VectorXd none = VectorXd::Zero(mesh.points.size());
+  SparseMatrix K = wall->zero_matrix();
+  wall->static_force(mesh.points, material, none, &K);
+  SparseMatrix damped = K;
+  add_tissue(mesh, inflation_stiffness(mesh, *wall, material), damped);
+  Cholesky factor;
+  factor.analyze(damped, 3);
+  factor.factor(damped);
+
+  const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
+  VectorXd u = VectorXd::Zero(load.size()), remaining = load;
+  for (int step = 0; step < steps; ++step) {
+    u += factor.solve(remaining);
+    remaining = load - K * u;
+  }
+  InitialStress result;
+  result.virtual_displacement = u.reshaped(3, mesh.points.cols());
+  result.held = -remaining.reshaped(3, mesh.points.cols());
+  result.held_share = sum_of_magnitudes(result.held) / sum_of_magnitudes(load.reshaped(3, mesh.points.cols()));
+  return result;
+}
+
+}  // namespace tether
