@@ -89,8 +89,8 @@ std::vector<std::string> notices_of(const std::vector<Partner*>& partners, bool 
     const protocol::Hello& hello = partner->hello();
     for (const std::string& notice : hello.notices) all.push_back(fmt::format("{}: {}", partner->role(), notice));
     if (!hello.has_state)
-      all.push_back(fmt::format("{} announces no state: this run cannot be resumed, nor used for identification",
-                                partner->role()));
+      all.push_back(fmt::format("{} ({}) announces no state: this run cannot be resumed, nor used for identification",
+                                partner->role(), hello.program));
   }
   if (!quiet)
     for (const std::string& notice : all) fmt::print("{}\n", notice);

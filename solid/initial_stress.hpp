@@ -6,12 +6,12 @@ namespace tether {
 
 /// What makes the imaged wall rest under the image's pressure.
 struct InitialStress {
-  Points virtual_displacement;  ///< the linear elastic displacement whose stress is the initial stress (S.13)
+  Points virtual_displacement;  ///< the linear elastic displacement whose stress is the initial stress (S.14)
   Points held;                  ///< forces of the surroundings on the wall's nodes, a dead load [force]
   double held_share = 0;        ///< sum of their magnitudes over that of the pressure's forces
 };
 
-/// The stress with which the imaged wall carries `pressure` (S.13): that of a linear elastic wall of this material,
+/// The stress with which the imaged wall carries `pressure` (S.14): that of a linear elastic wall of this material,
 /// displaced from the image by u, with free ends. A thin wall carries pressure by tension, hardly by bending; where its
 /// section is not round, tension is not enough, and bending alone would take stresses that no artery has (an ellipse of
 /// axes 10 % apart: several times the hoop stress). There the tissue around must take part. So u is found by damped

@@ -44,7 +44,7 @@ class WallElements {
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const = 0;
   virtual SparseMatrix zero_matrix() const = 0;
   /// From now on the elements carry, beside what the material answers to their strain, the stress of a linear elastic
-  /// wall of this material displaced by u from its reference (S.13); u: one column a node.
+  /// wall of this material displaced by u from its reference (S.14); u: one column a node.
   virtual void set_initial_stress(const Points& u, const Material& material) = 0;
 };
 
