@@ -18,7 +18,7 @@ using protocol::Bytes;
 /// At the beginning of each file; all members are 8 bytes.
 struct Header {
   std::array<char, 8> magic{'T', 'E', 'T', 'H', 'E', 'R', 'C', 'P'};
-  std::uint64_t version = 1;
+  std::uint64_t version = 2;
   std::uint64_t fingerprint = 0;
   std::int64_t step = 0;
   std::uint64_t size = 0, checksum = 0;  ///< of the bytes that follow
@@ -86,7 +86,8 @@ Checkpoint read_folder(const fs::path& folder) {
   c.step = master.header.step;
   c.fingerprint = master.header.fingerprint;
   std::vector<double> numbers;
-  unpack(master, c.snapshot.displacement, c.snapshot.velocity, c.snapshot.coupling, numbers, c.without_state);
+  unpack(master, c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method, c.snapshot.coupling, numbers,
+         c.without_state);
   auto next = numbers.begin();
   c.statistics.numbers([&](double& value) { value = next != numbers.end() ? *next++ : 0.0; });
   for (const auto& [name, state] :
@@ -111,7 +112,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   fs::remove_all(fresh);
   fs::create_directories(fresh);
   write_file(fresh / "master.bin", checkpoint,
-             packed(s.displacement, s.velocity, s.coupling, numbers, checkpoint.without_state));
+             packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state));
   write_file(fresh / "fluid.bin", checkpoint, packed(s.fluid));
   write_file(fresh / "solid.bin", checkpoint, packed(s.solid));
   flush_to_disk(fresh);

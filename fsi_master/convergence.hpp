@@ -13,6 +13,7 @@ class Convergence {
   Convergence(const CouplingOptions& options, const StepStart& start);
 
   bool may_continue() const;
+  bool is_reached() const { return result_.converged; }
   /// Notes an evaluation at V; true if it converged.
   bool reached(const VectorXd& V, const VectorXd& residual);
   void count_krylov(int iterations) { result_.krylov_iterations += iterations; }

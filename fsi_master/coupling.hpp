@@ -12,7 +12,7 @@ namespace tether {
 struct CouplingOptions {
   double tolerance = 1e-6;  ///< of the residual measure (C.3)
   int max_iterations = 30;  ///< evaluations a step
-  int reuse = 10;           ///< iqn_ils: earlier steps whose differences are kept
+  int reuse = 20;           ///< iqn_ils: earlier steps whose differences are kept
   double size = 1.0;        ///< of the vessel: a residual below 1e-12 of it a step is rest [length]
 };
 

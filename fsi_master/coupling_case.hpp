@@ -12,7 +12,7 @@ struct CouplingCase {
   };
   std::string method = "automatic", mapping = "match";
   double tolerance = 1e-6;
-  int max_iterations = 30, reuse = 10, halvings = 3;
+  int max_iterations = 30, reuse = 20, halvings = 3;
   std::optional<double> mapping_distance;
   Programs programs;
   void declare(Fields& f);

@@ -5,7 +5,7 @@ namespace {
 
 constexpr double relaxation =
     0.01;  // of the very first correction: with a heavy fluid x~ is far off, its direction is not
-constexpr double filter = 1e-3;
+constexpr double filter = 1e-2;
 
 }  // namespace
 
@@ -16,6 +16,7 @@ CouplingResult IqnIls::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd x = start.velocity, r_old, solved_old;
+  if (const VectorXd change = extrapolation_.begin(start.dt); change.size() > 0) x += change;
   if (start.dt != dt_) columns_.forget();  // the derivative of S depends on the step
   dt_ = start.dt;
   columns_.begin_step();
@@ -31,20 +32,28 @@ CouplingResult IqnIls::solve_step(const StepStart& start) {
     r_old = r;
     solved_old = solid.velocity;
   }
-  CouplingResult result = std::move(convergence).result(std::move(solid));
-  if (!result.converged) columns_.forget();
-  return result;
+  if (convergence.is_reached())
+    extrapolation_.end(solid.velocity - start.velocity);
+  else
+    columns_.forget();
+  return std::move(convergence).result(std::move(solid));
 }
 
 std::vector<double> IqnIls::memory() const {
   std::vector<double> values = columns_.packed();
+  const std::vector<double> guess = extrapolation_.packed();
+  values.insert(values.end(), guess.begin(), guess.end());
   values.push_back(dt_);
+  values.push_back(static_cast<double>(guess.size()));
   return values;
 }
 
 void IqnIls::set_memory(const std::vector<double>& values) {
-  columns_.unpack(values.data(), values.data() + values.size() - 1);
-  dt_ = values.back();
+  const double* end = values.data() + values.size() - 2;
+  const double* guess = end - static_cast<std::ptrdiff_t>(end[1]);
+  columns_.unpack(values.data(), guess);
+  extrapolation_.unpack(guess, end);
+  dt_ = end[0];
 }
 
 }  // namespace tether

@@ -2,6 +2,7 @@
 
 #include "fsi_master/convergence.hpp"
 #include "fsi_master/difference_columns.hpp"
+#include "fsi_master/extrapolation.hpp"
 
 namespace tether {
 
@@ -20,6 +21,7 @@ class IqnIls : public Coupling {
   SolidPartner& solid_;
   CouplingOptions options_;
   DifferenceColumns columns_;
+  Extrapolation extrapolation_;
   double dt_ = 0;  ///< of the steps that the columns come from
 };
 

@@ -15,8 +15,9 @@ NewtonKrylov::NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const Coupl
 CouplingResult NewtonKrylov::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   SolidPartner::Iterate solid;
-  VectorXd V = start.velocity, dV;
+  VectorXd V = start.velocity, dV = extrapolation_.begin(start.dt), change = dV;
   size_ = V.size();
+  if (dV.size() > 0) V += dV.head(size_);
   while (convergence.may_continue()) {
     solid = solid_.residual(dV, fluid_.load(start.motion(V)).get()).get();  // (C.4)
     if (!convergence.is_same(solid.motion.velocity, V)) {  // prescribed motion need not be the predicted one
@@ -29,8 +30,18 @@ CouplingResult NewtonKrylov::solve_step(const StepStart& start) {
     convergence.count_krylov(solved.iterations);
     dV = std::move(solved.dV);
     V += dV.head(size_);
+    change = change.size() > 0 ? change + dV : dV;
   }
+  if (convergence.is_reached()) extrapolation_.end(std::move(change));
   return std::move(convergence).result(std::move(solid.motion));
+}
+
+std::vector<double> NewtonKrylov::memory() const {
+  return extrapolation_.packed();
+}
+
+void NewtonKrylov::set_memory(const std::vector<double>& values) {
+  extrapolation_.unpack(values.data(), values.data() + values.size());
 }
 
 /// (J + R' A R) dV

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fsi_master/convergence.hpp"
+#include "fsi_master/extrapolation.hpp"
 
 namespace tether {
 
@@ -12,6 +13,8 @@ class NewtonKrylov : public Coupling {
   NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options);
   std::string name() const override { return "newton_krylov"; }
   CouplingResult solve_step(const StepStart& start) override;
+  std::vector<double> memory() const override;
+  void set_memory(const std::vector<double>& values) override;
 
  private:
   struct Correction {
@@ -24,7 +27,8 @@ class NewtonKrylov : public Coupling {
   FluidPartner& fluid_;
   SolidPartner& solid_;
   CouplingOptions options_;
-  Eigen::Index size_ = 0;  ///< of V on the interface
+  Extrapolation extrapolation_;  ///< of all unknowns of the solid
+  Eigen::Index size_ = 0;        ///< of V on the interface
 };
 
 }  // namespace tether

@@ -16,6 +16,7 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd V = start.velocity;
+  if (const VectorXd change = extrapolation_.begin(start.dt); change.size() > 0) V += change;
   while (convergence.may_continue()) {
     solid = solid_.motion(fluid_.load(start.motion(V)).get()).get();  // (C.2)
     const VectorXd residual = solid.velocity - V;
@@ -26,7 +27,16 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
     convergence.count_krylov(gmres(apply, residual, dV, target, most_iterations).iterations);
     V += dV;
   }
+  if (convergence.is_reached()) extrapolation_.end(V - start.velocity);
   return std::move(convergence).result(std::move(solid));
+}
+
+std::vector<double> NewtonTangents::memory() const {
+  return extrapolation_.packed();
+}
+
+void NewtonTangents::set_memory(const std::vector<double>& values) {
+  extrapolation_.unpack(values.data(), values.data() + values.size());
 }
 
 /// (1 - dS dF) dV

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fsi_master/convergence.hpp"
+#include "fsi_master/extrapolation.hpp"
 
 namespace tether {
 
@@ -12,6 +13,8 @@ class NewtonTangents : public Coupling {
   NewtonTangents(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options);
   std::string name() const override { return "newton_krylov"; }
   CouplingResult solve_step(const StepStart& start) override;
+  std::vector<double> memory() const override;
+  void set_memory(const std::vector<double>& values) override;
 
  private:
   VectorXd tangent_times(const VectorXd& dV);
@@ -19,6 +22,7 @@ class NewtonTangents : public Coupling {
   FluidPartner& fluid_;
   SolidPartner& solid_;
   CouplingOptions options_;
+  Extrapolation extrapolation_;
 };
 
 }  // namespace tether

@@ -29,7 +29,7 @@ struct StepStart {
   std::int64_t step = 0;  ///< its number, for messages to people
   double time = 0, dt = 0;
   VectorXd displacement;  ///< y0
-  VectorXd velocity;      ///< V0 = (y0 - y_-1)/dt of the last converged step: the first guess of V
+  VectorXd velocity;      ///< V0 = (y0 - y_-1)/dt of the last converged step
 
   VectorXd predicted() const { return displacement + dt * velocity; }  // (C.1)
   Motion motion(const VectorXd& V) const { return {displacement + dt * V, V}; }

@@ -89,7 +89,7 @@ std::string TimeLoop::explain(const CouplingResult& result, double time, double 
 }
 
 Snapshot TimeLoop::snapshot() {
-  Snapshot snapshot{{}, {}, packed(y_), packed(V_), coupling_.memory()};
+  Snapshot snapshot{{}, {}, packed(y_), packed(V_), coupling_.name(), coupling_.memory()};
   if (fluid_.has_state()) snapshot.fluid = fluid_.state().get();
   if (solid_.has_state()) snapshot.solid = solid_.state().get();
   return snapshot;
@@ -100,7 +100,7 @@ void TimeLoop::restore(const Snapshot& snapshot) {
   if (solid_.has_state()) solid_.set_state(snapshot.solid).get();
   y_ = unpacked(snapshot.displacement);
   V_ = unpacked(snapshot.velocity);
-  coupling_.set_memory(snapshot.coupling);
+  if (snapshot.method == coupling_.name()) coupling_.set_memory(snapshot.coupling);
 }
 
 }  // namespace tether

@@ -21,7 +21,8 @@ struct StepRecord {
 struct Snapshot {
   std::vector<double> fluid, solid;            ///< empty for a code that announces no state
   std::vector<double> displacement, velocity;  ///< y and (y - y_-1)/dt on the interface
-  std::vector<double> coupling;                ///< memory of the coupling method
+  std::string method;                          ///< the coupling method,
+  std::vector<double> coupling;                ///< and its memory
 };
 
 /// Advances fluid and solid together: prediction, coupling loop, acceptance; a step that fails is repeated in halves.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fsi_master/extrapolation.hpp"
 #include "tests/fsi_master/fakes.hpp"
 
 namespace tether {
@@ -162,12 +163,11 @@ TEST(MakeCoupling, ChoosesByWhatTheCodesAnnounce) {
   EXPECT_THROW(make_coupling("newton_krylov", fluid, solid, {}), InputError);
 }
 
-TEST(IqnIls, GoesOnFromItsMemoryBitForBit) {
+void expect_to_go_on_from_memory(const std::string& method) {
   const fake::Vessel vessel{.hardening = 2e4};
   fake::Fluid fluid(vessel);
   fake::Solid solid(vessel);
-  CouplingOptions options;
-  const auto first = make_coupling("iqn_ils", fluid, solid, options);
+  const auto first = make_coupling(method, fluid, solid, {}), second = make_coupling(method, fluid, solid, {});
   StepStart start{0, 0, dt, VectorXd::Zero(vessel.wet()), VectorXd::Zero(vessel.wet())};
   const auto step = [&](Coupling& coupling, bool accept) {
     fluid.begin_step(start).get();
@@ -179,11 +179,24 @@ TEST(IqnIls, GoesOnFromItsMemoryBitForBit) {
   };
   const Motion motion = step(*first, true).motion;
   start = {1, dt, dt, motion.displacement, motion.velocity};
-  const auto second = make_coupling("iqn_ils", fluid, solid, options);
   second->set_memory(first->memory());
   const CouplingResult a = step(*first, false), b = step(*second, false);
-  EXPECT_EQ(a.residuals, b.residuals);
-  EXPECT_EQ(a.motion.velocity, b.motion.velocity);
+  EXPECT_EQ(a.residuals, b.residuals) << method;
+  EXPECT_EQ(a.motion.velocity, b.motion.velocity) << method;
+}
+
+TEST(Coupling, GoesOnFromItsMemoryBitForBit) {
+  for (const char* method : {"newton_krylov", "iqn_ils"}) expect_to_go_on_from_memory(method);
+}
+
+TEST(Extrapolation, IsOfStepsOfOneSizeWithoutFailure) {
+  Extrapolation extrapolation;
+  EXPECT_EQ(extrapolation.begin(0.1).size(), 0);
+  extrapolation.end(VectorXd::Constant(3, 2));
+  EXPECT_EQ(extrapolation.begin(0.1), VectorXd::Constant(3, 2));
+  EXPECT_EQ(extrapolation.begin(0.1).size(), 0) << "the step before did not end";
+  extrapolation.end(VectorXd::Constant(3, 2));
+  EXPECT_EQ(extrapolation.begin(0.05).size(), 0);
 }
 
 }  // namespace
