@@ -40,8 +40,8 @@ protocol::Partner fluid_of(const WholeCase& all) {
 
 protocol::Partner solid_of(const WholeCase& all) {
   return protocol::in_process_partner<protocol::ToSolid>(
-      "solid", std::make_shared<SolidServer>(make_wall_model(all.solid, all.vessel().wall, all.file), all.file.units(),
-                                             "{}", ""));
+      "solid",
+      std::make_shared<SolidServer>(prepare_wall(all.solid, all.vessel().wall, all.file), all.file.units(), "{}", ""));
 }
 
 }  // namespace
