@@ -1,5 +1,6 @@
 // A manufactured solution of the Navier-Stokes equations in the unit box: v = curl of (0, f(x) f(y) h(z) g(t), 0), zero
 // on the walls and, with its first normal derivative, on the outlet z = 1; p = 0 there, dp/dn = 0 on the walls.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -90,8 +91,8 @@ class Manufactured : public ::testing::TestWithParam<double> {};
 /// on SUPG.
 TEST_P(Manufactured, IsOfSecondOrderInSpace) {
   const Outcome coarse = run(8, 1.0 / 64, 16, GetParam()), fine = run(16, 1.0 / 256, 64, GetParam());
-  report("manufactured_space", coarse.velocity_error, fine.velocity_error);
-  report("manufactured_space_pressure", coarse.pressure_error, fine.pressure_error);
+  report(fmt::format("manufactured_space_{}", GetParam()), coarse.velocity_error, fine.velocity_error);
+  report(fmt::format("manufactured_space_pressure_{}", GetParam()), coarse.pressure_error, fine.pressure_error);
   EXPECT_NEAR(order(coarse.velocity_error, fine.velocity_error), 2, 0.25);
   EXPECT_NEAR(order(coarse.pressure_error, fine.pressure_error), 2, 0.25);
   EXPECT_LT(fine.velocity_error, 0.02);
