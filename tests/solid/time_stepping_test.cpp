@@ -1,110 +1,15 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "solid/materials/registry.hpp"
 #include "solid/solid_solver.hpp"
+#include "tests/solid/inertia.hpp"
 #include "tests/solid/report.hpp"
 #include "tests/solid/tube.hpp"
 
-// Free vibration: frequencies of a beam and a ring, energy over many periods, orders in time.
+// A swinging beam: energy over many periods, dissipation, orders in time.
 namespace tether {
 namespace {
 
 constexpr double young = 1e6, density = 1.0, pi = std::numbers::pi;
-
-SparseMatrix stiffness_matrix(const WallMesh& mesh, const Material& material) {
-  const auto wall = make_wall_elements(mesh, mesh.points);
-  VectorXd force = VectorXd::Zero(mesh.points.size());
-  SparseMatrix tangent = wall->zero_matrix();
-  wall->static_force(mesh.points, material, force, &tangent);
-  return tangent;
-}
-
-VectorXd inertia(const WallElements& wall, const Points& rest, const Material& material, const VectorXd& acceleration) {
-  const Points a = acceleration.reshaped(3, rest.cols()), none = Points::Zero(3, rest.cols());
-  VectorXd force = VectorXd::Zero(rest.size());
-  wall.step_force({rest, none, a, 0.5, 1.0, false}, {&material, 0, density}, force, nullptr);
-  return force;
-}
-
-/// Lowest frequency [1/time] of the modes to which `shape` belongs, by inverse iteration.
-double lowest_frequency(const WallMesh& mesh, double poisson, const std::vector<int>& fixed, const Points& shape) {
-  const auto material = neo_hookean.make(std::array{young, poisson});
-  const auto wall = make_wall_elements(mesh, mesh.points);
-  SparseMatrix k = stiffness_matrix(mesh, *material);
-  constrain(k, fixed, k.coeff(0, 0));
-  Cholesky cholesky;
-  cholesky.analyze(k, 3);
-  cholesky.factor(k);
-  VectorXd mode = shape.reshaped();
-  double square = 0;
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    VectorXd load = inertia(*wall, mesh.points, *material, mode);
-    for (int unknown : fixed) load[unknown] = 0;
-    const VectorXd next = cholesky.solve(load);
-    square = next.dot(load) / next.dot(inertia(*wall, mesh.points, *material, next));
-    mode = next.normalized();
-  }
-  return std::sqrt(square) / (2 * pi);
-}
-
-constexpr double beam_length = 10, beam_height = 0.2;
-
-/// Bends about y; its width is two cells of `along` over the length.
-WallMesh beam(int along, int layers = 1) {
-  return plate({beam_length, 2 * beam_length / along, beam_height}, {along, 2}, layers);
-}
-
-/// First frequency of a cantilever: Euler and Bernoulli's, cos(b) cosh(b) = -1, with Timoshenko's correction (1921) to
-/// first order in (height/length)^2: rotary inertia and shear (Poisson's ratio 0, shear coefficient 5/6), both by the
-/// mode's int phi'^2 / int phi^2 = s b (2 + s b).
-double cantilever_frequency() {
-  const double b = 1.875104068711961, square = beam_height * beam_height / 12;
-  const double s = (std::sinh(b) - std::sin(b)) / (std::cosh(b) + std::cos(b)), slope = s * b * (2 + s * b);
-  const double thin = b * b / (2 * pi * beam_length * beam_length) * std::sqrt(young * square / density);
-  return thin * (1 - (1 + 2 / (5.0 / 6)) / 2 * slope * square / (beam_length * beam_length));
-}
-
-double beam_frequency_error(int along, ElementKind kind = ElementKind::prism) {
-  const WallMesh mesh = with_elements(beam(along), kind);
-  Points shape = Points::Zero(3, mesh.points.cols());
-  shape.row(2) = mesh.points.row(0).array().square();
-  return lowest_frequency(mesh, 0, unknowns_of(nodes_of(mesh.rings[0].triangles)), shape) / cantilever_frequency() - 1;
-}
-
-TEST(Cantilever, FirstFrequencyIsTimoshenkos) {
-  const double coarse = beam_frequency_error(12), middle = beam_frequency_error(24), fine = beam_frequency_error(48);
-  report("cantilever_frequency", std::array{12, 24, 48}, std::array{coarse, middle, fine});
-  EXPECT_LT(std::abs(coarse), 0.01);
-  EXPECT_NEAR(std::log2(coarse / middle), 2, 0.25);
-  EXPECT_LT(std::abs(fine), 1e-4) << "one layer carries its shear uniformly, not as a parabola: 3e-5";
-}
-
-/// Breathing of a thin ring in plane strain: omega^2 = E/((1 - nu^2) rho R^2), R of the middle surface.
-double breathing_error(int around, double poisson) {
-  const TubeMesh tube{around, 1, ElementKind::prism, 1.0 - 0.005, 0.01};
-  const WallMesh mesh = tube_slice(tube);
-  Points shape = mesh.points;
-  shape.row(2).setZero();
-  std::vector<int> fixed = plane_strain_supports(mesh);
-  const double exact = std::sqrt(young / ((1 - poisson * poisson) * density)) / (2 * pi);
-  const auto material = neo_hookean.make(std::array{young, poisson});
-  const auto wall = make_wall_elements(mesh, mesh.points);
-  // Rayleigh's quotient of the radial shape with the thickness free to follow: the stiffness is that of inflation.
-  const Points y = linear_response(mesh, *material, inertia(*wall, mesh.points, *material, shape.reshaped()), fixed);
-  const VectorXd load = inertia(*wall, mesh.points, *material, shape.reshaped());
-  const VectorXd back = inertia(*wall, mesh.points, *material, y.reshaped());
-  return std::sqrt(load.dot(y.reshaped()) / back.dot(y.reshaped())) / (2 * pi) / exact - 1;
-}
-
-TEST(Ring, BreathesAtItsFrequency) {
-  for (const double poisson : {0.3, 0.49}) {
-    const double coarse = breathing_error(24, poisson), fine = breathing_error(48, poisson);
-    report(fmt::format("ring_frequency_{}", poisson), std::array{24, 48}, std::array{coarse, fine});
-    EXPECT_LT(std::abs(coarse), 0.01);
-    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
-  }
-}
 
 /// A short beam bent by a tip force and let go.
 struct Swing {
@@ -140,7 +45,7 @@ struct Swing {
   }
   double energy() const {
     const VectorXd u = solver.velocity().reshaped();
-    const double kinetic = u.dot(inertia(model.elements(), mesh.points, model.material(), u)) / 2;
+    const double kinetic = u.dot(inertia(model.elements(), mesh.points, {&model.material(), 0, density}, u)) / 2;
     return kinetic + model.elements().energy(mesh.points + solver.displacement(), model.material());
   }
   double tip() const { return solver.displacement()(2, 8); }
