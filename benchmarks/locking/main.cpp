@@ -48,6 +48,16 @@ void elements() {
     }
 }
 
+void refinement() {
+  print_head("element, nodes around x layers");
+  for (const ElementKind kind : {ElementKind::prism, ElementKind::tetrahedron})
+    for (const int around : {24, 48, 96}) {
+      const TubeMesh tube{around, around / 12, kind};
+      print_row(name_of(kind) + (" " + std::to_string(around)) + " x " + std::to_string(tube.layers), tube,
+                tube_slice(tube));
+    }
+}
+
 void layers() {
   print_head("prism, 24 around, layers");
   for (const int count : {1, 2, 4, 8}) print_row(std::to_string(count), {24, count}, tube_slice({24, count}));
@@ -120,6 +130,7 @@ void cost() {
 
 int main() {
   tether::elements();
+  tether::refinement();
   tether::layers();
   tether::diagonals();
   tether::distortion();
