@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
+#include "tether/pictures.hpp"
 #include "tether/plots.hpp"
 #include "tether/programs.hpp"
 #include "tether/summary.hpp"
@@ -42,7 +43,9 @@ int simulate(const CommandLine& command) {
   if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
   if (const int code = run_in_foreground(coupled_run(command)); code != exit_done)
     return code == exit_input_wrong ? code : exit_run_failed;  // mpirun reports a process that was killed as 137
-  const auto plots = draw_plots(output, file.units());
+  auto plots = draw_plots(output, file.units());
+  const auto pictures = draw_pictures(output, file.units());
+  plots.insert(plots.begin(), pictures.begin(), pictures.end());
   if (!command.quiet) std::cout << summary_text(output) << where_to_look(output, plots);
   return exit_done;
 }

@@ -19,7 +19,7 @@ COMMON = {
     "common/observation": ["base", "case", "config", "io", "mesh"],
     "common/protocol": ["base", "config"],
 }
-PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "tether"]
+PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "pictures", "tether"]
 HEAVY = re.compile(r"(yaml-cpp/.*|CGAL/.*|vtk.*\.h|spdlog/.*|CLI/.*|nlohmann/.*|cholmod\.h)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/base/units.hpp"
+
+namespace tether {
+
+/// Draws the wall where its lumen moved farthest, coloured by its displacement, and the blood at its fastest, opened
+/// along the middle: OUTPUT/plots/wall.png, blood.png, from the files of the series that are nearest in time. Returns
+/// the names of the pictures; none if there is no display (xvfb-run is not installed) or no series.
+std::vector<std::string> draw_pictures(const std::filesystem::path& output, const UnitSystem& units);
+
+}  // namespace tether
