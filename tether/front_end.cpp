@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "tether/programs.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -39,10 +40,19 @@ Program program_of(const Verb& verb) {
   return program;
 }
 
+/// tether conform PROGRAM [ARGUMENTS]: whether a code of one's own keeps the contract of docs/protocol.md.
+int conform(int argc, char** argv) {
+  Command command{{sibling("tether_conform").string()}, {}};
+  command.words.insert(command.words.end(), argv, argv + argc);
+  return run_in_foreground(command);
+}
+
 std::string usage() {
   std::string text =
       "Fluid-structure models of vessels that agree with images.\n\nUsage: tether VERB CASE.yaml [options]\n\n";
   for (const auto& verb : verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.purpose);
+  text += fmt::format("  {:<10} {}\n", "conform",
+                      "check a fluid or solid program of one's own: tether conform PROGRAM [ARGUMENTS]");
   return text + "\ntether VERB --help lists the options of a verb.\n";
 }
 
@@ -50,6 +60,7 @@ std::string usage() {
 
 int front_end(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
+  if (word == "conform") return conform(argc - 2, argv + 2);
   const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.name == word; });
   if (verb != verbs.end()) return run_main(argc - 1, argv + 1, program_of(*verb));
   const bool asked = word == "--help" || word == "-h" || word == "help";
