@@ -43,6 +43,7 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
   RunPlan plan;
   plan.units = master.file.units();
   plan.start = common.time.start;
+  plan.image_pressure = common.image.pressure;
   plan.dt = common.time.step;
   plan.last_step = command.steps.value_or(common.time.steps());
   plan.write_every = common.output.write_every;
@@ -55,8 +56,8 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
 
 /// Without --resume nothing of an earlier run may be taken for this one's.
 void remove_old_results(const fs::path& output) {
-  for (const char* name : {"summary.json", "timeseries.csv", "fluid.pvd", "solid.pvd", "vtk", "checkpoint",
-                           "checkpoint.new", "checkpoint.previous"})
+  for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd", "vtk",
+                           "checkpoint", "checkpoint.new", "checkpoint.previous"})
     fs::remove_all(output / name);
 }
 

@@ -30,7 +30,8 @@ Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
       crew_(std::move(crew)),
       loop_(crew_.fluid, crew_.solid, crew_.coupling, flat(crew_.interface), halvings),
       followed_(nearest_nodes(plan_.points, crew_.interface)),
-      series_(plan_.output / "timeseries.csv", columns(), plan_.units) {}
+      series_(plan_.output / "timeseries.csv", columns(), plan_.units),
+      motion_(plan_.output / "lumen.motion", crew_.interface) {}
 
 void Simulation::run() {
   begin();
@@ -53,6 +54,8 @@ void Simulation::run() {
 void Simulation::begin() {
   if (!plan_.resume) {
     series_.start();
+    motion_.start();
+    motion_.append(plan_.start, displacement());
     return write_files(0);
   }
   const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
@@ -61,6 +64,7 @@ void Simulation::begin() {
   first_step_ = checkpoint.step;
   plan_.last_step = std::max(plan_.last_step, first_step_);
   series_.resume(checkpoint.step);
+  motion_.resume(checkpoint.step + 1);
 }
 
 void Simulation::advance(std::int64_t step) {
@@ -81,6 +85,7 @@ void Simulation::record(std::int64_t step, const StepRecord& record, double seco
   statistics_.wall_seconds += seconds;
   note_fluid(record.fluid);
   series_.append(row(step, record));
+  motion_.append(plan_.time_at(step), displacement());
   progress_->show({step, plan_.time_at(step), record.evaluations, pressure_now_, largest_displacement()});
 }
 
@@ -127,8 +132,12 @@ std::vector<double> Simulation::row(std::int64_t step, const StepRecord& record)
   return row;
 }
 
+Points Simulation::displacement() const {
+  return Eigen::Map<const Points>(loop_.displacement().data(), 3, crew_.interface.cols());
+}
+
 double Simulation::largest_displacement() const {
-  return Eigen::Map<const Points>(loop_.displacement().data(), 3, crew_.interface.cols()).colwise().norm().maxCoeff();
+  return displacement().colwise().norm().maxCoeff();
 }
 
 void Simulation::write_files(std::int64_t step) {

@@ -4,6 +4,7 @@
 
 #include "common/base/units.hpp"
 #include "common/config/fields.hpp"
+#include "common/io/lumen_motion.hpp"
 #include "common/protocol/messages.hpp"
 #include "fsi_master/checkpoint.hpp"
 #include "fsi_master/progress.hpp"
@@ -20,6 +21,7 @@ struct RunPlan {
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
   bool resume = false, quiet = false;
+  double image_pressure = 0;   ///< to which the run's pressures are relative
   Named<Vec3> points;  ///< their displacement is recorded
 
   double time_at(std::int64_t step) const { return start + static_cast<double>(step) * dt; }
@@ -65,6 +67,7 @@ class Simulation {
   void write_files(std::int64_t step);
   void save(std::int64_t step);
   Vec3 displacement_of(int node) const { return loop_.displacement().segment<3>(3 * node); }
+  Points displacement() const;
   double largest_displacement() const;
 
   RunPlan plan_;
@@ -72,6 +75,7 @@ class Simulation {
   TimeLoop loop_;
   std::vector<FollowedNode> followed_;
   TimeSeries series_;
+  LumenMotionWriter motion_;
   RunStatistics statistics_;
   Extent pressure_now_;
   std::int64_t first_step_ = 0;

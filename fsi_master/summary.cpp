@@ -12,13 +12,14 @@ Json mean_max(const MeanMax& m) {
   return {{"mean", m.mean()}, {"max", m.max}};
 }
 
-Json pressure_range(const Extent& pressure, const UnitSystem& units) {
+Json pressure_range(const Extent& pressure, double image_pressure, const UnitSystem& units) {
   if (pressure.empty()) return nullptr;
   return {{"min", pressure.min},
           {"max", pressure.max},
           {"unit", units.symbol(dimension::pressure)},
           {"min_mmHg", units.to_mmhg(pressure.min)},
-          {"max_mmHg", units.to_mmhg(pressure.max)}};
+          {"max_mmHg", units.to_mmhg(pressure.max)},
+          {"relative_to_mmHg", units.to_mmhg(image_pressure)}};
 }
 
 /// A number of each process, and their sum.
@@ -54,7 +55,7 @@ void add_results(Json& json, const Simulation& simulation) {
   json["krylov_iterations"] = mean_max(s.krylov_iterations);
   json["repeated_steps"] = s.repeated_steps;
   json["mass_balance_error_max"] = s.mass_balance_error;
-  json["pressure"] = pressure_range(s.pressure, units);
+  json["pressure"] = pressure_range(s.pressure, simulation.plan().image_pressure, units);
   json["max_displacement"] = s.max_displacement;
   json["max_displacement_mm"] = units.to_mm(s.max_displacement);
   for (const auto& point : simulation.followed())

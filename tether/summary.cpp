@@ -22,8 +22,11 @@ std::string cost(const Json& s) {
 std::string pressure(const Json& s) {
   const Json& p = s.at("pressure");
   if (p.is_null()) return "";
-  return fmt::format("  pressure       {:.1f} .. {:.1f} mmHg\n", p.at("min_mmHg").get<double>(),
-                     p.at("max_mmHg").get<double>());
+  const double image = p.value("relative_to_mmHg", 0.0);
+  return fmt::format(
+      "  pressure       {:.1f} .. {:.1f} mmHg{}\n", image + p.at("min_mmHg").get<double>(),
+      image + p.at("max_mmHg").get<double>(),
+      image == 0 ? "" : fmt::format(" ({:.1f} in the image, to which other figures are relative)", image));
 }
 
 std::string coupling(const Json& s) {
