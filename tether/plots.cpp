@@ -46,27 +46,34 @@ std::optional<std::string> label(const Plot& plot, const std::string& column) {
   return inner.empty() || inner == "." ? column : inner.substr(0, inner.find_last_not_of("._") + 1);
 }
 
-std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& units) {
+/// The table's pressures are relative to that of the image; the plots' are not.
+double offset(const Plot& plot, const UnitSystem& units, double image_pressure) {
+  return plot.dimension == dimension::pressure ? units.to_mmhg(image_pressure) : 0.0;
+}
+
+std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& units, double image_pressure) {
   const std::string unit = plot.dimension == dimension::none ? "" : units.symbol(plot.dimension);
   std::string lines;
   for (std::size_t i = 0; i < table.columns().size(); ++i) {
     const auto name = label(plot, table.columns()[i]);
     if (!name || table.units()[i] != unit) continue;
-    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{}) with lines linewidth 2 title '{}'",
-                         lines.empty() ? "plot " : ", \\\n     ", i + 1, factor(plot, units), *name);
+    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{} + {}) with lines linewidth 2 title '{}'",
+                         lines.empty() ? "plot " : ", \\\n     ", i + 1, factor(plot, units),
+                         offset(plot, units, image_pressure), *name);
   }
   return lines;
 }
 
 /// The whole script, and the pictures it draws.
-std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, const UnitSystem& units) {
+std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, const UnitSystem& units,
+                                                        double image_pressure) {
   std::string text =
       "# Run in the folder of timeseries.csv: gnuplot plots/plots.gp\n"
       "set terminal pngcairo noenhanced size 1000,600 font 'sans,12'\n"
       "set datafile separator ','\nset key outside right\nset grid\nset xlabel 'time [s]'\n";
   std::vector<std::string> pictures;
   for (const auto& plot : plots) {
-    const std::string lines = lines_of(plot, table, units);
+    const std::string lines = lines_of(plot, table, units, image_pressure);
     if (lines.empty()) continue;
     const std::string unit = *plot.unit ? fmt::format(" [{}]", plot.unit) : "";
     text += fmt::format("\nset output 'plots/{}'\nset title '{}'\nset ylabel '{}{}'\n{}\n", plot.file, plot.title,
@@ -82,9 +89,10 @@ bool has_gnuplot() {
 
 }  // namespace
 
-std::vector<std::string> draw_plots(const std::filesystem::path& output, const UnitSystem& units) {
+std::vector<std::string> draw_plots(const std::filesystem::path& output, const UnitSystem& units,
+                                    double image_pressure) {
   if (!has_gnuplot()) return {};
-  const auto [text, pictures] = script(CsvTable(output / "timeseries.csv"), units);
+  const auto [text, pictures] = script(CsvTable(output / "timeseries.csv"), units, image_pressure);
   std::filesystem::create_directories(output / "plots");
   std::ofstream(output / "plots" / "plots.gp") << text;
   const ChildEnd end = capture({{"sh", "-c", "cd \"$0\" && exec gnuplot plots/plots.gp", output.string()}, {}});

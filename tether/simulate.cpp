@@ -43,7 +43,7 @@ int simulate(const CommandLine& command) {
   if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
   if (const int code = run_in_foreground(coupled_run(command)); code != exit_done)
     return code == exit_input_wrong ? code : exit_run_failed;  // mpirun reports a process that was killed as 137
-  auto plots = draw_plots(output, file.units());
+  auto plots = draw_plots(output, file.units(), file.common().image.pressure);
   const auto pictures = draw_pictures(output, file.units());
   plots.insert(plots.begin(), pictures.begin(), pictures.end());
   if (!command.quiet) std::cout << summary_text(output) << where_to_look(output, plots);
