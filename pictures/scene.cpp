@@ -158,16 +158,16 @@ void add_lines(vtkRenderer* renderer, const std::filesystem::path& path) {
   renderer->AddActor(actor);
 }
 
-void add_scale(vtkRenderer* renderer, vtkColorTransferFunction* table, const std::string& title) {
+void add_scale(vtkRenderer* renderer, vtkColorTransferFunction* table, const Scene& scene) {
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(table);
-  bar->SetTitle(title.c_str());
+  bar->SetTitle(scene.title.c_str());
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.3g");
   bar->SetUnconstrainedFontSize(true);
   for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
     text->SetColor(0, 0, 0);
-    text->SetFontSize(20);
+    text->SetFontSize(scene.width / 75);
     text->ItalicOff();
     text->BoldOff();
     text->ShadowOff();
@@ -219,7 +219,7 @@ void draw(const Scene& scene, const std::filesystem::path& png) {
     renderer->SetViewport(edges[view], 0, edges[view + 1], 1);
     window->AddRenderer(renderer);
     if (view == 2) {
-      add_scale(renderer, table, scene.title);
+      add_scale(renderer, table, scene);
       continue;
     }
     const Vec3 toward_viewer = place.directions.col(2 - view);
