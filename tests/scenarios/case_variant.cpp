@@ -11,10 +11,11 @@ namespace fs = std::filesystem;
 
 fs::path case_variant(const fs::path& case_file, const fs::path& folder, const Edits& edits) {
   std::string text = content_of(case_file);
-  for (const auto& [old_piece, new_piece] : edits) {
-    const std::size_t place = text.find(old_piece);
-    if (place == std::string::npos) throw run_error("{}: holds no '{}'", case_file.string(), old_piece);
-    text.replace(place, old_piece.size(), new_piece);
+  for (const auto& [piece, replacement] : edits) {
+    std::size_t place = text.find(piece);
+    if (place == std::string::npos) throw run_error("{}: holds no '{}'", case_file.string(), piece);
+    for (; place != std::string::npos; place = text.find(piece, place + replacement.size()))
+      text.replace(place, piece.size(), replacement);
   }
   fs::remove_all(folder);
   fs::create_directories(folder.parent_path());

@@ -10,8 +10,8 @@ namespace tether {
 /// Pieces of text and what takes their place.
 using Edits = std::vector<std::pair<std::string, std::string>>;
 
-/// A copy of the folder of `case_file` as `folder`, with every piece of `edits` in the case file replaced. Returns the
-/// copy of the case file. Throws RunError if the case does not hold a piece.
+/// A copy of the folder of `case_file` as `folder`, with every occurrence of the pieces of `edits` in the case file
+/// replaced. Returns the copy of the case file. Throws RunError if the case does not hold a piece.
 std::filesystem::path case_variant(const std::filesystem::path& case_file, const std::filesystem::path& folder,
                                    const Edits& edits);
 

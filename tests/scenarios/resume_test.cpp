@@ -1,0 +1,101 @@
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <future>
+#include <thread>
+
+#include "common/base/child_process.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/case_variant.hpp"
+
+/// `tether simulate` with the real programs on a coarse configs/tube: stopped or killed, then resumed, it leaves the
+/// same files as a run that was never interrupted, byte for byte.
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int all_steps = 12;
+
+/// The process of a program that works on a case; 0 if there is none.
+pid_t process_of(const std::string& program, const fs::path& case_file) {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+    const std::string line{std::istreambuf_iterator<char>(file), {}};
+    const std::string executable = line.substr(0, line.find('\0'));
+    if (fs::path(executable).filename() == program && line.find(case_file.string()) != std::string::npos)
+      return std::stoi(entry.path().filename());
+  }
+  return 0;
+}
+
+class Resume : public testing::TestWithParam<const char*> {
+ protected:
+  Resume() {
+    case_file = case_variant(TETHER_SOURCE "/configs/tube/case.yaml", folder / "case",
+                             {{"around: 24", "around: 12"},
+                              {"along: 20", "along: 12"},
+                              {"write_every: 10", "write_every: 3"},
+                              {"checkpoint_every: 100", "checkpoint_every: 4"},
+                              {"coupling: {", std::string("coupling: {method: ") + GetParam() + ", "}});
+  }
+  ChildEnd simulate(const std::string& output, int steps, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> words{TETHER_PROGRAM,  "simulate", case_file.string(),    "--output",
+                                   folder / output, "--steps",  std::to_string(steps), "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    return capture({words, {}});
+  }
+  /// Runs until the table has `rows` rows, then kills a partner. Returns how the run ended.
+  ChildEnd simulate_and_kill(const std::string& program, const std::string& output, std::size_t rows) const {
+    auto end = std::async(std::launch::async, [&] { return simulate(output, 10000); });
+    while (rows_of(output) < rows && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
+    if (const pid_t process = process_of(program, case_file)) kill(process, SIGKILL);
+    return end.get();
+  }
+  std::size_t rows_of(const std::string& output) const {
+    std::ifstream table(folder / output / "timeseries.csv");
+    std::size_t lines = 0;
+    for (std::string line; std::getline(table, line);) ++lines;
+    return lines > 0 ? lines - 1 : 0;
+  }
+  nlohmann::json summary(const std::string& output) const {
+    return nlohmann::json::parse(content_of(folder / output / "summary.json"));
+  }
+  void expect_same_results(const std::string& one, const std::string& other) const {
+    for (const char* name : {"timeseries.csv", "fluid.pvd", "solid.pvd"})
+      EXPECT_EQ(content_of(folder / one / name), content_of(folder / other / name)) << name;
+    int compared = 0;
+    for (const auto& entry : fs::directory_iterator(folder / one / "vtk")) {
+      EXPECT_TRUE(content_of(entry.path()) == content_of(folder / other / "vtk" / entry.path().filename()))
+          << entry.path().filename();
+      ++compared;
+    }
+    EXPECT_EQ(compared, 2 * (1 + all_steps / 3));
+    for (const char* key : {"steps", "coupling_iterations", "krylov_iterations", "mass_balance_error_max", "pressure",
+                            "max_displacement"})
+      EXPECT_EQ(summary(one)[key], summary(other)[key]) << key;
+  }
+  TemporaryFolder folder;
+  fs::path case_file;
+};
+
+TEST_P(Resume, LeavesTheFilesOfARunThatWasNotInterrupted) {
+  ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
+
+  ASSERT_EQ(simulate("stopped", 6).exit_code, 0);
+  ASSERT_EQ(simulate("stopped", all_steps, {"--resume"}).exit_code, 0);
+  EXPECT_EQ(summary("stopped")["resumed_at_step"], 6);
+  expect_same_results("whole", "stopped");
+
+  const ChildEnd killed = simulate_and_kill("solid", "killed", 6);
+  EXPECT_EQ(killed.exit_code, 1);
+  EXPECT_NE(killed.errors.find("solid (pid"), std::string::npos) << killed.errors;
+  ASSERT_EQ(simulate("killed", all_steps, {"--resume"}).exit_code, 0);
+  EXPECT_GE(summary("killed")["resumed_at_step"], 4);
+  expect_same_results("whole", "killed");
+}
+
+INSTANTIATE_TEST_SUITE_P(Coupling, Resume, testing::Values("newton_krylov", "iqn_ils"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace tether
