@@ -3,7 +3,7 @@
 namespace tether {
 
 std::span<const Registered<Support>> supports() {
-  static const Registered<Support> all[] = {visco_elastic, normal_visco_elastic};
+  static const Registered<Support> all[] = {visco_elastic, normal_visco_elastic, tangential_visco_elastic};
   return all;
 }
 
