@@ -32,8 +32,9 @@ struct WholeCase {
 
 namespace {
 
-protocol::Partner fluid_of(const WholeCase& all) {
+protocol::Partner fluid_of(const WholeCase& all, const fluid::FluidSolver*& blood) {
   auto solver = std::make_unique<fluid::FluidSolver>(all.vessel().fluid, fluid::make_settings(all.fluid, all.file));
+  blood = solver.get();
   return protocol::in_process_partner<protocol::ToFluid>(
       "fluid", std::make_shared<fluid::FluidServer>(std::move(solver), all.file.units(), "{}", ""));
 }
@@ -51,7 +52,7 @@ CoupledVessel::CoupledVessel(const std::filesystem::path& case_file) : CoupledVe
 CoupledVessel::CoupledVessel(const WholeCase& all)
     : dt_(all.file.common().time.step),
       steps_of_case_(all.file.common().time.steps()),
-      fluid_process_(fluid_of(all)),
+      fluid_process_(fluid_of(all, blood_)),
       solid_process_(solid_of(all)),
       surface_(ask_interface(solid_process_)),
       solid_(solid_process_) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "fluid/fluid_solver.hpp"
 #include "fsi_master/message_partners.hpp"
 #include "fsi_master/time_loop.hpp"
 
@@ -32,6 +33,7 @@ class CoupledVessel {
   double tolerance() const { return options_.tolerance; }
   /// An observable of the last step, such as "outlet.flow".
   double of_fluid(const std::string& observable);
+  const fluid::FluidSolver& blood() const { return *blood_; }
   /// The interface: y (3 x nodes, reference positions x) and V of the last step.
   const Points& reference() const { return surface_.points; }
   Points displacement() const;
@@ -44,6 +46,7 @@ class CoupledVessel {
 
   double dt_ = 0;
   int steps_of_case_ = 0;
+  const fluid::FluidSolver* blood_ = nullptr;  // of the fluid's server
   protocol::Partner fluid_process_, solid_process_;
   InterfaceSurface surface_;
   MessageSolid solid_;
