@@ -92,6 +92,19 @@ std::vector<std::string> CsvTable::texts(std::string_view column) const {
   return values;
 }
 
+std::vector<double> CsvTable::quantities(std::string_view column, const UnitSystem& units, Dimension dimension,
+                                         const std::string& unit) const {
+  const std::string stated = unit.empty() ? this->unit(column) : unit;
+  std::vector<double> values = numbers(column);
+  try {
+    const double one = stated.empty() ? 1.0 : units.quantity("1 " + stated, dimension);
+    for (double& value : values) value *= one;
+  } catch (const InputError& error) {
+    throw input_error("{}: column '{}': {}", where(0), column, error.what());
+  }
+  return values;
+}
+
 std::vector<double> CsvTable::numbers(std::string_view column) const {
   std::vector<double> values;
   for (const auto& text : texts(column)) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/units.hpp"
+
 namespace tether {
 
 /// A comma-separated table whose first line names the columns: "time, flow [ml/s]". Lines that are empty or begin with
@@ -23,6 +25,10 @@ class CsvTable {
   std::string unit(std::string_view column) const;
   /// Throws InputError "file:line: ..." for a missing column or a cell that is not a finite number.
   std::vector<double> numbers(std::string_view column) const;
+  /// In the case's units. `unit`: of the column; empty: that of its heading, or the case's. Throws InputError also for
+  /// a unit that is unknown or of another dimension.
+  std::vector<double> quantities(std::string_view column, const UnitSystem& units, Dimension dimension,
+                                 const std::string& unit = {}) const;
   std::vector<std::string> texts(std::string_view column) const;
   /// "file:line" of a row, for messages about its values.
   std::string where(std::size_t row) const;

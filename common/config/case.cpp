@@ -19,7 +19,7 @@ constexpr std::array sections{
     TopLevelSection{"fluid", "the blood: flow, inlets, outlets"},
     TopLevelSection{"solid", "the wall: material, support, rings"},
     TopLevelSection{"coupling", "how fluid and wall are brought to agree"},
-    TopLevelSection{"observation", "measurements that the model is compared with"},
+    TopLevelSection{"observations", "measurements that the model is compared with"},
     TopLevelSection{"identification", "parameters to be found from measurements"},
     TopLevelSection{"diagnosis", "effects that may be missing from the model"},
     TopLevelSection{"output", "what is written, and how often"},

@@ -8,23 +8,6 @@
 namespace tether {
 namespace {
 
-struct Column {
-  std::string name, unit;  ///< unit: as the case states it, or empty
-  Dimension dimension;
-};
-
-std::vector<double> in_case_units(const CsvTable& table, const Column& column, const UnitSystem& units) {
-  const std::string unit = column.unit.empty() ? table.unit(column.name) : column.unit;
-  std::vector<double> values = table.numbers(column.name);
-  try {
-    const double one = unit.empty() ? 1.0 : units.quantity("1 " + unit, column.dimension);
-    for (double& value : values) value *= one;
-  } catch (const InputError& error) {
-    throw input_error("{}: column '{}': {}", table.where(0), column.name, error.what());
-  }
-  return values;
-}
-
 void check_times(const CsvTable& table, const std::vector<double>& times, double period) {
   for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] <= times[i - 1])
@@ -53,10 +36,15 @@ void CurveCase::declare(Fields& f) {
 Curve CurveCase::load(const UnitSystem& units) const {
   const CurveShape shape{period.value_or(0.0), ramp, scale};
   if (constant) return Curve({0.0}, {*constant}, {0.0, ramp, scale});
-  const CsvTable table(file);
-  auto times = in_case_units(table, {time, time_unit, dimension::time}, units);
-  check_times(table, times, shape.period);
-  return Curve(std::move(times), in_case_units(table, {value, value_unit, dimension}, units), shape);
+  Table rows = table(units);
+  return Curve(std::move(rows.times), std::move(rows.values), shape);
+}
+
+CurveCase::Table CurveCase::table(const UnitSystem& units) const {
+  const CsvTable csv(file);
+  std::vector<double> times = csv.quantities(time, units, dimension::time, time_unit);
+  check_times(csv, times, period.value_or(0.0));
+  return {std::move(times), csv.quantities(value, units, dimension, value_unit)};
 }
 
 }  // namespace tether

@@ -22,6 +22,11 @@ struct CurveCase {
   /// Reads the file, in the case's units: a column's unit is that of the case file, else the one in brackets in its
   /// heading, else the case's. Throws InputError "file:line: ...".
   Curve load(const UnitSystem& units) const;
+  /// The file's rows, without period, ramp and scale.
+  struct Table {
+    std::vector<double> times, values;
+  };
+  Table table(const UnitSystem& units) const;
 };
 
 }  // namespace tether

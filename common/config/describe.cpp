@@ -74,6 +74,11 @@ void Describe::numbers(Text name, std::vector<double>& values, const ListRule& r
   add(name, {"", kind, unit(rule.dimension), standard_of(held, need), rule_of(rule.range), "", {}, ""}, meaning);
 }
 
+void Describe::texts(Text name, std::vector<std::string>& values, Text meaning, Need need) {
+  const std::string held = values.empty() ? "" : fmt::format("[{}]", fmt::join(values, ", "));
+  add(name, {"", "list of words", "", standard_of(held, need), "", "", {}, ""}, meaning);
+}
+
 void Describe::check(bool, Text, Text) {}
 
 void Describe::go_into(Text name) {

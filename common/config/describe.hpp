@@ -25,6 +25,7 @@ class Describe : public Fields {
   void choice(Text name, std::string& value, std::span<const Word> words, Text meaning) override;
   void path(Text name, std::filesystem::path& value, Text meaning, Need need) override;
   void numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning, Need need) override;
+  void texts(Text name, std::vector<std::string>& values, Text meaning, Need need) override;
   void check(bool holds, Text field, Text rule) override;
 
  protected:

@@ -88,6 +88,10 @@ void Echo::numbers(Text name, std::vector<double>& values, const ListRule&, Text
   if (!values.empty()) tree_->section()[std::string(name)] = values;
 }
 
+void Echo::texts(Text name, std::vector<std::string>& values, Text, Need) {
+  if (!values.empty()) tree_->section()[std::string(name)] = values;
+}
+
 void Echo::check(bool, Text, Text) {}
 
 bool Echo::enter(Text name, Text) {

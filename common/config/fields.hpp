@@ -78,6 +78,8 @@ class Fields {
   virtual void path(Text name, std::filesystem::path& value, Text meaning, Need need = Need::optional) = 0;
   virtual void numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning,
                        Need need = Need::optional) = 0;
+  /// A list of words.
+  virtual void texts(Text name, std::vector<std::string>& values, Text meaning, Need need = Need::optional) = 0;
   /// Three coordinates; undefined ones must be given.
   void point(Text name, Vec3& value, Dimension dimension, Text meaning);
 

@@ -187,6 +187,21 @@ void Reader::numbers(Text name, std::vector<double>& values, const ListRule& rul
   if (read.size() == given) values = std::move(read);
 }
 
+void Reader::texts(Text name, std::vector<std::string>& values, Text meaning, Need need) {
+  const Field field{name, meaning, "", need == Need::required && values.empty()};
+  const YamlNode* node = find(field);
+  if (!node) return;
+  if (node->kind != YamlNode::Kind::list)
+    return wrong(field, node->line, described(node->kind), "must be a list of words");
+  std::vector<std::string> read;
+  for (const auto& item : node->items) {
+    if (item.kind != YamlNode::Kind::scalar || item.text.empty())
+      return wrong(field, item.line, described(item.kind), "must be a word");
+    read.push_back(item.text);
+  }
+  values = std::move(read);
+}
+
 void Reader::check(bool holds, Text field, Text rule) {
   Section& section = sections_.back();
   if (holds || section.failed || broken_condition()) return;

@@ -19,6 +19,7 @@ struct Blood {
   std::string label, motion = "elastic";
   std::filesystem::path file;
   std::vector<double> angles;
+  std::vector<std::string> masks;
   Vec3 axis{1, 0, 0};
   Named<Outlet> outlets;
   std::optional<Outlet> extra;
@@ -31,6 +32,7 @@ struct Blood {
     f.choice("motion", motion, {{"elastic", "as a solid"}, {"harmonic", "as a membrane"}}, "of the mesh");
     f.path("file", file, "a table");
     f.numbers("angles", angles, {2, dimension::none, {0, 360}}, "from and to");
+    f.texts("masks", masks, "parts");
     f.point("axis", axis, dimension::length, "direction");
     f.groups("outlets", outlets, "by name");
     f.group("extra", extra, "one more");
@@ -127,7 +129,7 @@ const Wrong wrong_cases[] = {
     {"fluid: {density: 1, densty: 2}\n", "case.yaml:6: fluid.densty: unknown field; did you mean 'density'?"},
     {"fluid: {density: 1, fax: 2}\n",
      "case.yaml:6: fluid.fax: unknown field; known here: density, factor, layers, moving, label, motion, file, angles, "
-     "axis, outlets, extra"},
+     "masks, axis, outlets, extra"},
     {"fluid: {density: 1, layers: 2.5}\n", "case.yaml:6: fluid.layers: 2.5: must be a whole number (thin layers)"},
     {"fluid: {density: 1, layers: 9}\n",
      "case.yaml:6: fluid.layers: 9: must be at least 1 and at most 8 (thin layers)"},
@@ -146,6 +148,9 @@ const Wrong wrong_cases[] = {
     {"fluid: {density: 1, angles: [1, [2]]}\n", "case.yaml:6: fluid.angles: a list: must be a number (from and to)"},
     {"fluid: {density: 1, angles: [1, 400]}\n",
      "case.yaml:6: fluid.angles: 400: must be at least 0 and at most 360 (from and to)"},
+    {"fluid: {density: 1, masks: spine}\n",
+     "case.yaml:6: fluid.masks: a single value: must be a list of words (parts)"},
+    {"fluid: {density: 1, masks: [spine, [a]]}\n", "case.yaml:6: fluid.masks: a list: must be a word (parts)"},
     {"fluid: {density: 1, outlets: {left: 3}}\n",
      "case.yaml:6: fluid.outlets.left: a single value: must be a section of named fields"},
     {"fluid:\n  density: 1\n  outlets:\n    left: {}\n",

@@ -13,6 +13,7 @@ struct Sample {
   std::string label = "a \"b\"";
   std::filesystem::path file = "/x/y.csv";
   std::vector<double> angles{0.1, 1e-20};
+  std::vector<std::string> masks{"spine", "no"};
   Named<Vec3> points{{"middle", {1, 2, 3}}};
   std::string kind = "warm";
   double heat = 4, chill = 5;
@@ -24,6 +25,7 @@ struct Sample {
     f.text("label", label, "");
     f.path("file", file, "");
     f.numbers("angles", angles, {}, "");
+    f.texts("masks", masks, "");
     f.points("points", points, dimension::length, "");
     f.choice("kind", kind, {{"warm", ""}, {"cold", ""}}, "");
     f.when("kind", kind, {"warm"}, [&] { f.number("heat", heat, dimension::none, range::any, ""); });
@@ -42,6 +44,7 @@ TEST(Echo, WritesWhatHoldsAndLeavesOutWhatIsAbsent) {
   label: "a \"b\""
   file: "/x/y.csv"
   angles: [0.1, 1e-20]
+  masks: ["spine", "no"]
   points:
     middle: [1, 2, 3]
   kind: "warm"
@@ -52,6 +55,7 @@ TEST(Echo, WritesWhatHoldsAndLeavesOutWhatIsAbsent) {
 TEST(Echo, ReadBackGivesTheSameNumbers) {
   Sample sample;
   sample.density = 0.1 + 0.2;
+  sample.masks = {"opposite"};
   sample.file = write_file("data.csv", "t\n");
   sample.period = 1.0 / 3.0;
   Echo echo;
@@ -65,6 +69,7 @@ TEST(Echo, ReadBackGivesTheSameNumbers) {
   EXPECT_EQ(again.period, sample.period);
   EXPECT_EQ(again.label, sample.label);
   EXPECT_EQ(again.angles, sample.angles);
+  EXPECT_EQ(again.masks, sample.masks);
   EXPECT_EQ(echo_json("fluid", again), echo.json());
 }
 
