@@ -27,10 +27,10 @@ std::string lower_case(std::string text) {
 
 MeshFile read_by_extension(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  if (extension == ".vtu" || extension == ".vtp" || extension == ".vtk") return read_vtk(path);
+  if (extension == ".vtu" || extension == ".vtp" || extension == ".vtk" || extension == ".ply") return read_vtk(path);
   if (extension == ".msh") return read_gmsh(path);
   if (extension == ".stl") return read_stl(path);
-  throw input_error("{}: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .msh or .stl", path.string());
+  throw input_error("{}: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh or .stl", path.string());
 }
 
 /// Programs disagree on which way a wedge's base looks: turn each so that its base looks toward its top.

@@ -4,6 +4,7 @@
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
+#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -44,6 +45,7 @@ Data read(const std::filesystem::path& path) {
   vtkObject::GlobalWarningDisplayOff();  // errors are reported by exceptions
   if (path.extension() == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path);
   if (path.extension() == ".vtp") return read_with<vtkXMLPolyDataReader>(path);
+  if (path.extension() == ".ply") return read_with<vtkPLYReader>(path);
   return read_legacy(path);
 }
 

@@ -143,7 +143,7 @@ const Mistake mistakes[] = {
      "inlets, outlets, probes"},
     {"UnknownSection", In::the_case, "solid:", "tissue: {}\nsolid:",
      "case.yaml:21: tissue: unknown section; known are name, title, units, time, image, mesh, fluid, solid, coupling, "
-     "observation, identification, diagnosis, output"},
+     "observations, identification, diagnosis, output"},
     {"MissingField", In::the_case, "  density: 1.06\n", "",
      "case.yaml:13: fluid.density: missing: must be given in g/cm3 (density of the blood)"},
     {"NegativeStiffness", In::the_case, "stiffness: 1e6", "stiffness: -3",
@@ -201,7 +201,7 @@ const Mistake mistakes[] = {
     {"CurveInWrongUnit", In::the_curve, "ml/s", "mmHg",
      "inflow.csv:2: column 'q': '1 mmHg': mmHg is no unit of this field, which is in cm3/s"},
     {"MeshIsNoMesh", In::mesh_in_files, "fluid: PEER/fluid/mesh.vtu", "fluid: PEER/README.md",
-     "README.md: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .msh or .stl"},
+     "README.md: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh or .stl"},
     {"MeshFileIsMissing", In::mesh_in_files, "fluid: PEER/fluid/mesh.vtu", "fluid: lumen.vtu",
      "case.yaml:7: mesh.files.fluid: lumen.vtu: no such file or folder: lumen.vtu (volume mesh of the lumen: .vtu, "
      ".vtk or .msh)"},
