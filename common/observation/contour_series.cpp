@@ -67,7 +67,6 @@ std::vector<CutStation> ContourSeries::stations(const Points& x, std::size_t t) 
 
 Sample ContourSeries::unobserved(std::size_t track, Exclusion why) const {
   Sample sample;
-  sample.source = settings_.number;
   sample.series = static_cast<int>(track);
   sample.excluded = why;
   return sample;

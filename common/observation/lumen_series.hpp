@@ -20,7 +20,6 @@ struct Noise {
 /// What all sources of lumen data have in common.
 struct SourceSettings {
   std::string name;
-  int number = 0;
   double period = 0;                                                ///< 0: not periodic [time]
   double time_tolerance = 0;                                        ///< FrameTimes [time]
   double trust_distance = std::numeric_limits<double>::infinity();  ///< farther data are none [length]

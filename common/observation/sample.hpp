@@ -22,7 +22,7 @@ struct Sample {
   double distance = 0;         ///< to the data, positive where they lie outside the model (O.1) [length]
   Vec3 normal{0, 0, 0};        ///< out of the lumen; in the slice's plane for a contour
   double weight = 0;           ///< area [length^2] or length [length] that the sample stands for; 0 if excluded
-  int source = 0, series = 0;  ///< number of the source, and of the surface series (0) or contour within it
+  int source = 0, series = 0;  ///< number of the source, and of the contour within it
   int region = -1;             ///< of the lumen's regions
   Exclusion excluded = Exclusion::none;
 };

@@ -40,7 +40,6 @@ Sample SurfaceSeries::sample_of_node(Eigen::Index node, const Vec3& x) const {
   sample.nodes.fill(static_cast<int>(node));
   sample.position = x;
   sample.weight = areas_[node];
-  sample.source = settings_.number;
   sample.region = settings_.region[i];
   if (settings_.of_node[i] != Exclusion::none) exclude(sample, settings_.of_node[i]);
   return sample;

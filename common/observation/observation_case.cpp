@@ -1,0 +1,93 @@
+#include "common/observation/observation_case.hpp"
+
+namespace tether {
+namespace {
+
+constexpr Word millimetre{"mm", "millimetre"}, centimetre{"cm", "centimetre"}, metre{"m", "metre"};
+
+}  // namespace
+
+void NoiseCase::declare(Fields& f) {
+  f.number("deviation", deviation, dimension, range::not_negative,
+           "standard deviation of a single value; 0: not known");
+  f.number("correlation_length", correlation_length, dimension::length, range::not_negative,
+           "distance along the wall within which errors are alike; 0: not known");
+  f.number("correlation_time", correlation_time, dimension::time, range::not_negative,
+           "time within which errors are alike; 0: not known");
+}
+
+void LumenDataCase::declare(Fields& f) {
+  f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");
+  f.number("trust_distance", trust_distance, dimension::length, range::positive,
+           "data farther than this from the model are no observation; absent: no limit");
+  f.texts("masked_regions", masked_regions, "regions of the wall behind which nothing is observed");
+  f.number("inlet_band", inlet_band, dimension::length, range::not_negative,
+           "nothing is observed within this distance of an inlet's rim");
+  f.number("outlet_band", outlet_band, dimension::length, range::not_negative,
+           "nothing is observed within this distance of an outlet's rim");
+  f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
+            "numbers of frames (from 0) that the model never sees: they judge it");
+  f.group("noise", noise, "errors of the distances");
+}
+
+void SurfacesCase::declare(Fields& f) {
+  f.path("file", file,
+         "a series: .pvd, or .csv with the columns file and time; or one surface (.vtp, .stl, .ply, .vtk)");
+  f.path("folder", folder, "of one surface a frame, instead of a file");
+  f.text("pattern", pattern, "of the names in that folder, sorted by the numbers in them: frame_*.stl");
+  f.number("first_time", first_time, dimension::time, range::any, "time of the first surface in the folder");
+  f.number("interval", interval, dimension::time, range::positive, "time between two surfaces of the folder");
+  f.choice("unit", unit, {millimetre, centimetre, metre}, "of the files' coordinates");
+  f.number("period", period, dimension::time, range::positive, "the series repeats after this time");
+  data.declare(f);
+  f.check(file.empty() != folder.empty(), "file", "give either a file or a folder with a pattern");
+  f.check(folder.empty() || !pattern.empty(), "pattern", "must be given with folder");
+  f.check(folder.empty() || (first_time && interval), "first_time", "must be given with folder, and interval too");
+}
+
+void SlicesCase::declare(Fields& f) {
+  f.path("file", file, "CSV file with the columns slice, frame, time, x, y, z, and contour and closed if needed",
+         Need::required);
+  f.texts("slices", slices, "names of the slices that are used; absent: all of the file");
+  f.choice("unit", unit, {{"heading", "stated as [mm] behind the columns' names"}, millimetre, centimetre, metre},
+           "of the file's coordinates");
+  f.number("beat", beat, dimension::time, range::positive,
+           "duration of a beat, if the file's times are fractions of it; the series then repeats after it");
+  f.number("period", period, dimension::time, range::positive, "the series repeats after this time");
+  f.check(!(beat && period), "period", "give either beat or period");
+  f.integer("samples", samples, {8, 10000}, "places around each contour at which distances are taken");
+  data.declare(f);
+}
+
+void TraceCase::declare(Fields& f) {
+  f.text("observable", observable, "column of timeseries.csv: fluid.outlet.pressure", Need::required);
+  f.choice("quantity", quantity,
+           {{"pressure", "in the blood"},
+            {"flow", "through an opening"},
+            {"length", "a displacement, a diameter"},
+            {"volume", "of the lumen"},
+            {"force", "of a support"}},
+           "what it is");
+  const std::vector<std::pair<std::string_view, Dimension>> dimensions{{"pressure", dimension::pressure},
+                                                                       {"flow", dimension::flow},
+                                                                       {"length", dimension::length},
+                                                                       {"volume", dimension::volume},
+                                                                       {"force", dimension::force}};
+  for (const auto& [word, of_word] : dimensions)
+    if (quantity == word) curve.dimension = noise.dimension = of_word;
+  f.group("curve", curve, "the measured values over time");
+  f.check(!curve.constant, "curve", "give a file: a constant is no measurement");
+  f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");
+  f.when("quantity", quantity, {"pressure"}, [&] {
+    f.flag("absolute", absolute, "the pressure of the image is subtracted, to which the run's pressures are relative");
+  });
+  f.group("noise", noise, "errors of the values");
+}
+
+void ObservationsCase::declare(Fields& f) {
+  f.groups("surfaces", surfaces, "segmented surfaces of the lumen, by name");
+  f.groups("contours", contours, "contours of the lumen in slices, by name");
+  f.groups("traces", traces, "measured pressures and flows, by name");
+}
+
+}  // namespace tether

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "common/config/curve_case.hpp"
+#include "common/config/fields.hpp"
+
+/// The section `observations` of a case: what was measured, and what is known of its errors.
+namespace tether {
+
+struct NoiseCase {
+  Dimension dimension = dimension::length;  ///< of the values; set by the owner
+  double deviation = 0, correlation_length = 0, correlation_time = 0;
+  void declare(Fields& f);
+};
+
+/// What sources of lumen data have in common: where on the wall and when they count, and their errors.
+struct LumenDataCase {
+  double time_shift = 0, inlet_band = 0, outlet_band = 0;
+  std::optional<double> trust_distance;
+  std::vector<std::string> masked_regions;
+  std::vector<double> held_out;
+  NoiseCase noise;
+  void declare(Fields& f);
+};
+
+/// Segmented surfaces over time.
+struct SurfacesCase {
+  std::filesystem::path file, folder;
+  std::string pattern, unit;
+  std::optional<double> first_time, interval, period;
+  LumenDataCase data;
+  void declare(Fields& f);
+};
+
+/// Contours in slices over time.
+struct SlicesCase {
+  std::filesystem::path file;
+  std::string unit = "heading";
+  std::vector<std::string> slices;
+  std::optional<double> beat, period;
+  int samples = 64;
+  LumenDataCase data;
+  void declare(Fields& f);
+};
+
+/// A measured pressure or flow.
+struct TraceCase {
+  std::string observable, quantity;
+  CurveCase curve = CurveCase(Dimension{});
+  double time_shift = 0;
+  bool absolute = true;
+  NoiseCase noise;
+  void declare(Fields& f);
+};
+
+struct ObservationsCase {
+  Named<SurfacesCase> surfaces;
+  Named<SlicesCase> contours;
+  Named<TraceCase> traces;
+  void declare(Fields& f);
+  bool has_lumen_data() const { return !surfaces.empty() || !contours.empty(); }
+};
+
+}  // namespace tether

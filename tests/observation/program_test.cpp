@@ -1,0 +1,103 @@
+// The real observation_manager, spawned by a master, on the measured slices of the descending aorta.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "common/base/child_process.hpp"
+#include "common/case/mesh_case.hpp"
+#include "common/observation/observations.hpp"
+#include "tests/protocol/run_job.hpp"
+
+namespace tether {
+namespace {
+
+const std::string case_file = "configs/descending_aorta/case.yaml";
+
+struct Vessel {
+  Vessel() : file(case_file) {
+    MeshCase mesh;
+    ObservationsCase given;
+    file.read("mesh", mesh);
+    file.read("observations", given);
+    lumen = lumen_of(load_mesh(mesh, file.units(), WallElement::prism));
+    data = load_observations(given, lumen, file);
+  }
+  CaseFile file;
+  LumenSurface lumen;
+  Observations data;
+};
+
+tests::JobResult ask(const std::vector<std::string>& words, const std::string& file = case_file) {
+  std::vector<std::string> command{tests::test_program("ask_observation"),
+                                   tests::product_program("observation_manager"), file};
+  command.insert(command.end(), words.begin(), words.end());
+  return tests::run_job(command);
+}
+
+TEST(ObservationManager, AnswersWhatTheLibrarySays) {
+  const Vessel vessel;
+  const tests::JobResult job = ask({"0.2"});
+  ASSERT_EQ(job.exit_code, 0) << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+  std::istringstream lines(job.output);
+  std::string first;
+  std::getline(lines, first);
+  EXPECT_EQ(first, "Tether observation_manager");
+  const std::vector<Sample> samples = vessel.data.observe(vessel.lumen.points, 0.2);
+  ASSERT_EQ(samples.size(), 3U * 64);
+  for (const Sample& sample : samples) {
+    double distance = 0, weight = 0;
+    int exclusion = 0;
+    lines >> distance >> weight >> exclusion;
+    EXPECT_EQ(distance, sample.distance);
+    EXPECT_EQ(weight, sample.weight);
+    EXPECT_EQ(exclusion, static_cast<int>(sample.excluded));
+  }
+}
+
+TEST(ObservationManager, NeedsSomethingToCompareWith) {
+  const tests::JobResult job = ask({"0.2"}, "configs/tube/case.yaml");
+  EXPECT_EQ(job.exit_code, 2);
+  EXPECT_EQ(
+      job.errors,
+      "ask_observation: solid_observation: configs/tube/case.yaml:1: observations: names no surfaces or contours to "
+      "compare the lumen with\n");
+}
+
+TEST(ObservationManager, RefusesAnotherLumen) {
+  const tests::JobResult job = ask({"0.2", "5"});
+  EXPECT_EQ(job.exit_code, 1);
+  EXPECT_NE(job.errors.find("the lumen has 15 numbers; its "), std::string::npos) << job.errors;
+}
+
+/// Root mean square of the distances at a time [mm].
+double root_mean_square(const Vessel& vessel, double time) {
+  const std::vector<Sample> samples = vessel.data.observe(vessel.lumen.points, time);
+  double weight = 0;
+  for (const Sample& s : samples) weight += s.weight;
+  EXPECT_EQ(count_exclusions(samples)[0], static_cast<int>(samples.size()));
+  return 10 * std::sqrt(misfit(samples) / weight);
+}
+
+TEST(DescendingAorta, LiesOnItsEndDiastolicContoursAndFillsByAMillimetre) {
+  const Vessel vessel;
+  const double rest = root_mean_square(vessel, 0.010);
+  EXPECT_LT(rest, 0.1);
+  const double peak = root_mean_square(vessel, 0.24);
+  std::printf("| model at rest against the measured slices, rms at 10 ms and 240 ms [mm] | %.3f %.3f |\n", rest, peak);
+  EXPECT_GT(peak, 1.0);
+  EXPECT_LT(peak, 3.0);
+  EXPECT_TRUE(vessel.data.notes().empty());
+}
+
+TEST(ObservationManager, ValidatesCasesWithAndWithoutMeasurements) {
+  const std::string program = tests::product_program("observation_manager");
+  const ChildEnd good = capture({{program, "--validate", case_file}, {}});
+  EXPECT_EQ(good.exit_code, 0) << good.errors;
+  const ChildEnd nothing = capture({{program, "--validate", "configs/tube/case.yaml"}, {}});
+  EXPECT_EQ(nothing.exit_code, 0) << nothing.errors;
+}
+
+}  // namespace
+}  // namespace tether
