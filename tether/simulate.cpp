@@ -19,19 +19,24 @@ void announce(const CaseFile& file, int steps, const std::filesystem::path& outp
             << std::flush;
 }
 
-}  // namespace
-
-void check_case(const CommandLine& command) {
-  if (!std::filesystem::exists(command.case_file)) throw input_error("{}: no such file", command.case_file.string());
-  const ChildEnd end =
-      capture({{sibling("fsi_master").string(), "--validate", "--quiet", command.case_file.string()}, {}});
+/// What a program has to say against the case. Throws InputError or RunError with its message.
+void check_with(const char* program, const CommandLine& command) {
+  const ChildEnd end = capture({{sibling(program).string(), "--validate", "--quiet", command.case_file.string()}, {}});
   const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
   if (end.exit_code == exit_input_wrong) throw InputError(message);
   if (end.exit_code != exit_done) throw RunError(message);
 }
 
+}  // namespace
+
+void check_case(const CommandLine& command) {
+  if (!std::filesystem::exists(command.case_file)) throw input_error("{}: no such file", command.case_file.string());
+  check_with("fsi_master", command);
+}
+
 int validate(const CommandLine& command) {
   check_case(command);
+  check_with("observation_manager", command);
   if (!command.quiet) std::cout << command.case_file.string() << ": valid\n";
   return exit_done;
 }

@@ -28,7 +28,11 @@ struct Echo {
     return {};
   }
   Ready operator()(const Stop&) { return {}; }
-  Discrepancy operator()(const Observe& m) { return {m.points, {}, {}}; }
+  Discrepancy operator()(const Observe& m) {
+    Discrepancy reply;
+    reply.distances = m.points;
+    return reply;
+  }
 };
 
 /// Median time of one question and answer with `numbers` doubles both ways [s].

@@ -120,7 +120,13 @@ struct FromArrays {
   const tether_array* arrays;
   template <class... Fields>
   void operator()(Fields&... fields) {
-    ((fields = array(arrays->data, arrays->size), ++arrays), ...);
+    (take(fields), ...);
+  }
+  template <class Number>
+  void take(std::vector<Number>& field) {
+    const std::vector<double> values = array(arrays->data, arrays->size);
+    field.assign(values.begin(), values.end());
+    ++arrays;
   }
 };
 

@@ -112,9 +112,16 @@ struct Unknowns {
   std::vector<double> values;
   TETHER_MESSAGE(Unknowns, values)
 };
+/// How far the data are from the surface, at places of it (samples), always as many and in the same order.
 struct Discrepancy {
-  std::vector<double> distances, normals, weights;
-  TETHER_MESSAGE(Discrepancy, distances, normals, weights)
+  std::vector<double> distances;         ///< positive where the data lie outside
+  std::vector<double> normals;           ///< three a sample: distance times normal leads from the model to the data
+  std::vector<double> weights;           ///< area or length that a sample stands for; 0: no observation
+  std::vector<std::int64_t> nodes;       ///< three a sample, which may be the same: the place is the sum of
+  std::vector<double> shares;            ///< three a sample, times the nodes' positions
+  std::vector<std::int64_t> sources;     ///< which data
+  std::vector<std::int64_t> exclusions;  ///< why there is no observation; 0: there is one
+  TETHER_MESSAGE(Discrepancy, distances, normals, weights, nodes, shares, sources, exclusions)
 };
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
@@ -242,7 +249,7 @@ struct SolidPrecondition {
 
 // ---- master -> observation_manager ----------------------------------------------------------------------------------
 
-/// The moving surface at a time.
+/// The moving surface at a time: positions of the interface's nodes.
 struct Observe {
   using Reply = Discrepancy;
   double time = 0;

@@ -73,7 +73,7 @@ typedef enum {
   TETHER_SOLID_RESIDUAL = 13,      /* values (correction), load             reply: residual, displacement, velocity */
   TETHER_SOLID_PRODUCT = 14,       /* values (direction)                           reply: product */
   TETHER_SOLID_PRECONDITION = 15,  /* values (residual)                            reply: correction */
-  TETHER_OBSERVE = 16              /* time, values (points)                        reply: distances, normals, weights */
+  TETHER_OBSERVE = 16              /* time, values (points)                        reply: the seven arrays of Discrepancy */
 } tether_kind;
 
 typedef struct {

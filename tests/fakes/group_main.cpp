@@ -23,7 +23,9 @@ struct Group {
     const Motion motion = partners[1].ask(SolidEvaluate{load.forces});
     for (Partner& partner : partners) partner.ask(EndStep{true});
     ++step;
-    return {motion.displacement, {}, {}};
+    Discrepancy reply;
+    reply.distances = motion.displacement;
+    return reply;
   }
 };
 

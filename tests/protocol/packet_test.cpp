@@ -28,6 +28,15 @@ TEST(Packet, Goes_there_and_back_with_nested_fields) {
   EXPECT_EQ(copy.observables.at(0).name, "outlet.flow");
 }
 
+TEST(Packet, Carries_samples) {
+  const Discrepancy sent{{0.1}, {0, 0, 1}, {2.5}, {4, 5, 5}, {0.25, 0.75, 0}, {1}, {0}};
+  const auto copy = unpack<Discrepancy>(pack(sent));
+  EXPECT_EQ(copy.distances, sent.distances);
+  EXPECT_EQ(copy.nodes, sent.nodes);
+  EXPECT_EQ(copy.shares, sent.shares);
+  EXPECT_EQ(copy.exclusions, sent.exclusions);
+}
+
 TEST(Packet, Has_the_documented_bytes) {
   const Packet packet = pack(Failure{"no", true});
   EXPECT_EQ(packet.kind, 3);

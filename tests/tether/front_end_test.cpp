@@ -41,7 +41,7 @@ class FrontEnd : public testing::Test {
     fs::create_directories(folder_);
     fs::copy_file(TETHER_PROGRAM, folder_ / "tether");
     std::ofstream(folder_ / "case.yaml") << "name: tube\ntitle: A tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
-    for (const char* name : {"fluid", "solid", "fsi_master"}) program(name, finished_run);
+    for (const char* name : {"fluid", "solid", "fsi_master", "observation_manager"}) program(name, finished_run);
   }
   void program(const std::string& name, const std::string& script) {
     std::ofstream(folder_ / name) << "#!/bin/sh\n" << script;
@@ -92,6 +92,14 @@ TEST_F(FrontEnd, DoesNotStartAWrongCase) {
   }
   EXPECT_FALSE(fs::exists(folder_ / "started"));
   EXPECT_EQ(tether("simulate none.yaml").errors, "none.yaml: no such file\n");
+}
+
+TEST_F(FrontEnd, ValidatesTheMeasurementsToo) {
+  program("observation_manager", "echo 'ct.stl: holds no triangles' >&2; exit 2");
+  const ChildEnd end = tether("validate case.yaml");
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors, "ct.stl: holds no triangles\n");
+  EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "a simulation needs no measurement";
 }
 
 TEST_F(FrontEnd, ReturnsTheCodeOfARunThatFails) {

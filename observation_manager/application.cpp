@@ -1,0 +1,72 @@
+#include "observation_manager/application.hpp"
+
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "common/base/process.hpp"
+#include "common/case/mesh_case.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/echo.hpp"
+#include "common/protocol/run.hpp"
+#include "observation_manager/server.hpp"
+
+namespace tether {
+namespace {
+
+/// A case file and the sections of it that observation needs.
+struct ObservedCase {
+  explicit ObservedCase(const std::filesystem::path& path) : file(path) {
+    file.read("mesh", mesh);
+    file.read("observations", observations);
+    file.finish();
+  }
+  LumenSurface lumen() const { return lumen_of(load_mesh(mesh, file.units(), WallElement::prism)); }
+  CaseFile file;
+  MeshCase mesh;
+  ObservationsCase observations;
+};
+
+std::string effective_section(ObservedCase& observed) {
+  return echo_json("observations", observed.observations);
+}
+
+int run(const CommandLine& command) {
+  return protocol::run_partner<protocol::ToObservation>("solid_observation", [&command](const protocol::Welcome&) {
+    ObservedCase observed(command.case_file);
+    if (!observed.observations.has_lumen_data())
+      throw input_error("{}: names no surfaces or contours to compare the lumen with",
+                        observed.file.where("observations"));
+    const LumenSurface lumen = observed.lumen();
+    return ObservationServer(load_observations(observed.observations, lumen, observed.file), lumen.points.cols(),
+                             effective_section(observed));
+  });
+}
+
+void validate(const CommandLine& command) {
+  const ObservedCase observed(command.case_file);
+  const Observations observations = load_observations(observed.observations, observed.lumen(), observed.file);
+  if (command.quiet) return;
+  for (const std::string& note : observations.notes()) std::cout << note << "\n";
+}
+
+}  // namespace
+
+Program observation_program() {
+  prepare_process();
+  return {
+      .name = "observation_manager",
+      .purpose =
+          "The measurements of a case: how far the moving lumen is from segmented surfaces and contours. Started by "
+          "a master.",
+      .declare =
+          [](Fields& fields) {
+            MeshCase mesh;
+            ObservationsCase observations;
+            fields.group("mesh", mesh, meaning_of_section("mesh"));
+            fields.group("observations", observations, meaning_of_section("observations"));
+          },
+      .validate = validate,
+      .run = run};
+}
+
+}  // namespace tether
