@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""From the contours of all frames of a beat (columns section, frame, time, point, x, y, z) those of each section's smallest area, that is end of
+"""From the contours of all frames of a beat (columns slice, frame, time, x, y, z) those of each slice's smallest area, that is end of
 diastole, as `mesh.swept.contours` reads them; and the way in which the lumen moves as it fills, which points away from the spine.
 
-Usage: end_diastolic_contours.py MEASURED.csv CONTOURS.csv"""
+Usage: end_diastolic_contours.py SLICES.csv CONTOURS.csv SLICE..."""
 
 import csv
 import math
@@ -33,19 +33,20 @@ def area(points):
     return math.sqrt(dot(total, total))
 
 
-def read(path):
-    """section -> frame -> points, in the order of the file."""
+def read(path, wanted):
+    """slice -> frame -> points, in the order of the file."""
     sections = {}
     with open(path, encoding="utf-8") as file:
         for row in csv.DictReader(line for line in file if not line.startswith("#")):
-            frame = sections.setdefault(row["section"], {}).setdefault(int(row["frame"]), [])
-            frame.append([float(row[axis]) for axis in "xyz"])
+            if row["slice"] in wanted:
+                frame = sections.setdefault(row["slice"], {}).setdefault(int(row["frame"]), [])
+                frame.append([float(row[f"{axis} [mm]"]) for axis in "xyz"])
     return sections
 
 
 def main():
-    measured, result = sys.argv[1:]
-    sections = read(measured)
+    measured, result, *wanted = sys.argv[1:]
+    sections = read(measured, wanted)
     smallest = {name: min(frames, key=lambda f, frames=frames: area(frames[f])) for name, frames in sections.items()}
     largest = {name: max(frames, key=lambda f, frames=frames: area(frames[f])) for name, frames in sections.items()}
     with open(result, "w", encoding="utf-8") as file:

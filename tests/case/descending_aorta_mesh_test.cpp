@@ -90,9 +90,8 @@ TEST(DescendingAorta, EndsAreFlatAndAcrossTheAxis) {
   EXPECT_NEAR(total_area_vector(vessel().wall.points, ring).norm(), total_area(vessel().wall.points, ring), 1e-9);
 }
 
-TEST(DescendingAorta, AllFramesAreKeptForComparison) {
+TEST(DescendingAorta, IsMadeFromThreeSlices) {
   EXPECT_EQ(read_contours(folder + "contours.csv").size(), 3u);
-  for (const Points& contour : read_contours(folder + "measured_contours.csv")) EXPECT_EQ(contour.cols(), 25 * 72);
 }
 
 }  // namespace
