@@ -25,13 +25,14 @@ struct ElasticTube {
     return std::sqrt(a / (2 * rho * (compliance() + (tether > 0 ? 0 : poisson_part()))));
   }
 
-  /// k at omega, by fixed-point iteration. The speed is omega / Re k, the damping per length - Im k.
-  Complex wave_number(double omega) const {
-    const Complex F = shear_share(omega);
-    Complex k = omega / long_wave_speed();
-    for (int i = 0; i < 200; ++i)
-      k = std::sqrt((2 * omega / a * radial(k, omega) - I * omega * k * F * axial(k, omega)) * rho * omega *
-                    radial_inertia(k) / (1.0 - F));
+  /// k at omega, by Newton's method from a guess. The speed is omega / Re k, the damping per length - Im k.
+  Complex wave_number(double omega) const { return wave_number(omega, omega / long_wave_speed()); }
+  Complex wave_number(double omega, Complex guess) const {
+    Complex k = guess;
+    for (int i = 0; i < 30; ++i) {
+      const Complex step = 1e-6 * k;
+      k -= step * defect(k, omega) / (defect(k + step, omega) - defect(k, omega));
+    }
     return k;
   }
   /// Radial displacement of the inner surface over the pressure on it.
@@ -51,6 +52,12 @@ struct ElasticTube {
  private:
   static constexpr Complex I{0, 1};
 
+  /// Of the balance of mass, k mean velocity = 2 omega / a radial displacement, over the pressure.
+  Complex defect(Complex k, double omega) const {
+    const Complex F = shear_share(omega);
+    return k * (k / (rho * omega) * (1.0 - F) / radial_inertia(k) + I * omega * F * axial(k, omega)) -
+           2 * omega / a * radial(k, omega);
+  }
   double section() const { return std::numbers::pi * h * (2 * a + h); }
   /// Radial displacement over pressure (Lame) without axial strain,
   double compliance() const {
@@ -75,10 +82,10 @@ struct ElasticTube {
     if (std::abs(z) > 12) return 2.0 / z * (I + 0.5 / z);  // asymptotic
     return 2.0 / z * fluid::testing::bessel_j(1, z) / fluid::testing::bessel_j(0, z);
   }
-  /// (k a / 2) I_0(k a) / I_1(k a): pressure on the wall over the mean one, to fourth order.
+  /// (k a / 2) I_0(k a) / I_1(k a): pressure on the wall over the mean one.
   Complex radial_inertia(Complex k) const {
-    const Complex q = k * k * a * a;
-    return 1.0 + q / 8.0 - q * q / 192.0;
+    const Complex z = I * k * a;  // J_0(i x) = I_0(x), J_1(i x) = i I_1(x)
+    return z / 2.0 * fluid::testing::bessel_j(0, z) / fluid::testing::bessel_j(1, z);
   }
 };
 
