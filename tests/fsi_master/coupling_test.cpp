@@ -199,5 +199,20 @@ TEST(Extrapolation, IsOfStepsOfOneSizeWithoutFailure) {
   EXPECT_EQ(extrapolation.begin(0.05).size(), 0);
 }
 
+TEST(Extrapolation, TakesLessOfAChangeThatRings) {
+  Extrapolation extrapolation;
+  const auto after = [&](double first, double second) {
+    extrapolation.begin(0.1);
+    extrapolation.begin(0.1);
+    extrapolation.end(VectorXd::Constant(3, first));
+    extrapolation.begin(0.1);
+    extrapolation.end(VectorXd::Constant(3, second));
+    return extrapolation.begin(0.1)[0];
+  };
+  EXPECT_DOUBLE_EQ(after(2, 4), 4);
+  EXPECT_DOUBLE_EQ(after(2, 1.5), 0.75);
+  EXPECT_DOUBLE_EQ(after(2, -2), 0);
+}
+
 }  // namespace
 }  // namespace tether
