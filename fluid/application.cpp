@@ -36,7 +36,7 @@ std::string effective_sections(BloodCase& blood) {
 }
 
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToFluid>("fluid", [&command](const protocol::Welcome& welcome) {
+  return protocol::run_partner<protocol::ToObservedFluid>("fluid", [&command](const protocol::Welcome& welcome) {
     BloodCase blood(command.case_file);
     auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file));
     return FluidServer(std::move(solver), blood.file.units(), effective_sections(blood), welcome.output);

@@ -50,6 +50,10 @@ class FluidSolver {
   /// Forgets the step begun.
   void rewind() { begun_ = evaluated_ = false; }
 
+  /// Between two steps: Sigma, and the mesh with it, has moved by this, the fields with the nodes; nothing has flowed
+  /// (F.15). Throws RunError if the mesh would fold; nothing has changed then.
+  void move_interface(const Points& change);
+
   /// Everything needed to continue, bit for bit.
   VectorXd state() const;
   void set_state(const VectorXd& values);

@@ -54,6 +54,16 @@ void FluidSolver::set_state(const VectorXd& values) {
   rewind();
 }
 
+void FluidSolver::move_interface(const Points& change) {
+  Accepted moved = accepted_;
+  moved.on_sigma += change;
+  domain_.place(domain_.extend(moved.on_sigma));
+  moved.volume += domain_.volume(moved.on_sigma) - domain_.volume(accepted_.on_sigma);
+  derive(moved);
+  accepted_ = std::move(moved);
+  rewind();
+}
+
 /// The fields that the state need not carry.
 void FluidSolver::derive(Accepted& state) const {
   state.displacement = domain_.extend(state.on_sigma);

@@ -22,7 +22,7 @@ FluidServer::FluidServer(std::unique_ptr<FluidSolver> solver, const UnitSystem& 
 protocol::Hello FluidServer::hello() const {
   protocol::Hello hello;
   hello.program = "Tether fluid";
-  hello.has_tangent = hello.has_state = true;
+  hello.has_tangent = hello.has_state = hello.has_observer = true;
   hello.state_size = solver_->state().size();
   hello.unknowns = 4 * solver_->domain().node_count();
   hello.effective_case = effective_case_;
@@ -83,6 +83,11 @@ protocol::Load FluidServer::operator()(const protocol::FluidEvaluate& m) {
 
 protocol::Load FluidServer::operator()(const protocol::FluidTangent& m) {
   return {as_list(solver_->tangent(interface_points(m.velocity_change, "change of velocity")))};
+}
+
+protocol::Ready FluidServer::operator()(const protocol::MoveInterface& m) {
+  solver_->move_interface(interface_points(m.displacement, "change of the displacement"));
+  return {};
 }
 
 Points FluidServer::interface_points(const std::vector<double>& values, const char* what) const {

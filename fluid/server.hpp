@@ -28,6 +28,7 @@ class FluidServer {
   protocol::Ready operator()(const protocol::Stop&) { return {}; }
   protocol::Load operator()(const protocol::FluidEvaluate& m);
   protocol::Load operator()(const protocol::FluidTangent& m);
+  protocol::Ready operator()(const protocol::MoveInterface& m);
 
  private:
   Points interface_points(const std::vector<double>& values, const char* what) const;

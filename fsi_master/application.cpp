@@ -84,14 +84,14 @@ void check_points(const Simulation& simulation, const CaseFile& file, double siz
 }
 
 /// What a person should know before the run: in summary.json, and printed unless quiet.
-std::vector<std::string> notices_of(const std::vector<Partner*>& partners, bool quiet) {
+std::vector<std::string> notices_of(std::span<Partner> partners, bool quiet) {
   std::vector<std::string> all;
-  for (Partner* partner : partners) {
-    const protocol::Hello& hello = partner->hello();
-    for (const std::string& notice : hello.notices) all.push_back(fmt::format("{}: {}", partner->role(), notice));
-    if (!hello.has_state)
+  for (Partner& partner : partners) {
+    const protocol::Hello& hello = partner.hello();
+    for (const std::string& notice : hello.notices) all.push_back(fmt::format("{}: {}", partner.role(), notice));
+    if (!hello.has_state && partner.role() != "solid_observation")
       all.push_back(fmt::format("{} ({}) announces no state: this run cannot be resumed, nor used for identification",
-                                partner->role(), hello.program));
+                                partner.role(), hello.program));
   }
   if (!quiet)
     for (const std::string& notice : all) fmt::print("{}\n", notice);
@@ -106,14 +106,24 @@ std::vector<ProcessCost> costs(Crew& crew, const std::vector<Partner*>& partners
           {"solid", solid.program, solid.unknowns, crew.solid.usage().get()}};
 }
 
-void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner& solid_process) {
+/// Throws InputError if the case asks for a state observer, and a code has none.
+std::unique_ptr<Observer> make_observer(const ObserverCase& observer, ObservationPartner& data, FluidPartner& fluid,
+                                        SolidPartner& solid, const Points& interface) {
+  for (const auto& [name, has] : {std::pair{fluid.name(), fluid.has_observer()}, {solid.name(), solid.has_observer()}})
+    if (!has) throw input_error("observer.gain: {} cannot be moved by a state observer", name);
+  const auto form = observer.form == "split" ? Observer::Form::split : Observer::Form::monolithic;
+  return std::make_unique<Observer>(data, fluid, solid, form, interface.reshaped());
+}
+
+void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
+  Partner &fluid_process = processes[0], &solid_process = processes[1];
   const InterfaceSurface solid_surface = ask_interface(solid_process), fluid_surface = ask_interface(fluid_process);
   MessageSolid solid(solid_process);
   MessageFluid fluid(fluid_process, map_of(master.coupling, fluid_surface, solid_surface));
   const CouplingOptions options{master.coupling.tolerance, master.coupling.max_iterations, master.coupling.reuse,
                                 diagonal(solid_surface.points)};
   const auto coupling = make_coupling(master.coupling.method, fluid, solid, options);
-  const std::vector<std::string> notices = notices_of({&fluid_process, &solid_process}, plan.quiet);
+  const std::vector<std::string> notices = notices_of(processes, plan.quiet);
   const std::string fluid_case = fluid_process.hello().effective_case,
                     solid_case = solid_process.hello().effective_case;
   plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, solid_surface.points);
@@ -124,6 +134,13 @@ void simulate(MasterCase& master, RunPlan plan, Partner& fluid_process, Partner&
             solid_surface.points,
             fluid_process.hello().observables,
             solid_process.hello().observables};
+  std::optional<MessageObservation> measurements;
+  std::unique_ptr<Observer> observer;
+  if (processes.size() > 2) {
+    measurements.emplace(processes[2]);
+    observer = make_observer(master.file.common().observer, *measurements, fluid, solid, solid_surface.points);
+    crew.observer = observer.get();
+  }
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, options.size);
   const auto before = costs(crew, {&fluid_process, &solid_process});
@@ -147,11 +164,13 @@ int run(const CommandLine& command) {
     plan.output = fs::absolute(claim_output(command, master.file));
     if (!plan.resume) remove_old_results(plan.output);
     const auto& programs = master.coupling.programs;
-    const std::span<Partner> partners = session.launch(
-        {partner_program("fluid", programs.fluid, master.file), partner_program("solid", programs.solid, master.file)},
-        plan.output.string());
+    std::vector<protocol::Program> crew{partner_program("fluid", programs.fluid, master.file),
+                                        partner_program("solid", programs.solid, master.file)};
+    if (master.file.common().observer.is_on())
+      crew.push_back(partner_program("solid_observation", programs.observation, master.file));
+    const std::span<Partner> partners = session.launch(crew, plan.output.string());
     for (Partner& partner : partners) partner.hello();
-    simulate(master, plan, partners[0], partners[1]);
+    simulate(master, plan, partners);
     for (Partner& partner : partners) partner.stop("the run is done");
   });
 }

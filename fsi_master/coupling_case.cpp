@@ -5,6 +5,7 @@ namespace tether {
 void CouplingCase::Programs::declare(Fields& f) {
   f.text("fluid", fluid, "the program that solves the blood flow");
   f.text("solid", solid, "the program that solves the wall");
+  f.text("observation", observation, "the program that measures the distance to the data, if the observer is on");
 }
 
 void CouplingCase::declare(Fields& f) {

@@ -7,7 +7,7 @@ namespace tether {
 /// The section `coupling` of a case: how fluid and wall are brought to agree, and who they are.
 struct CouplingCase {
   struct Programs {
-    std::string fluid = "fluid", solid = "solid";
+    std::string fluid = "fluid", solid = "solid", observation = "observation_manager";
     void declare(Fields& f);
   };
   std::string method = "automatic", mapping = "match";

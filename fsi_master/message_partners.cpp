@@ -65,6 +65,32 @@ void check_size(const std::vector<double>& values, Eigen::Index size, const Part
     throw run_error("{} sent {} numbers where {} belong", partner.role(), values.size(), size);
 }
 
+protocol::Correct correction_of(const Innovation& data, double dt, bool drift) {
+  return {dt, drift, packed(data.weights), packed(data.distances), packed(data.normals)};
+}
+
+/// Samples to nodes (O.5): weight H' w, direction H' (w d n) along the mean normal H' (w n).
+Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes) {
+  Points normal = Points::Zero(3, nodes), direction = normal;
+  Innovation data{VectorXd::Zero(nodes), VectorXd::Zero(nodes), {}};
+  for (std::size_t s = 0; s < samples.weights.size(); ++s)
+    for (std::size_t k = 3 * s; k < 3 * s + 3; ++k) {
+      const double share = samples.weights[s] * samples.shares[k];
+      const Eigen::Index node = samples.nodes[k];
+      const Vec3 n(samples.normals[3 * s], samples.normals[3 * s + 1], samples.normals[3 * s + 2]);
+      data.weights[node] += share;
+      normal.col(node) += share * n;
+      direction.col(node) += share * samples.distances[s] * n;
+    }
+  for (Eigen::Index node = 0; node < nodes; ++node) {
+    if (data.weights[node] <= 0) continue;
+    normal.col(node).normalize();
+    data.distances[node] = direction.col(node).dot(normal.col(node)) / data.weights[node];
+  }
+  data.normals = normal.reshaped();
+  return data;
+}
+
 VectorXd sized(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
   check_size(values, size, partner);
   return unpacked(values);
@@ -133,6 +159,14 @@ Later<VectorXd> MessageFluid::load(const Motion& motion) {
 Later<VectorXd> MessageFluid::load_change(const VectorXd& velocity_change) {
   return ask_later(partner_, protocol::FluidTangent{map_.to_fluid(velocity_change)},
                    [this](const protocol::Load& load) { return received(load); });
+}
+
+bool MessageFluid::has_observer() const {
+  return partner_.hello().has_observer;
+}
+
+Later<Done> MessageFluid::move_interface(const VectorXd& change) {
+  return ask_later(partner_, protocol::MoveInterface{map_.to_fluid(change)}, done);
 }
 
 VectorXd MessageFluid::received(const protocol::Load& load) const {
@@ -206,6 +240,35 @@ Later<VectorXd> MessageSolid::precondition(const VectorXd& residual) {
   return ask_later(
       partner_, protocol::SolidPrecondition{packed(residual)},
       [this, size = residual.size()](const protocol::Unknowns& reply) { return sized(reply.values, size, partner_); });
+}
+
+bool MessageSolid::has_observer() const {
+  return partner_.hello().has_observer;
+}
+
+Later<VectorXd> MessageSolid::correct(double dt, const Innovation& data) {
+  return ask_later(partner_, correction_of(data, dt, false),
+                   [this, size = data.normals.size()](const protocol::Correction& reply) {
+                     return sized(reply.displacement, size, partner_);
+                   });
+}
+
+Later<VectorXd> MessageSolid::set_drift(const Innovation& data) {
+  return ask_later(partner_, correction_of(data, 0, true),
+                   [this, size = data.normals.size()](const protocol::Correction& reply) {
+                     return sized(reply.displacement, size, partner_);
+                   });
+}
+
+Later<Done> MessageSolid::withdraw(double share) {
+  return ask_later(partner_, protocol::Withdraw{share}, done);
+}
+
+// ---- measurements ---------------------------------------------------------------------------------------------------
+
+Later<Innovation> MessageObservation::observe(double time, const VectorXd& points) {
+  return ask_later(partner_, protocol::Observe{time, packed(points)},
+                   [nodes = points.size() / 3](const protocol::Discrepancy& reply) { return at_nodes(reply, nodes); });
 }
 
 }  // namespace tether

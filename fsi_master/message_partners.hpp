@@ -28,6 +28,8 @@ class MessageFluid : public FluidPartner {
 
   Later<VectorXd> load(const Motion& motion) override;
   Later<VectorXd> load_change(const VectorXd& velocity_change) override;
+  bool has_observer() const override;
+  Later<Done> move_interface(const VectorXd& change) override;
 
  private:
   VectorXd received(const protocol::Load& load) const;
@@ -57,6 +59,20 @@ class MessageSolid : public SolidPartner {
   Later<Iterate> residual(const VectorXd& correction, const VectorXd& load) override;
   Later<VectorXd> product(const VectorXd& direction) override;
   Later<VectorXd> precondition(const VectorXd& residual) override;
+  bool has_observer() const override;
+  Later<VectorXd> correct(double dt, const Innovation& data) override;
+  Later<Done> withdraw(double share) override;
+  Later<VectorXd> set_drift(const Innovation& data) override;
+
+ private:
+  protocol::Partner& partner_;
+};
+
+/// An observation_manager in another process; its samples are gathered at the interface's nodes (O.5).
+class MessageObservation : public ObservationPartner {
+ public:
+  explicit MessageObservation(protocol::Partner& partner) : partner_(partner) {}
+  Later<Innovation> observe(double time, const VectorXd& points) override;
 
  private:
   protocol::Partner& partner_;

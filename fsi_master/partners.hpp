@@ -30,9 +30,17 @@ struct StepStart {
   double time = 0, dt = 0;
   VectorXd displacement;  ///< y0
   VectorXd velocity;      ///< V0 = (y0 - y_-1)/dt of the last converged step
+  VectorXd drift = {};    ///< rate at which an observer moves the interface beside V (O.9); empty: none
 
-  VectorXd predicted() const { return displacement + dt * velocity; }  // (C.1)
-  Motion motion(const VectorXd& V) const { return {displacement + dt * V, V}; }
+  VectorXd predicted() const { return moved(velocity); }  // (C.1)
+  Motion motion(const VectorXd& V) const { return {moved(V), V}; }
+
+ private:
+  VectorXd moved(const VectorXd& V) const {
+    VectorXd y = displacement + dt * V;
+    if (drift.size() > 0) y += dt * drift;
+    return y;
+  }
 };
 
 struct Done {};
@@ -40,6 +48,11 @@ struct Done {};
 /// Processor time and memory that a partner has taken so far.
 struct PartnerUsage {
   double cpu_seconds = 0, peak_memory_mb = 0;
+};
+
+/// Distances from the interface's nodes to measurements, along normals, and the areas they stand for (0: none).
+struct Innovation {
+  VectorXd weights, distances, normals;  ///< normals: x0 y0 z0 x1 ...
 };
 
 /// What every partner of a coupled step does.
@@ -66,6 +79,11 @@ class FluidPartner : public StepPartner {
   virtual Later<VectorXd> load(const Motion& motion) = 0;
   /// dF = -A dV, A symmetric positive semi-definite (the added mass over dt).
   virtual Later<VectorXd> load_change(const VectorXd& velocity_change) = 0;
+
+  virtual bool has_observer() const { return false; }
+  /// Between two steps: the interface and the mesh move, nothing flows. Throws StepFailure if the mesh would break;
+  /// nothing has changed then.
+  virtual Later<Done> move_interface(const VectorXd&) { throw InternalError("no observer"); }
 };
 
 /// S: nodal forces -> interface motion; and, from a code that announces operators, its equations themselves.
@@ -87,6 +105,22 @@ class SolidPartner : public StepPartner {
   virtual Later<VectorXd> product(const VectorXd& direction) = 0;
   /// About J^-1 r; zero where the motion is prescribed.
   virtual Later<VectorXd> precondition(const VectorXd& residual) = 0;
+
+  virtual bool has_observer() const { return false; }
+  /// Moves the wall toward the data by what its gain makes of dt; how far the interface has moved.
+  virtual Later<VectorXd> correct(double, const Innovation&) { throw InternalError("no observer"); }
+  /// Takes a share of the last correction back.
+  virtual Later<Done> withdraw(double) { throw InternalError("no observer"); }
+  /// Sets the rate at which the wall moves toward the data during the step begun; its interface part.
+  virtual Later<VectorXd> set_drift(const Innovation&) { throw InternalError("no observer"); }
+};
+
+/// Measurements of the lumen.
+class ObservationPartner {
+ public:
+  virtual ~ObservationPartner() = default;
+  /// points: positions of the interface's nodes.
+  virtual Later<Innovation> observe(double time, const VectorXd& points) = 0;
 };
 
 }  // namespace tether

@@ -31,7 +31,9 @@ Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
       loop_(crew_.fluid, crew_.solid, crew_.coupling, flat(crew_.interface), halvings),
       followed_(nearest_nodes(plan_.points, crew_.interface)),
       series_(plan_.output / "timeseries.csv", columns(), plan_.units),
-      motion_(plan_.output / "lumen.motion", crew_.interface) {}
+      motion_(plan_.output / "lumen.motion", crew_.interface) {
+  if (crew_.observer != nullptr) loop_.observe(*crew_.observer);
+}
 
 void Simulation::run() {
   begin();

@@ -21,8 +21,8 @@ struct RunPlan {
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
   bool resume = false, quiet = false;
-  double image_pressure = 0;   ///< to which the run's pressures are relative
-  Named<Vec3> points;  ///< their displacement is recorded
+  double image_pressure = 0;  ///< to which the run's pressures are relative
+  Named<Vec3> points;         ///< their displacement is recorded
 
   double time_at(std::int64_t step) const { return start + static_cast<double>(step) * dt; }
 };
@@ -41,6 +41,7 @@ struct Crew {
   Coupling& coupling;
   Points interface;  ///< reference positions of the master's interface nodes
   std::vector<protocol::ObservableInfo> fluid_observables, solid_observables;
+  Observer* observer = nullptr;  ///< none: the run is not corrected
 };
 
 /// A direct simulation: steps, table, files for viewing, checkpoints, progress.
@@ -56,6 +57,7 @@ class Simulation {
   const RunStatistics& statistics() const { return statistics_; }
   const std::vector<FollowedNode>& followed() const { return followed_; }
   std::int64_t first_step() const { return first_step_; }
+  const Observer* observer() const { return crew_.observer; }
 
  private:
   void begin();

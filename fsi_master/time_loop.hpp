@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fsi_master/coupling.hpp"
+#include "fsi_master/observer.hpp"
 
 namespace tether {
 
@@ -31,6 +32,9 @@ class TimeLoop {
   /// `rest`: reference positions of the interface, x0 y0 z0 x1 ...; the run starts there, unmoved.
   TimeLoop(FluidPartner& fluid, SolidPartner& solid, Coupling& coupling, VectorXd rest, int halvings);
 
+  /// From now on steps are corrected by measurements. The observer must outlive the loop.
+  void observe(Observer& observer) { observer_ = &observer; }
+
   /// Step number `step`, from `time` to `time + dt`. Throws StepFailure if even the smallest part fails, with both
   /// codes back at `time`.
   StepRecord advance(std::int64_t step, double time, double dt);
@@ -43,12 +47,14 @@ class TimeLoop {
   bool attempt(double time, double dt, StepRecord& record);
   bool advance_in_halves(double time, double dt, int level, StepRecord& record);
   CouplingResult solve(const StepStart& start);
+  CouplingResult solve_with_drift(StepStart start);
   void finish(const CouplingResult& result, StepRecord& record);
   std::string explain(const CouplingResult& result, double time, double dt) const;
 
   FluidPartner& fluid_;
   SolidPartner& solid_;
   Coupling& coupling_;
+  Observer* observer_ = nullptr;
   VectorXd rest_, y_, V_;
   int halvings_;
   std::int64_t step_ = 0;

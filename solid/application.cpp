@@ -34,7 +34,7 @@ std::string effective_sections(WallCase& wall) {
 }
 
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToSolid>("solid", [&command](const protocol::Welcome& welcome) {
+  return protocol::run_partner<protocol::ToObservedSolid>("solid", [&command](const protocol::Welcome& welcome) {
     WallCase wall(command.case_file);
     return SolidServer(prepare_wall(wall.solid, wall.wall(), wall.file), wall.file.units(), effective_sections(wall),
                        welcome.output);

@@ -7,6 +7,7 @@
 #include "common/base/csv.hpp"
 #include "common/base/curve.hpp"
 #include "common/base/error.hpp"
+#include "solid/lumen_regions.hpp"
 #include "solid/materials/registry.hpp"
 #include "solid/prestress.hpp"
 #include "solid/supports/registry.hpp"
@@ -108,6 +109,19 @@ bool nothing_holds(const SolidCase& solid) {
   });
 }
 
+/// Gain of each interface node: the largest of the regions that its triangles lie in.
+VectorXd observer_gain(const ObserverCase& observer, const WallMesh& mesh) {
+  VectorXd of_region(static_cast<Eigen::Index>(mesh.outside.size())), gain = VectorXd::Zero(mesh.interface_nodes);
+  for (std::size_t r = 0; r < mesh.outside.size(); ++r) {
+    const ObserverCase::Region* own = named(observer.regions, mesh.outside[r].name);
+    of_region[static_cast<Eigen::Index>(r)] = own != nullptr ? own->gain : observer.gain;
+  }
+  const std::vector<int> regions = regions_of_interface(mesh);
+  for (std::size_t t = 0; t < mesh.interface.size(); ++t)
+    for (int node : mesh.interface[t]) gain[node] = std::max(gain[node], of_region[regions[t]]);
+  return gain;
+}
+
 }  // namespace
 
 void MotionCase::declare(Fields& f) {
@@ -182,6 +196,7 @@ void SolidCase::declare(Fields& f) {
 void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file) {
   check_names(solid.support.regions, mesh.outside, "solid.support.regions", file);
   check_names(solid.rings, mesh.rings, "solid.rings", file);
+  check_names(file.common().observer.regions, mesh.outside, "observer.regions", file);
 }
 
 PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
@@ -199,6 +214,7 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
   const Points stress_free =
       image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;
   PreparedWall wall;
+  if (file.common().observer.is_on()) wall.observer_gain = observer_gain(file.common().observer, mesh);
   if (nothing_holds(solid)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
   wall.model = std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held));
   if (image.loads_wall() && image.wall == "prestressed") wall.notices.push_back(prestress(*wall.model, image.pressure));

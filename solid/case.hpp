@@ -52,11 +52,12 @@ void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const Case
 /// A wall ready to move, and what a person should know of it.
 struct PreparedWall {
   std::unique_ptr<WallModel> model;
+  VectorXd observer_gain;  ///< of each interface node [1/time]; empty: no state observer
   std::vector<std::string> notices;
 };
 
-/// The wall of a case. Rings that the case does not name are clamped. Throws InputError for names that the mesh does not
-/// have, RunError if no stress-free configuration is found.
+/// The wall of a case. Rings that the case does not name are clamped. Throws InputError for names that the mesh does
+/// not have, RunError if no stress-free configuration is found.
 PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file);
 
 }  // namespace tether

@@ -2,20 +2,11 @@
 
 #include "common/linalg/cholesky.hpp"
 #include "common/mesh/surface.hpp"
+#include "solid/inflation_stiffness.hpp"
 #include "solid/prestress.hpp"
 
 namespace tether {
 namespace {
-
-/// E h/((1 - nu^2) R^2) with the lumen's mean radius R [pressure/length]: the area of a tube moved along its normals by
-/// d grows by d/R.
-double inflation_stiffness(const WallMesh& mesh, const WallElements& wall, const Material& material) {
-  const double area = total_area(mesh.points, mesh.interface), thickness = wall.volume() / area, d = 1e-4 * thickness;
-  const Points moved = mesh.points + d * nodal_normals(mesh.points, mesh.interface);
-  const double curvature = (total_area(moved, mesh.interface) - area) / (d * area);
-  const Voigt66 C = stress_and_tangent(material, Voigt::Zero()).tangent;
-  return (C(0, 0) - C(0, 1) * C(0, 1) / C(0, 0)) * thickness * curvature * curvature;
-}
 
 /// matrix += k M_b, lumped.
 void add_tissue(const WallMesh& mesh, double k, SparseMatrix& matrix) {

@@ -1,7 +1,7 @@
 #include "solid/server.hpp"
 
 #include "common/base/error.hpp"
-#include "common/mesh/locator.hpp"
+#include "solid/lumen_regions.hpp"
 #include "solid/wall_series.hpp"
 
 namespace tether {
@@ -14,27 +14,6 @@ std::vector<double> as_list(const Eigen::Ref<const Eigen::MatrixXd>& values) {
 
 Eigen::Map<const VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-Vec3 centre_of(const Points& x, const Triangle& t) {
-  return (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
-}
-
-/// Region of each triangle of the interface: that of the nearest triangle of the outer wall.
-std::vector<int> regions_inside(const WallMesh& mesh) {
-  std::vector<int> region_of;
-  std::vector<Vec3> centres;
-  for (std::size_t region = 0; region < mesh.outside.size(); ++region)
-    for (const Triangle& t : mesh.outside[region].triangles) {
-      region_of.push_back(static_cast<int>(region));
-      centres.push_back(centre_of(mesh.points, t));
-    }
-  const PointLocator locator(
-      Eigen::Map<const Points>(centres.front().data(), 3, static_cast<Eigen::Index>(centres.size())));
-  std::vector<int> result;
-  for (const Triangle& t : mesh.interface)
-    result.push_back(region_of[static_cast<std::size_t>(locator.nearest(centre_of(mesh.points, t)).node)]);
-  return result;
 }
 
 protocol::Motion as_message(const InterfaceMotion& motion) {
@@ -50,7 +29,9 @@ SolidServer::SolidServer(PreparedWall wall, const UnitSystem& units, std::string
       units_(units),
       effective_case_(std::move(effective_case)),
       notices_(std::move(wall.notices)),
-      series_(std::make_unique<WallSeries>(std::move(output))) {}
+      series_(std::make_unique<WallSeries>(std::move(output))) {
+  if (wall.observer_gain.size() > 0) observer_ = std::make_unique<StateObserver>(*model_, wall.observer_gain);
+}
 
 SolidServer::SolidServer(SolidServer&&) noexcept = default;
 SolidServer::~SolidServer() = default;
@@ -59,7 +40,8 @@ protocol::Hello SolidServer::hello() const {
   protocol::Hello hello;
   hello.program = "Tether solid";
   hello.has_tangent = hello.has_operators = hello.has_state = true;
-  hello.state_size = solver_->state_size();
+  hello.has_observer = observer_ != nullptr;
+  hello.state_size = solver_->state_size() + (observer_ ? observer_->state_size() : 0);
   hello.unknowns = model_->unknowns();
   hello.effective_case = effective_case_;
   hello.notices = notices_;
@@ -79,7 +61,7 @@ protocol::Interface SolidServer::operator()(const protocol::GetInterface&) {
   for (const Triangle& triangle : mesh.interface)
     reply.triangles.insert(reply.triangles.end(), triangle.begin(), triangle.end());
   for (const Patch& region : mesh.outside) reply.region_names.push_back(region.name);
-  for (int region : regions_inside(mesh)) reply.regions.push_back(region);
+  for (int region : regions_of_interface(mesh)) reply.regions.push_back(region);
   return reply;
 }
 
@@ -91,11 +73,19 @@ protocol::Ready SolidServer::operator()(const protocol::SetParameters& m) {
 }
 
 protocol::State SolidServer::operator()(const protocol::GetState&) {
-  return {as_list(solver_->state())};
+  protocol::State state{as_list(solver_->state())};
+  if (observer_) {
+    const VectorXd more = observer_->state();
+    state.values.insert(state.values.end(), more.begin(), more.end());
+  }
+  return state;
 }
 
 protocol::Ready SolidServer::operator()(const protocol::SetState& m) {
-  solver_->set_state(as_vector(m.values));
+  const VectorXd values = as_vector(m.values);
+  const Eigen::Index more = observer_ ? observer_->state_size() : 0;
+  solver_->set_state(values.head(std::max<Eigen::Index>(0, values.size() - more)));
+  if (observer_) observer_->set_state(values.tail(more));
   return {};
 }
 
@@ -144,6 +134,34 @@ protocol::Unknowns SolidServer::operator()(const protocol::SolidProduct& m) {
 
 protocol::Unknowns SolidServer::operator()(const protocol::SolidPrecondition& m) {
   return {as_list(solver_->precondition(as_vector(m.residual)))};
+}
+
+protocol::Correction SolidServer::operator()(const protocol::Correct& m) {
+  if (!observer_) throw run_error("the case has no state observer");
+  const NodalDistances data = distances_of(m);
+  const Points change = m.drift ? observer_->drift(data) : observer_->correction(data, m.dt);
+  if (m.drift) {
+    solver_->set_drift(change);
+  } else {
+    solver_->displace(change);
+    corrected_ = change;
+  }
+  return {as_list(change.leftCols(model_->mesh().interface_nodes))};
+}
+
+protocol::Ready SolidServer::operator()(const protocol::Withdraw& m) {
+  if (corrected_.size() == 0) throw run_error("there is no correction to take back");
+  const Points back = -m.share * corrected_;
+  solver_->displace(back);
+  corrected_ += back;
+  return {};
+}
+
+NodalDistances SolidServer::distances_of(const protocol::Correct& m) const {
+  const int nodes = model_->mesh().interface_nodes;
+  if (m.weights.size() != static_cast<std::size_t>(nodes) || m.distances.size() != m.weights.size())
+    throw run_error("{} weights and {} distances for {} interface nodes", m.weights.size(), m.distances.size(), nodes);
+  return {as_vector(m.weights), as_vector(m.distances), interface_points(m.normals, "normals")};
 }
 
 Points SolidServer::interface_points(const std::vector<double>& values, const char* what) const {

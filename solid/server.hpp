@@ -7,6 +7,7 @@
 #include "common/protocol/messages.hpp"
 #include "solid/case.hpp"
 #include "solid/solid_solver.hpp"
+#include "solid/state_observer.hpp"
 
 namespace tether {
 
@@ -15,8 +16,7 @@ class WallSeries;
 /// What the solid does with each message (common/protocol). A message without a line here does not compile.
 class SolidServer {
  public:
-  SolidServer(PreparedWall wall, const UnitSystem& units, std::string effective_case,
-              std::filesystem::path output);
+  SolidServer(PreparedWall wall, const UnitSystem& units, std::string effective_case, std::filesystem::path output);
   SolidServer(SolidServer&&) noexcept;
   ~SolidServer();
 
@@ -35,12 +35,17 @@ class SolidServer {
   protocol::SolidResidualReply operator()(const protocol::SolidResidual& m);
   protocol::Unknowns operator()(const protocol::SolidProduct& m);
   protocol::Unknowns operator()(const protocol::SolidPrecondition& m);
+  protocol::Correction operator()(const protocol::Correct& m);
+  protocol::Ready operator()(const protocol::Withdraw& m);
 
  private:
+  NodalDistances distances_of(const protocol::Correct& m) const;
   Points interface_points(const std::vector<double>& values, const char* what) const;
 
   std::unique_ptr<WallModel> model_;
   std::unique_ptr<SolidSolver> solver_;
+  std::unique_ptr<StateObserver> observer_;  ///< none if the case has no gain
+  Points corrected_;                         ///< by the last correction, as far as it was not taken back
   UnitSystem units_;
   std::string effective_case_;
   std::vector<std::string> notices_;

@@ -1,10 +1,10 @@
 #include "solid/solid_solver.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+#include <array>
 
 #include "common/base/error.hpp"
+#include "common/base/mark.hpp"
 
 namespace tether {
 namespace {
@@ -25,6 +25,7 @@ SolidSolver::SolidSolver(WallModel& model)
       displacement_(Points::Zero(3, model.mesh().points.cols())),
       velocity_(displacement_),
       mean_velocity_(displacement_),
+      drift_(displacement_),
       iterate_(displacement_),
       tangent_(model.elements().zero_matrix()) {
   origin_.displacement = displacement_;
@@ -35,6 +36,7 @@ void SolidSolver::begin_step(double time, double dt) {
   time_ = time;
   dt_ = dt;
   iterate_ = mean_velocity_;
+  drift_.setZero();
   evaluations_ = 0;
   calls_ = most_calls_ = 0;
   tangent_serves_ = false;
@@ -55,7 +57,7 @@ VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
 VectorXd SolidSolver::out_of_balance(const Points& load, bool renew_tangent) {
   calls_ = 0;
   VectorXd result =
-      -model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
+      -model_.step_forces(drifted_start(), velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
   tangent_serves_ = renew_tangent;
   result.head(load.size()) += load.reshaped();
   for (int unknown : model_.clamped_unknowns()) result[unknown] = 0;
@@ -98,8 +100,22 @@ InterfaceMotion SolidSolver::tangent(const Points& load_change) {
 
 InterfaceMotion SolidSolver::interface_motion() const {
   InterfaceMotion motion = interface_part(iterate_.reshaped());
-  motion.displacement += displacement_.leftCols(model_.mesh().interface_nodes);
+  motion.displacement += (displacement_ + dt_ * drift_).leftCols(model_.mesh().interface_nodes);
   return motion;
+}
+
+/// From here the step's mean velocity leads to the displacement y0 + theta dt (V + drift) where the forces are taken.
+Points SolidSolver::drifted_start() const {
+  return displacement_ + model_.settings().theta * dt_ * drift_;
+}
+
+void SolidSolver::set_drift(const Points& rate) {
+  drift_ = rate;
+  tangent_serves_ = false;
+}
+
+void SolidSolver::displace(const Points& change) {
+  displacement_ += change;
 }
 
 InterfaceMotion SolidSolver::interface_part(const VectorXd& velocity) const {
@@ -109,7 +125,7 @@ InterfaceMotion SolidSolver::interface_part(const VectorXd& velocity) const {
 
 void SolidSolver::accept() {
   const double theta = model_.settings().theta;
-  displacement_ += dt_ * iterate_;
+  displacement_ += dt_ * (iterate_ + drift_);
   velocity_ = (iterate_ - (1 - theta) * velocity_) / theta;
   mean_velocity_ = iterate_;
   if (origin_.first_calls == 0) origin_.first_calls = most_calls_;
@@ -140,7 +156,7 @@ const SparseMatrix& SolidSolver::current_tangent() {
 }
 
 void SolidSolver::assemble_tangent() {
-  model_.step_forces(displacement_, velocity_, iterate_, time_, dt_, &tangent_);
+  model_.step_forces(drifted_start(), velocity_, iterate_, time_, dt_, &tangent_);
   tangent_serves_ = true;
 }
 
@@ -172,12 +188,7 @@ bool SolidSolver::FactorOrigin::makes_same_factor_as(const FactorOrigin& other) 
 }
 
 double SolidSolver::FactorOrigin::mark() const {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, over whole numbers instead of bytes
-  const auto add = [&hash](double number) { hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u; };
-  for (const double number : displacement.reshaped()) add(number);
-  for (const double number : parameters) add(number);
-  add(dt);
-  return static_cast<double>(hash >> 12);  // 52 bits are a whole number in a double
+  return Mark().add(displacement.reshaped()).add(parameters).add(std::array{dt}).value();
 }
 
 Eigen::Index SolidSolver::state_size() const {

@@ -37,6 +37,13 @@ class SolidSolver {
   InterfaceMotion tangent(const Points& load_change);
 
   InterfaceMotion interface_motion() const;
+
+  /// Beside the wall's own motion every node moves with this rate during the step begun, dy/dt = u + rate, until the
+  /// next begin_step (O.9).
+  void set_drift(const Points& rate);
+  /// Between two steps: a change of the displacement that is no motion.
+  void displace(const Points& change);
+
   void accept();
   void rewind();
 
@@ -74,10 +81,12 @@ class SolidSolver {
   void restore_factor(const FactorOrigin& origin);
   KrylovResult solve_linear(const VectorXd& rhs, VectorXd& x, double tolerance);
   InterfaceMotion interface_part(const VectorXd& velocity) const;
+  Points drifted_start() const;
 
   WallModel& model_;
   Points displacement_, velocity_, mean_velocity_;  ///< y, u at the start of the step; V of the last accepted step
-  Points iterate_;                                  ///< V
+  Points drift_;
+  Points iterate_;  ///< V
   double time_ = 0, dt_ = 0;
   SparseMatrix tangent_;
   bool tangent_serves_ = false;

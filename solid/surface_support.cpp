@@ -53,6 +53,19 @@ void SurfaceSupport::add(const SupportStep& step, VectorXd& force, SparseMatrix*
   }
 }
 
+void SurfaceSupport::add_stiffness(SparseMatrix& K) const {
+  for (std::size_t k = 0; k < patch_.triangles.size(); ++k) {
+    Eigen::Matrix<double, 9, 9, Eigen::RowMajor> block = Eigen::Matrix<double, 9, 9, Eigen::RowMajor>::Zero();
+    for (int edge = 0; edge < 3; ++edge) {
+      const Mat3 stiffness = support_->at({Vec3::Zero(), Vec3::Zero(), faces_[k].normal}).stiffness;
+      for (int m = 0; m < 2; ++m)
+        for (int n = 0; n < 2; ++n)
+          block.block<3, 3>(3 * corner(edge, m), 3 * corner(edge, n)) += faces_[k].area / 12 * stiffness;
+    }
+    scatter_.add(K, k, block.data());
+  }
+}
+
 Vec3 SurfaceSupport::resultant(const SupportStep& step) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < patch_.triangles.size(); ++k)

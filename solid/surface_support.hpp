@@ -37,6 +37,8 @@ class SurfaceSupport {
 
   /// force += what the support exerts on the wall; tangent, if not null, += - d force / dV.
   void add(const SupportStep& step, VectorXd& force, SparseMatrix* tangent) const;
+  /// K += - d force / d displacement where nothing has moved; attach first.
+  void add_stiffness(SparseMatrix& K) const;
   /// Total force on the wall [force].
   Vec3 resultant(const SupportStep& step) const;
 

@@ -20,6 +20,7 @@ constexpr std::array sections{
     TopLevelSection{"solid", "the wall: material, support, rings"},
     TopLevelSection{"coupling", "how fluid and wall are brought to agree"},
     TopLevelSection{"observations", "measurements that the model is compared with"},
+    TopLevelSection{"observer", "pulls the wall toward the measured lumen during the run"},
     TopLevelSection{"identification", "parameters to be found from measurements"},
     TopLevelSection{"diagnosis", "effects that may be missing from the model"},
     TopLevelSection{"output", "what is written, and how often"},
@@ -70,6 +71,25 @@ void ImageCase::declare(Fields& f) {
       "whether the imaged wall carries stress");
 }
 
+void ObserverCase::Region::declare(Fields& f) {
+  f.number("gain", gain, dimension::rate, range::not_negative, "gain in this region instead");
+}
+
+void ObserverCase::declare(Fields& f) {
+  f.number("gain", gain, dimension::rate, range::not_negative,
+           "rate at which the wall moves toward the measured lumen, beside its own motion; 0: it does not. A corrected "
+           "run follows the data, and is no evidence for the model");
+  f.choice("form", form,
+           {{"split", "a correction after each step: one solve with a kept factor"},
+            {"monolithic", "within each step, as Moireau et al. 2012: for comparison, several times the cost"}},
+           "how the correction enters");
+  f.groups("regions", regions, "regions of the wall with a gain of their own");
+}
+
+bool ObserverCase::is_on() const {
+  return gain > 0 || std::any_of(regions.begin(), regions.end(), [](const auto& r) { return r.second.gain > 0; });
+}
+
 void OutputCase::declare(Fields& f) {
   f.integer("write_every", write_every, {1}, "steps between two files of the series for viewing");
   f.integer("checkpoint_every", checkpoint_every, {1}, "steps between two checkpoints to resume from");
@@ -88,6 +108,7 @@ void CommonCase::declare(Fields& f) {
            "unit system of all numbers that carry no unit of their own");
   f.group("time", time, meaning_of_section("time"));
   f.group("image", image, meaning_of_section("image"));
+  f.group("observer", observer, meaning_of_section("observer"));
   f.group("output", output, meaning_of_section("output"));
 }
 

@@ -23,6 +23,19 @@ struct ImageCase {
   bool loads_wall() const { return wall != "stress_free" && pressure != 0.0; }
 };
 
+/// The state observer: how strongly the wall is pulled toward the measured lumen.
+struct ObserverCase {
+  struct Region {
+    double gain = 0;
+    void declare(Fields& f);
+  };
+  double gain = 0;
+  std::string form = "split";
+  Named<Region> regions;
+  void declare(Fields& f);
+  bool is_on() const;
+};
+
 /// What a run writes, beside the tables that it always writes.
 struct OutputCase {
   int write_every = 10, checkpoint_every = 50;
@@ -35,6 +48,7 @@ struct CommonCase {
   std::string name, title, units;
   TimeCase time;
   ImageCase image;
+  ObserverCase observer;
   OutputCase output;
   void declare(Fields& f);
 };

@@ -47,6 +47,7 @@ Hello hello_of(const tether_description& d) {
               d.has_tangent != 0,
               d.has_operators != 0,
               d.has_state != 0,
+              false,
               d.state_size,
               d.unknowns,
               {},

@@ -60,13 +60,14 @@ struct Hello {
   bool has_tangent = false;    ///< answers FluidTangent / SolidTangent
   bool has_operators = false;  ///< solid: answers SolidResidual, SolidProduct, SolidPrecondition
   bool has_state = false;      ///< answers GetState, SetState
+  bool has_observer = false;   ///< solid: answers Correct, Withdraw; fluid: MoveInterface
   std::int64_t state_size = 0, unknowns = 0;
   std::vector<ParameterInfo> parameters;
   std::vector<ObservableInfo> observables;
-  std::string effective_case;        ///< its sections of the case as JSON, defaults included
+  std::string effective_case;             ///< its sections of the case as JSON, defaults included
   std::vector<std::string> notices = {};  ///< what a person should know before the run, a sentence each
-  TETHER_MESSAGE(Hello, program, has_tangent, has_operators, has_state, state_size, unknowns, parameters, observables,
-                 effective_case, notices)
+  TETHER_MESSAGE(Hello, program, has_tangent, has_operators, has_state, has_observer, state_size, unknowns, parameters,
+                 observables, effective_case, notices)
 };
 
 // ---- partner -> master, as replies ----------------------------------------------------------------------------------
@@ -122,6 +123,11 @@ struct Discrepancy {
   std::vector<std::int64_t> sources;     ///< which data
   std::vector<std::int64_t> exclusions;  ///< why there is no observation; 0: there is one
   TETHER_MESSAGE(Discrepancy, distances, normals, weights, nodes, shares, sources, exclusions)
+};
+/// How far a correction moved the interface.
+struct Correction {
+  std::vector<double> displacement;  ///< or its rate, for a drift
+  TETHER_MESSAGE(Correction, displacement)
 };
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
@@ -247,6 +253,33 @@ struct SolidPrecondition {
   TETHER_MESSAGE(SolidPrecondition, residual)
 };
 
+// ---- state observer: master -> solid, fluid that announce it (Hello.has_observer)
+// --------------------------------------
+
+/// Distances from the interface's nodes to the data, along normals, and the areas they stand for (0: no observation).
+/// The wall moves toward them by what its gain makes of `dt`, at once, between two steps; or, `drift`, it moves with
+/// the rate that its gain makes of them during the step begun.
+struct Correct {
+  using Reply = Correction;
+  double dt = 0;
+  bool drift = false;
+  std::vector<double> weights, distances, normals;
+  TETHER_MESSAGE(Correct, dt, drift, weights, distances, normals)
+};
+/// Take this share of the last correction back.
+struct Withdraw {
+  using Reply = Ready;
+  double share = 1;
+  TETHER_MESSAGE(Withdraw, share)
+};
+/// To a fluid, between two steps: the interface and the mesh have moved, the fields with them; nothing has flowed. A
+/// Failure (a mesh that would break) changes nothing.
+struct MoveInterface {
+  using Reply = Ready;
+  std::vector<double> displacement;  ///< its change
+  TETHER_MESSAGE(MoveInterface, displacement)
+};
+
 // ---- master -> observation_manager ----------------------------------------------------------------------------------
 
 /// The moving surface at a time: positions of the interface's nodes.
@@ -263,9 +296,9 @@ struct Observe {
 /// Any message in one direction. Its index here is its MPI tag.
 using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write,
                                Stop, FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual,
-                               SolidProduct, SolidPrecondition, Observe, GetUsage>;
+                               SolidProduct, SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface>;
 using ToMaster = std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion,
-                              SolidResidualReply, Unknowns, Discrepancy, Usage>;
+                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction>;
 
 /// What each role must be able to answer: a handler for each is asked for at compile time (serve.hpp, which answers
 /// GetUsage itself).
@@ -273,6 +306,12 @@ using ToFluid = std::variant<GetInterface, SetParameters, GetState, SetState, Be
                              FluidEvaluate, FluidTangent>;
 using ToSolid = std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
                              SolidEvaluate, SolidTangent, SolidResidual, SolidProduct, SolidPrecondition>;
+/// The same with a state observer.
+using ToObservedFluid = std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
+                                     FluidEvaluate, FluidTangent, MoveInterface>;
+using ToObservedSolid =
+    std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop, SolidEvaluate,
+                 SolidTangent, SolidResidual, SolidProduct, SolidPrecondition, Correct, Withdraw>;
 using ToObservation = std::variant<SetParameters, Write, Stop, Observe>;
 
 }  // namespace tether::protocol

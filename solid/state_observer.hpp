@@ -1,0 +1,62 @@
+#pragma once
+
+#include "common/linalg/cholesky.hpp"
+#include "solid/wall_model.hpp"
+
+namespace tether {
+
+/// Distances from the interface's nodes to the data (O.1), and the areas they stand for: 0 where there is none.
+struct NodalDistances {
+  VectorXd weight, distance;
+  Points normal;
+};
+
+/// The displacement observer (O.8): pulls the wall toward the measured lumen, dy/dt = u + Ext(gamma d). Ext(t) is the
+/// static displacement of the linear elastic wall, its supports included, whose normal part at the observed nodes is t:
+/// the e that minimises e'K e/2 + kappa/2 sum_a w_a (n_a . e_a - t_a)^2, kappa a thousand times the wall's stiffness
+/// against inflation. K + kappa W is factored once; where the observed nodes or normals change it preconditions a few
+/// conjugate gradients, and is made anew when they become many.
+class StateObserver {
+ public:
+  /// gain: gamma of each interface node [1/time].
+  StateObserver(const WallModel& model, VectorXd gain);
+
+  /// Ext((1 - exp(-gamma dt)) d): what the gain makes of the distances in a time. One column a node of the wall. Throws
+  /// RunError if the equations cannot be solved.
+  Points correction(const NodalDistances& data, double dt);
+  /// Ext(gamma d) [length/time].
+  Points drift(const NodalDistances& data);
+
+  /// Nodes whose correction was cut to a quarter of the local mesh size, since the start.
+  std::int64_t limited() const { return limited_; }
+
+  /// What the kept factor was made from, and a mark, so that a run continues bit for bit; all zero if there is none. A
+  /// mixture of states is continued with the factor at hand.
+  VectorXd state() const;
+  Eigen::Index state_size() const { return 4 * interface_nodes_ + 1; }
+  void set_state(const VectorXd& state);
+
+ private:
+  /// The observed part of the matrix: area times normal dyad.
+  struct Pattern {
+    VectorXd weight;
+    Points normal;
+    bool empty() const { return weight.size() == 0; }
+  };
+
+  Points extend(const NodalDistances& data, const VectorXd& target);
+  Pattern pattern_of(const NodalDistances& data) const;
+  VectorXd times(const Pattern& pattern, const VectorXd& e) const;
+  void factor(const Pattern& pattern);
+
+  Eigen::Index interface_nodes_;
+  VectorXd gain_, mesh_size_;
+  SparseMatrix K_;
+  double kappa_, nodal_area_;
+  std::vector<int> clamped_;
+  Cholesky factor_;
+  Pattern factored_;
+  std::int64_t limited_ = 0;
+};
+
+}  // namespace tether
