@@ -98,12 +98,17 @@ std::vector<std::string> notices_of(std::span<Partner> partners, bool quiet) {
   return all;
 }
 
-/// What the three processes have cost so far.
-std::vector<ProcessCost> costs(Crew& crew, const std::vector<Partner*>& partners) {
-  const auto &fluid = partners[0]->hello(), &solid = partners[1]->hello();
-  return {{"fsi_master", program_name, 0, {cpu_seconds(), peak_memory_mb()}},
-          {"fluid", fluid.program, fluid.unknowns, crew.fluid.usage().get()},
-          {"solid", solid.program, solid.unknowns, crew.solid.usage().get()}};
+/// What the processes have cost so far.
+std::vector<ProcessCost> costs(Crew& crew, std::span<Partner> partners) {
+  const auto &fluid = partners[0].hello(), &solid = partners[1].hello();
+  std::vector<ProcessCost> all{{"fsi_master", program_name, 0, {cpu_seconds(), peak_memory_mb()}},
+                               {"fluid", fluid.program, fluid.unknowns, crew.fluid.usage().get()},
+                               {"solid", solid.program, solid.unknowns, crew.solid.usage().get()}};
+  if (partners.size() > 2) {
+    const auto usage = partners[2].ask(protocol::GetUsage{});
+    all.push_back({"observation_manager", partners[2].hello().program, 0, {usage.cpu_seconds, usage.peak_memory_mb}});
+  }
+  return all;
 }
 
 /// Throws InputError if the case asks for a state observer, and a code has none.
@@ -143,13 +148,13 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   }
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, options.size);
-  const auto before = costs(crew, {&fluid_process, &solid_process});
+  const auto before = costs(crew, processes);
   simulation.run();
   RunFacts facts{master.file.common().name,
                  master.file.common().title,
                  fs::absolute(master.file.path()).string(),
                  coupling->name(),
-                 costs(crew, {&fluid_process, &solid_process}),
+                 costs(crew, processes),
                  merged_json({own_sections(master), fluid_case, solid_case}),
                  notices};
   for (std::size_t i = 0; i < before.size(); ++i)

@@ -47,7 +47,10 @@ StateObserver::StateObserver(const WallModel& model, VectorXd gain)
 }
 
 Points StateObserver::correction(const NodalDistances& data, double dt) {
-  return extend(data, (1 - (-dt * gain_.array()).exp()) * data.distance.array());
+  VectorXd target = (1 - (-dt * gain_.array()).exp()) * data.distance.array();
+  const VectorXd most = largest_move * mesh_size_, cut = target.cwiseMin(most).cwiseMax(-most);
+  for (Eigen::Index a = 0; a < target.size(); ++a) limited_ += data.weight[a] > 0 && cut[a] != target[a] ? 1 : 0;
+  return extend(data, cut);
 }
 
 Points StateObserver::drift(const NodalDistances& data) {
@@ -97,9 +100,7 @@ Points StateObserver::extend(const NodalDistances& data, const VectorXd& target)
   VectorXd rhs = VectorXd::Zero(K_.rows()), e = rhs;
   for (Eigen::Index a = 0; a < interface_nodes_; ++a) {
     if (pattern.weight[a] == 0) continue;
-    const double most = largest_move * mesh_size_[a], t = std::clamp(target[a], -most, most);
-    limited_ += t != target[a] ? 1 : 0;
-    rhs.segment<3>(3 * a) = kappa_ * pattern.weight[a] * t * pattern.normal.col(a);
+    rhs.segment<3>(3 * a) = kappa_ * pattern.weight[a] * target[a] * pattern.normal.col(a);
   }
   if (rhs.isZero(0)) return Points::Zero(3, rhs.size() / 3);
   if (factored_.empty()) factor(pattern);

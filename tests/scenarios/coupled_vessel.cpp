@@ -35,12 +35,12 @@ namespace {
 protocol::Partner fluid_of(const WholeCase& all, const fluid::FluidSolver*& blood) {
   auto solver = std::make_unique<fluid::FluidSolver>(all.vessel().fluid, fluid::make_settings(all.fluid, all.file));
   blood = solver.get();
-  return protocol::in_process_partner<protocol::ToFluid>(
+  return protocol::in_process_partner<protocol::ToObservedFluid>(
       "fluid", std::make_shared<fluid::FluidServer>(std::move(solver), all.file.units(), "{}", ""));
 }
 
 protocol::Partner solid_of(const WholeCase& all) {
-  return protocol::in_process_partner<protocol::ToSolid>(
+  return protocol::in_process_partner<protocol::ToObservedSolid>(
       "solid",
       std::make_shared<SolidServer>(prepare_wall(all.solid, all.vessel().wall, all.file), all.file.units(), "{}", ""));
 }
@@ -93,6 +93,11 @@ Points CoupledVessel::displacement() const {
 VectorXd CoupledVessel::velocity() {
   const std::vector<double> V = loop_->snapshot().velocity;
   return Eigen::Map<const VectorXd>(V.data(), static_cast<Eigen::Index>(V.size()));
+}
+
+void CoupledVessel::observe(ObservationPartner& data, Observer::Form form) {
+  observer_.emplace(data, *fluid_, solid_, form, surface_.points.reshaped());
+  loop_->observe(*observer_);
 }
 
 void CoupledVessel::stand_where(CoupledVessel& other) {

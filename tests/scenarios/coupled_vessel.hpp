@@ -38,6 +38,8 @@ class CoupledVessel {
   const Points& reference() const { return surface_.points; }
   Points displacement() const;
   VectorXd velocity();
+  /// From now on measurements correct the run; the case has an observer's gain.
+  void observe(ObservationPartner& data, Observer::Form form);
   /// Start from where the other stands, with this one's own method and memory of it.
   void stand_where(CoupledVessel& other);
 
@@ -54,6 +56,7 @@ class CoupledVessel {
   CouplingOptions options_;
   std::unique_ptr<Coupling> coupling_;
   std::optional<TimeLoop> loop_;
+  std::optional<Observer> observer_;
   std::int64_t step_ = 0;
   StepRecord last_;
 };
