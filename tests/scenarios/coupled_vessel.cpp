@@ -100,6 +100,17 @@ void CoupledVessel::observe(ObservationPartner& data, Observer::Form form) {
   loop_->observe(*observer_);
 }
 
+void CoupledVessel::correct_once(ObservationPartner& data, double duration) {
+  Observer once(data, *fluid_, solid_, Observer::Form::split, surface_.points.reshaped());
+  Snapshot snapshot = loop_->snapshot();
+  const VectorXd change = once.correct(time(), duration, loop_->displacement());
+  snapshot.fluid = fluid_->state().get();
+  snapshot.solid = solid_.state().get();
+  for (std::size_t i = 0; i < snapshot.displacement.size(); ++i)
+    snapshot.displacement[i] += change[static_cast<Eigen::Index>(i)];
+  loop_->restore(snapshot);
+}
+
 void CoupledVessel::stand_where(CoupledVessel& other) {
   Snapshot there = other.loop_->snapshot();
   there.method = "another's";

@@ -36,10 +36,13 @@ class CoupledVessel {
   const fluid::FluidSolver& blood() const { return *blood_; }
   /// The interface: y (3 x nodes, reference positions x) and V of the last step.
   const Points& reference() const { return surface_.points; }
+  const std::vector<Triangle>& triangles() const { return surface_.triangles; }
   Points displacement() const;
   VectorXd velocity();
   /// From now on measurements correct the run; the case has an observer's gain.
   void observe(ObservationPartner& data, Observer::Form form);
+  /// One correction toward data, as of a step of this length.
+  void correct_once(ObservationPartner& data, double duration);
   /// Start from where the other stands, with this one's own method and memory of it.
   void stand_where(CoupledVessel& other);
 
