@@ -21,7 +21,11 @@ constexpr auto pause_time = std::chrono::seconds(2);
 
 /// A partner that returns the points it gets, and is slow to write.
 struct Echo {
-  Hello hello() const { return {"echo", false, false, false, 0, 0, {}, {}, ""}; }
+  Hello hello() const {
+    Hello hello;
+    hello.program = "echo";
+    return hello;
+  }
   Ready operator()(const SetParameters&) { return {}; }
   Ready operator()(const Write&) {
     std::this_thread::sleep_for(pause_time);

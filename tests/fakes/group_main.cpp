@@ -11,7 +11,11 @@ struct Group {
   std::span<Partner> partners;
   std::int64_t step = 0;
 
-  Hello hello() const { return {"fake group", false, false, false, 0, 0, {}, {}, ""}; }
+  Hello hello() const {
+    Hello hello;
+    hello.program = "fake group";
+    return hello;
+  }
   Ready operator()(const SetParameters&) { return {}; }
   Ready operator()(const Write&) { return {}; }
   Ready operator()(const Stop&) { return {}; }
