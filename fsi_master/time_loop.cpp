@@ -55,12 +55,9 @@ bool TimeLoop::attempt(double time, double dt, StepRecord& record) {
 
 CouplingResult TimeLoop::solve(const StepStart& start) {
   try {
-    auto solid = solid_.begin_step(start);
-    if (observer_ != nullptr && observer_->form() == Observer::Form::monolithic) {
-      solid.get();
-      return solve_with_drift(start);
-    }
+    if (observer_ != nullptr && observer_->form() == Observer::Form::monolithic) return solve_with_drift(start);
     auto fluid = fluid_.begin_step(start);
+    auto solid = solid_.begin_step(start);
     fluid.get();
     solid.get();
     return coupling_.solve_step(start);
@@ -76,6 +73,7 @@ CouplingResult TimeLoop::solve(const StepStart& start) {
 CouplingResult TimeLoop::solve_with_drift(StepStart start) {
   constexpr int most_turns = 20;
   constexpr double tolerance = 1e-9;  // of the displacement
+  solid_.begin_step(start).get();
   start.drift = observer_->drift(start.time, start.displacement);
   const VectorXd mesh_moved = start.dt * start.drift;
   observer_->move_mesh(mesh_moved);

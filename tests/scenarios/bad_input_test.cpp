@@ -143,7 +143,7 @@ const Mistake mistakes[] = {
      "inlets, outlets, probes"},
     {"UnknownSection", In::the_case, "solid:", "tissue: {}\nsolid:",
      "case.yaml:21: tissue: unknown section; known are name, title, units, time, image, mesh, fluid, solid, coupling, "
-     "observations, identification, diagnosis, output"},
+     "observations, observer, identification, diagnosis, output"},
     {"MissingField", In::the_case, "  density: 1.06\n", "",
      "case.yaml:13: fluid.density: missing: must be given in g/cm3 (density of the blood)"},
     {"NegativeStiffness", In::the_case, "stiffness: 1e6", "stiffness: -3",
