@@ -17,6 +17,8 @@ struct Peer {
   std::string activity = "starting";  ///< what it was last asked to do: "computing step 12 (SolidEvaluate)"
   /// "solid (pid 1234 on node7)"
   std::string describe() const;
+  /// "solid failed while computing step 12 (SolidEvaluate): MESSAGE"
+  std::string failure(const std::string& message) const;
 };
 
 /// The other process is gone. Its channel must not be used any more.
@@ -24,9 +26,9 @@ struct PeerDied : RunError {
   explicit PeerDied(const Peer& peer);
 };
 
-/// The other process did not answer within the limit.
+/// The other process did not answer within the limit. `hint`: what a person can do about it.
 struct PeerSilent : RunError {
-  PeerSilent(const Peer& peer, double limit);
+  PeerSilent(const Peer& peer, double limit, const std::string& hint = "");
 };
 
 /// Two ends that exchange packets, in order. `send` does not wait for the other end, `receive` does.

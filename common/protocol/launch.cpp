@@ -10,6 +10,7 @@
 
 #include "common/base/process.hpp"
 #include "common/protocol/job.hpp"
+#include "common/protocol/limits.hpp"
 #include "common/protocol/mpi_channel.hpp"
 #include "common/protocol/roster.hpp"
 #include "common/protocol/signals.hpp"
@@ -36,7 +37,7 @@ struct Session::Parts {
   MPI_Comm meet_master() const { return meet(master_of(roles, rank), rank, "the master", role); }
   std::unique_ptr<Channel> start(const Program& program) {
     auto [communicator, peer] = spawn(program, role);
-    return std::make_unique<MpiChannel>(peer, communicator, watch);
+    return std::make_unique<MpiChannel>(MpiChannel::To::partner, peer, communicator, watch);
   }
   /// The first of the candidates (world ranks) that has the program's role.
   std::unique_ptr<Channel> take(const Program& program, std::vector<int>& candidates) {
@@ -45,13 +46,14 @@ struct Session::Parts {
     if (found == candidates.end()) throw input_error("the mpirun line has no {} for this {}", program.role, role);
     const int partner = *found;
     candidates.erase(found);
-    return std::make_unique<MpiChannel>(Peer{program.role}, meet(partner, partner, program.role, role), watch);
+    const MPI_Comm communicator = meet(partner, partner, program.role, role);
+    return std::make_unique<MpiChannel>(MpiChannel::To::partner, Peer{program.role}, communicator, watch);
   }
 };
 
 namespace {
 
-constexpr double finish_limit = 2, finalize_limit = 5;  // seconds
+constexpr double finish_limit = 2, leave_limit = 5, finalize_limit = 5;  // seconds
 
 /// The processes of this program: all that were spawned together, or one part of an MPMD line.
 MPI_Comm own_processes(bool spawned) {
@@ -115,6 +117,21 @@ void finish_if_idle(Partner& partner, bool abrupt) {
   }
 }
 
+/// Gives partners that were told to stop the time to end: a process that is left behind is an orphan, even if only for
+/// the second that an interpreter needs to end. Returns the pids that still run.
+std::vector<std::int64_t> await_end(const std::vector<Peer>& partners) {
+  std::vector<std::int64_t> running;
+  const auto all_dead = [&] {
+    running.clear();
+    for (const Peer& peer : partners)
+      if (peer.pid != 0 && peer.host == host_name() && !is_dead(peer)) running.push_back(peer.pid);
+    return running.empty();
+  };
+  wait_until(
+      all_dead, [] {}, leave_limit);
+  return running;
+}
+
 }  // namespace
 
 std::string find_executable(const Program& program) {
@@ -163,7 +180,7 @@ Session::Link Session::connect() {
     throw run_error("no master: this program is started by one, or beside one on an mpirun line (docs/protocol.md)");
   const bool spawned = parts_->parent != MPI_COMM_NULL;
   const MPI_Comm communicator = spawned ? parts_->parent : parts_->meet_master();
-  auto channel = std::make_unique<MpiChannel>(Peer{"the master"}, communicator, parts_->watch);
+  auto channel = std::make_unique<MpiChannel>(MpiChannel::To::master, Peer{"the master"}, communicator, parts_->watch);
   channel->send(pack(Arrival{version, parts_->role, host_name(), process_id()}));
   const auto greeting = unpack<Welcome>(channel->receive(infinite));
   channel->peer().host = greeting.host;
@@ -193,12 +210,16 @@ int Session::end(int exit_code) {
   for (Partner* partner : partners) finish_if_idle(*partner, !orderly);
   if (orderly && all([](const Partner* p) { return p->is_finished(); }))
     for (Partner* partner : partners) partner->close();
+  std::vector<Peer> peers;
+  for (const Partner* partner : partners) peers.push_back(partner->peer());
   parts_->groups.clear();
-  if (!parts_->watch.all_released()) end_job(exit_code, parts_->watch.abandoned());
+  if (!parts_->watch.all_released()) end_job(exit_code, parts_->watch.abandoned_partners());
+  const bool spawned_them = parts_->roles.size() <= 1;  // of an mpirun line all end together, in MPI_Finalize
+  const std::vector<std::int64_t> running = spawned_them ? await_end(peers) : std::vector<std::int64_t>{};
   const Guard deadline(0.5, [exit_code](double seconds) {
     if (seconds > finalize_limit) end_job(exit_code);
   });
-  if (exit_code != exit_done) leave_reaper({});
+  if (exit_code != exit_done || !running.empty()) leave_reaper(running);
   if (parts_->owns_mpi) MPI_Finalize();
   return exit_code;
 }

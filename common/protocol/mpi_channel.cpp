@@ -1,17 +1,23 @@
 #include "common/protocol/mpi_channel.hpp"
 
 #include "common/protocol/job.hpp"
+#include "common/protocol/messages.hpp"
 
 namespace tether::protocol {
 
 namespace {
 constexpr double close_limit = 3;  // seconds that the other end may take for the same call
+/// MPI sees what lies in a socket at the second probe. Not many more: on a busy machine each gives the core away.
+constexpr int rounds_of_progress = 4;
 }
 
-MpiChannel::MpiChannel(Peer peer, MPI_Comm communicator, Watch& watch)
-    : Channel(std::move(peer)), communicator_(communicator), watch_(watch) {
+MpiChannel::MpiChannel(To to, Peer peer, MPI_Comm communicator, Watch& watch)
+    : Channel(std::move(peer)), to_(to), communicator_(communicator), watch_(watch) {
   check_mpi(MPI_Comm_set_errhandler(communicator_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-  watch_.add(this->peer());
+  if (to == To::partner)
+    watch_.add_partner(this->peer(), [this] { hear_failure(); });
+  else
+    watch_.add_master(this->peer());
 }
 
 MpiChannel::~MpiChannel() {
@@ -29,12 +35,17 @@ void MpiChannel::send(Packet packet) {
 Packet MpiChannel::receive(double limit) {
   MPI_Message message = MPI_MESSAGE_NULL;
   MPI_Status status;
-  const auto arrived = [&] {
-    int flag = 0;
-    check_mpi(MPI_Improbe(0, MPI_ANY_TAG, communicator_, &flag, &message, &status), "MPI_Improbe");
-    return flag != 0;
-  };
-  if (!wait_until(arrived, watch_, limit)) throw PeerSilent(peer(), limit);
+  if (!wait_until([&] { return probe(MPI_ANY_TAG, message, status); }, limit)) throw PeerSilent(peer(), limit);
+  return take(message, status);
+}
+
+bool MpiChannel::probe(int tag, MPI_Message& message, MPI_Status& status) const {
+  int flag = 0;
+  check_mpi(MPI_Improbe(0, tag, communicator_, &flag, &message, &status), "MPI_Improbe");
+  return flag != 0;
+}
+
+Packet MpiChannel::take(MPI_Message message, const MPI_Status& status) {
   int size = 0;
   check_mpi(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count");
   Packet packet{status.MPI_TAG, Bytes(static_cast<std::size_t>(size))};
@@ -53,8 +64,26 @@ void MpiChannel::close() {
   check_mpi(MPI_Comm_disconnect(&communicator_), "MPI_Comm_disconnect");
 }
 
+/// Throws RunError if there is a Failure: a partner's last words.
+void MpiChannel::hear_failure() {
+  MPI_Message message = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  for (int round = 0; round < rounds_of_progress; ++round)
+    if (probe(kind_of<Failure, ToMaster>, message, status))
+      throw RunError(peer().failure(unpack<Failure>(take(message, status)).message));
+}
+
 void MpiChannel::flush() {
   wait(sending_, infinite);
+}
+
+bool MpiChannel::wait_until(const std::function<bool()>& done, double limit) const {
+  return protocol::wait_until(
+      done,
+      [this] {
+        if (to_ == To::partner) watch_.check_partners();
+      },
+      limit);
 }
 
 void MpiChannel::wait(MPI_Request& request, double limit) {
@@ -63,7 +92,7 @@ void MpiChannel::wait(MPI_Request& request, double limit) {
     check_mpi(MPI_Test(&request, &flag, MPI_STATUS_IGNORE), "MPI_Test");
     return flag != 0;
   };
-  if (!wait_until(finished, watch_, limit)) throw PeerSilent(peer(), limit);
+  if (!wait_until(finished, limit)) throw PeerSilent(peer(), limit);
 }
 
 }  // namespace tether::protocol

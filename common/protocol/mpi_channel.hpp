@@ -12,8 +12,10 @@ namespace tether::protocol {
 /// Never blocks inside MPI: a dead peer would hang it.
 class MpiChannel final : public Channel {
  public:
-  /// The channel becomes the owner of `communicator`; `watch` must outlive it.
-  MpiChannel(Peer peer, MPI_Comm communicator, Watch& watch);
+  enum class To { partner, master };
+  /// The channel becomes the owner of `communicator`; `watch` must outlive it. Only a wait for a partner ends with
+  /// PeerDied or Interrupted; a process that waits for its master ends with it.
+  MpiChannel(To to, Peer peer, MPI_Comm communicator, Watch& watch);
   ~MpiChannel() override;
   void send(Packet packet) override;
   Packet receive(double limit) override;
@@ -21,8 +23,13 @@ class MpiChannel final : public Channel {
   void close() override;
 
  private:
+  bool probe(int tag, MPI_Message& message, MPI_Status& status) const;
+  Packet take(MPI_Message message, const MPI_Status& status);
+  bool wait_until(const std::function<bool()>& done, double limit) const;
   void wait(MPI_Request& request, double limit);
+  void hear_failure();
 
+  To to_;
   MPI_Comm communicator_;
   Watch& watch_;
   Bytes outgoing_;

@@ -4,7 +4,12 @@ namespace tether::protocol {
 
 const Hello& Partner::hello(double limit) {
   if (stage_ != Stage::starting) return hello_;
-  const Packet packet = take(limit);
+  Packet packet;
+  try {
+    packet = take(limit);
+  } catch (const PeerSilent&) {
+    throw PeerSilent(peer(), limit, " (TETHER_SETUP_LIMIT=SECONDS lets it take longer)");
+  }
   if (!holds<Hello>(packet)) {
     close();
     reject(packet, Hello::message_name);
@@ -59,7 +64,7 @@ void Partner::reject(const Packet& packet, const char* expected) const {
                     kind_name<ToMaster>(packet.kind), expected);
   const auto failure = unpack<Failure>(packet);
   if (failure.input_wrong) throw InputError(fmt::format("{}: {}", role(), failure.message));
-  throw PartnerFailed(fmt::format("{} failed while {}: {}", role(), peer().activity, failure.message));
+  throw PartnerFailed(peer().failure(failure.message));
 }
 
 }  // namespace tether::protocol

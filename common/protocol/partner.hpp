@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/protocol/channel.hpp"
+#include "common/protocol/limits.hpp"
 
 namespace tether::protocol {
 
@@ -27,7 +28,7 @@ class Partner {
   const std::string& role() const { return channel_->peer().role; }
   const Peer& peer() const { return channel_->peer(); }
   /// What the partner is and can do. Waits for it the first time, at most `limit` seconds.
-  const Hello& hello(double limit = infinite);
+  const Hello& hello(double limit = setup_limit());
 
   template <class Request>
   typename Request::Reply ask(const Request& request) {

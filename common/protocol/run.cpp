@@ -40,18 +40,12 @@ namespace detail {
 
 int run_partner(const std::string& role, const std::function<void(const Session::Link&, Session&)>& life) {
   std::unique_ptr<Session> session;
-  bool orphaned = false;
   const int code = guarded(role, [&] {
     session = std::make_unique<Session>(role);
     const auto link = session->connect();
-    try {
-      life(link, *session);
-    } catch (const PeerDied&) {
-      orphaned = true;  // no message: whoever started the master sees its end
-    }
+    life(link, *session);
   });
-  if (!session) return code;
-  return session->end(orphaned ? exit_run_failed : code);
+  return session ? session->end(code) : code;
 }
 
 void refuse(Channel& master) {

@@ -42,7 +42,8 @@ Packet answer(const Packet& request, Handler& handler) {
   }
 }
 
-/// A partner's life after Welcome: says hello, then answers until Stop. Throws PeerDied if the master is gone.
+/// A partner's life after Welcome: says hello, then answers until Stop. If the master dies the process is ended
+/// (Watch::follow).
 template <class Requests, class Handler>
 void serve(Channel& master, const Hello& hello, Handler& handler) {
   master.send(pack(hello));

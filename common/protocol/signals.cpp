@@ -10,10 +10,9 @@ namespace tether::protocol {
 
 namespace {
 
-using Handler = void (*)(int);
-
 constexpr double grace = 0.5;         // seconds
 std::atomic<double> signal_time = 0;  // 0: none came
+std::atomic<bool> ends_later = false;
 
 double now() {
   timespec time{};
@@ -23,19 +22,15 @@ double now() {
 
 void note(int) {
   signal_time = now();
-}
-
-void end_later(int) {
-  alarm(1);
+  if (ends_later) alarm(1);
 }
 
 /// Unless the host code handles the signal itself. The second signal finds the default action.
-void handle_once(int signal, Handler handler) {
+void note_once(int signal) {
   struct sigaction old {
   }, action{};
-  if (sigaction(signal, nullptr, &old) != 0) return;
-  if (old.sa_handler != SIG_DFL && old.sa_handler != end_later && old.sa_handler != note) return;
-  action.sa_handler = handler;
+  if (sigaction(signal, nullptr, &old) != 0 || old.sa_handler != SIG_DFL) return;
+  action.sa_handler = note;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigaction(signal, &action, nullptr);
 }
@@ -43,8 +38,8 @@ void handle_once(int signal, Handler handler) {
 }  // namespace
 
 void report_signals() {
-  handle_once(SIGINT, note);
-  handle_once(SIGTERM, note);
+  note_once(SIGINT);
+  note_once(SIGTERM);
 }
 
 bool interrupted() {
@@ -56,8 +51,9 @@ void check_interrupted() {
 }
 
 void delay_termination() {
-  handle_once(SIGINT, SIG_DFL);
-  handle_once(SIGTERM, end_later);
+  ends_later = true;
+  if (interrupted()) alarm(1);
+  report_signals();
 }
 
 }  // namespace tether::protocol

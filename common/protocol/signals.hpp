@@ -18,7 +18,8 @@ bool interrupted();
 /// Throws Interrupted half a second after the signal: until then a partner may tell of a death that came before it.
 void check_interrupted();
 
-/// A partner: SIGTERM takes effect after one second, so that its master does not mistake it for the process that died.
+/// A partner: such a signal takes effect after one second, so that its master does not mistake it for the process that
+/// died; a partner that is a master too uses that second to say what happened.
 void delay_termination();
 
 }  // namespace tether::protocol

@@ -8,7 +8,9 @@
 #include "common/base/process.hpp"
 #include "common/protocol/guard.hpp"
 #include "common/protocol/job.hpp"
+#include "common/protocol/limits.hpp"
 #include "common/protocol/signals.hpp"
+#include "common/protocol/watch.hpp"
 
 namespace tether::protocol {
 
@@ -64,8 +66,10 @@ void prepare_open_mpi() {
   setenv("OMPI_MCA_btl", "self,tcp", 0);
 }
 
-/// MPI_Init of an MPMD line waits for all its programs. Only the first of them tells that it is in vain.
+/// MPI_Init of an MPMD line waits for all its programs. Only the first of them tells that it is in vain. A spawned
+/// program whose master has died meanwhile goes silently.
 void check_initialising(double seconds, const std::string& role) {
+  if (is_dead(marking_master())) end_job(exit_run_failed);
   const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
   const bool is_first = rank == nullptr || std::string(rank) == "0";
   if (is_first && interrupted()) give_up(role, "interrupted while MPI started: a program of the mpirun line ended");
@@ -91,12 +95,6 @@ void check_mpi(int code, const char* what) {
   int length = 0;
   MPI_Error_string(code, text, &length);
   throw run_error("{}: {}", what, text);
-}
-
-double start_limit() {
-  const char* text = std::getenv("TETHER_START_LIMIT");
-  const double seconds = text ? std::atof(text) : 0;
-  return seconds > 0 ? seconds : 60;
 }
 
 void give_up(const std::string& role, const std::string& message) {

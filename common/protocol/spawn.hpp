@@ -8,9 +8,6 @@
 /// hang.
 namespace tether::protocol {
 
-/// Seconds that a process may take to appear: TETHER_START_LIMIT, 60 if unset.
-double start_limit();
-
 /// Ends the job with `message` on stderr: a call inside MPI will not come back.
 [[noreturn]] void give_up(const std::string& role, const std::string& message);
 

@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto spin_time = std::chrono::microseconds(100);
 constexpr Clock::duration first_nap = std::chrono::microseconds(10);
 constexpr auto look_every = std::chrono::milliseconds(200);
+constexpr double follow_every = 0.1, follow_after = 0.5;  // seconds
 
 /// Doubled up to 0.5 ms; in long waits 1 % of the time waited so far, up to 5 ms.
 Clock::duration next_nap(Clock::duration nap, Clock::duration waited) {
@@ -31,30 +32,45 @@ bool is_dead(const Peer& peer) {
   return peer.pid != 0 && peer.host == host_name() && !is_running(peer.pid);
 }
 
+std::size_t Watch::forget_partner(const Peer& peer) {
+  return std::erase_if(partners_, [&](const Partner& partner) { return partner.peer == &peer; });
+}
+
 void Watch::release(const Peer& peer) {
-  std::erase(peers_, &peer);
-  if (master_ == &peer) unfollow();
+  forget_partner(peer);
+  if (master_ != &peer) return;
+  master_ = nullptr;
+  unfollow();
 }
 
 void Watch::abandon(const Peer& peer) {
-  if (std::erase(peers_, &peer) > 0) abandoned_.push_back(peer);
+  if (forget_partner(peer) > 0) abandoned_.push_back(peer);
 }
 
-void Watch::check() const {
-  for (const Peer* peer : peers_)
-    if (is_dead(*peer)) throw PeerDied(*peer);
+void Watch::check_partners() const {
+  for (const Partner& partner : partners_) {
+    if (!is_dead(*partner.peer)) continue;
+    partner.hear();
+    throw PeerDied(*partner.peer);
+  }
+  try {
+    check_interrupted();
+  } catch (const Interrupted&) {
+    for (const Partner& partner : partners_) partner.hear();
+    throw;
+  }
 }
 
 void Watch::follow(const Peer& master) {
-  master_ = &master;
-  guard_ = std::make_unique<Guard>(0.2, [master](double) {
-    if (is_dead(master)) end_job(exit_run_failed);
+  guard_ = std::make_unique<Guard>(follow_every, [master, alive = 0.0](double seconds) mutable {
+    if (!is_dead(master)) alive = seconds;
+    if (seconds - alive > follow_after) end_job(exit_run_failed);
   });
 }
 
-bool wait_until(const std::function<bool()>& done, const Watch& watch, double limit) {
+bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit) {
   const auto start = Clock::now();
-  auto look = start + look_every, now = start;
+  auto next_look = start + look_every, now = start;
   for (; now - start < spin_time; now = Clock::now()) {
     if (done()) return true;
     std::this_thread::yield();
@@ -62,10 +78,14 @@ bool wait_until(const std::function<bool()>& done, const Watch& watch, double li
   for (auto nap = first_nap; !done(); nap = next_nap(nap, now - start)) {
     std::this_thread::sleep_for(nap);
     now = Clock::now();
-    if (now >= look || interrupted()) {
-      watch.check();
-      check_interrupted();
-      look = now + look_every;
+    if (now >= next_look || interrupted()) {
+      try {
+        look();
+      } catch (const PeerDied&) {
+        if (done()) return true;
+        throw;
+      }
+      next_look = now + look_every;
     }
     if (std::chrono::duration<double>(now - start).count() > limit) return false;
   }

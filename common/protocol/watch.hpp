@@ -10,26 +10,40 @@
 
 namespace tether::protocol {
 
-/// The peers of this process: those without which this one cannot go on: the master's partners, or a partner's master.
-/// MPI does not report a death (docs/decisions/0002), so the process table is asked.
+/// The peers without which this process cannot go on: its partners if it is a master, its master if it is a partner, or
+/// both. MPI does not report a death (docs/decisions/0002), so the process table is asked.
 class Watch {
  public:
-  void add(const Peer& peer) { peers_.push_back(&peer); }
+  /// Throws RunError if the partner has sent a Failure that nobody has read.
+  using Hear = std::function<void()>;
+
+  void add_partner(const Peer& peer, Hear hear) { partners_.push_back({&peer, std::move(hear)}); }
+  void add_master(const Peer& peer) { master_ = &peer; }
   /// The peer ended in good order.
   void release(const Peer& peer);
   /// The peer is dead, busy or silent, and nobody talks to it any more.
   void abandon(const Peer& peer);
-  /// Throws PeerDied for the first peer on this host that does not run any more.
-  void check() const;
-  /// From now on this process ends with its master, even in the middle of a computation; until released.
+
+  /// Throws PeerDied for the first partner on this host that does not run any more, or Interrupted; or, instead, what
+  /// the partner that died (after a signal: any partner) has said before: it tells more.
+  void check_partners() const;
+  /// From now on this process ends half a second after its master, even in the middle of a computation; until released.
+  /// No sooner: between SIGTERM and SIGKILL mpirun waits a second, but only until any process ends, and in that second
+  /// somebody may have to say what happened.
   void follow(const Peer& master);
   void unfollow() { guard_.reset(); }
 
-  bool all_released() const { return peers_.empty() && abandoned_.empty(); }
-  const std::vector<Peer>& abandoned() const { return abandoned_; }
+  bool all_released() const { return partners_.empty() && abandoned_.empty() && master_ == nullptr; }
+  const std::vector<Peer>& abandoned_partners() const { return abandoned_; }
 
  private:
-  std::vector<const Peer*> peers_;
+  struct Partner {
+    const Peer* peer;
+    Hear hear;
+  };
+  std::size_t forget_partner(const Peer& peer);
+
+  std::vector<Partner> partners_;
   std::vector<Peer> abandoned_;
   const Peer* master_ = nullptr;
   std::unique_ptr<Guard> guard_;
@@ -39,8 +53,8 @@ class Watch {
 bool is_dead(const Peer& peer);
 
 /// Waits until `done` without burning a core: tries for 0.1 ms, then naps of 10 us, doubling up to 0.5 ms, in long
-/// waits 1 % of the time waited (at most 5 ms). Looks after `watch` every 0.2 s. False if `limit` seconds passed.
-/// Throws PeerDied, Interrupted.
-bool wait_until(const std::function<bool()>& done, const Watch& watch, double limit = infinite);
+/// waits 1 % of the time waited (at most 5 ms). Calls `look` every 0.2 s, and all the time after a signal; what it
+/// throws ends the wait, but not PeerDied if `done` comes true after all. False if `limit` seconds passed.
+bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit = infinite);
 
 }  // namespace tether::protocol

@@ -43,7 +43,10 @@ class AnyDeath : public testing::TestWithParam<Case> {};
 
 TEST_P(AnyDeath, Ends_with_one_message_and_no_orphan) {
   const Case& c = GetParam();
-  const auto job = run_job(command_for(c.start), {{"TETHER_FAKE", c.fault}, {"TETHER_START_LIMIT", "2"}});
+  const bool hangs = std::string(c.fault).find("hang") != std::string::npos;
+  Environment environment{{"TETHER_FAKE", c.fault}};
+  if (hangs) environment["TETHER_START_LIMIT"] = environment["TETHER_SETUP_LIMIT"] = "2";
+  const auto job = run_job(command_for(c.start), environment);
   EXPECT_EQ(without_details(job.errors), c.message[0] == '\0' ? "" : std::string("fake_master: ") + c.message + "\n");
   EXPECT_EQ(job.exit_code, c.exit_code);
   EXPECT_LT(job.seconds, 6);
@@ -56,6 +59,7 @@ constexpr auto before_mpi = "solid ended before it reached MPI", setting_up = "s
                fluid_0 = "fluid died while computing step 0 (FluidEvaluate)",
                failed = "solid failed while computing step 0 (SolidEvaluate): element 12 is inverted",
                refused = "solid: case.yaml:7: solid.density: -1 g/cm3: must be positive",
+               silent = "solid gave no sign for 2 s while setting up (TETHER_SETUP_LIMIT=SECONDS lets it take longer)",
                too_late = "solid did not reach MPI within 2 s",
                not_started = "MPI did not start within 2 s: a program of the mpirun line did not reach it",
                line_ended = "interrupted while MPI started: a program of the mpirun line ended";
@@ -72,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"alone_early_exit", Start::alone, "solid.exit=start", before_mpi, 1},
                     Case{"alone_exit_in_step", Start::alone, "solid.exit=SolidEvaluate", step_0, 1},
                     Case{"alone_never_appears", Start::alone, "solid.hang=start", too_late, 1},
+                    Case{"alone_hangs_setting_up", Start::alone, "solid.hang=hello", silent, 1},
                     Case{"alone_failure", Start::alone, "solid.fail=SolidEvaluate", failed, 1},
                     Case{"alone_input", Start::alone, "solid.refuse=hello", refused, 2},
                     Case{"alone_master", Start::alone, "master.kill=step1", "", 137},
