@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "common/protocol/signals.hpp"
+
 namespace tether {
 namespace {
 
@@ -44,8 +46,10 @@ void Simulation::run() {
   } catch (const StepFailure& failure) {
     save(step);
     progress_->end_line();
-    throw run_error("{}\nThe state after {} steps is in {}", failure.what(), step,
-                    (plan_.output / "checkpoint").string());
+    throw run_error("{}\n{}", failure.what(), what_is_saved());
+  } catch (const protocol::Interrupted& interrupted) {
+    progress_->end_line();
+    throw run_error("{} in step {}\n{}", interrupted.what(), step + 1, what_is_saved());
   } catch (...) {
     progress_->end_line();
     throw;
@@ -63,7 +67,7 @@ void Simulation::begin() {
   const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
   loop_.restore(checkpoint.snapshot);
   statistics_ = checkpoint.statistics;
-  first_step_ = checkpoint.step;
+  saved_step_ = first_step_ = checkpoint.step;
   plan_.last_step = std::max(plan_.last_step, first_step_);
   series_.resume(checkpoint.step);
   motion_.resume(checkpoint.step + 1);
@@ -154,6 +158,12 @@ void Simulation::save(std::int64_t step) {
   if (!crew_.fluid.has_state()) without_state = crew_.fluid.name();
   if (!crew_.solid.has_state()) without_state += (without_state.empty() ? "" : " and ") + crew_.solid.name();
   write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state});
+  saved_step_ = step;
+}
+
+std::string Simulation::what_is_saved() const {
+  if (!saved_step_) return "No state is saved yet";
+  return fmt::format("The state after {} steps is in {}", *saved_step_, (plan_.output / "checkpoint").string());
 }
 
 }  // namespace tether

@@ -49,8 +49,8 @@ class Simulation {
  public:
   Simulation(RunPlan plan, Crew crew, int halvings);
 
-  /// From the start, or from the checkpoint, to the last step. Throws RunError if a step fails for good; the last good
-  /// state is then on the disk.
+  /// From the start, or from the checkpoint, to the last step. Throws RunError if a step fails for good (the last good
+  /// state is then on the disk) or after a signal (the last checkpoint is).
   void run();
 
   const RunPlan& plan() const { return plan_; }
@@ -68,6 +68,8 @@ class Simulation {
   void note_fluid(const std::vector<double>& observables);
   void write_files(std::int64_t step);
   void save(std::int64_t step);
+  /// For a person whose run has ended early.
+  std::string what_is_saved() const;
   Vec3 displacement_of(int node) const { return loop_.displacement().segment<3>(3 * node); }
   Points displacement() const;
   double largest_displacement() const;
@@ -81,6 +83,7 @@ class Simulation {
   RunStatistics statistics_;
   Extent pressure_now_;
   std::int64_t first_step_ = 0;
+  std::optional<std::int64_t> saved_step_;
   std::optional<Progress> progress_;
 };
 

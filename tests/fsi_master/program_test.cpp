@@ -32,8 +32,8 @@ class Program : public testing::Test {
                                         << coupling;
   }
   ChildEnd run(const std::string& output, std::vector<std::string> options = {}, const std::string& faults = "") const {
-    std::vector<std::string> words{TETHER_MASTER, (folder / "case.yaml").string(), "--output",
-                                   (folder / output).string()};
+    std::vector<std::string> words = launcher_;
+    words.insert(words.end(), {TETHER_MASTER, (folder / "case.yaml").string(), "--output", (folder / output).string()});
     words.insert(words.end(), options.begin(), options.end());
     return capture(
         {words, {{"TETHER_FAKE", faults}, {"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}}});
@@ -48,6 +48,7 @@ class Program : public testing::Test {
   }
 
   fs::path folder;
+  std::vector<std::string> launcher_;  ///< words of the command before the program
 };
 
 TEST_F(Program, SimulatesAndSumsUp) {
@@ -97,6 +98,25 @@ TEST_F(Program, AStepThatNeverSucceedsEndsWithHistoryAndLastGoodState) {
       << end.errors;
   EXPECT_NE(end.errors.find("worst at interface node"), std::string::npos) << end.errors;
   EXPECT_TRUE(fs::exists(folder / "out/checkpoint/master.bin"));
+}
+
+TEST_F(Program, AnInterruptedRunSaysWhatIsSavedAndContinuesFromThere) {
+  write_case("time: {step: 0.01, end: 1000}");
+  launcher_ = {"timeout", "--foreground", "--preserve-status", "--signal=INT", "2.5"};
+  const ChildEnd end = run("out", {"--quiet"});
+  launcher_ = {};
+  EXPECT_EQ(end.exit_code, 1);
+  ASSERT_TRUE(end.errors.starts_with("fsi_master: interrupted in step ")) << end.errors;
+  const std::string before = "The state after ";
+  const auto place = end.errors.find(before);
+  ASSERT_NE(place, std::string::npos) << end.errors;
+  const int saved = std::stoi(end.errors.substr(place + before.size()));
+  EXPECT_GE(saved, 4);
+  const std::string more = std::to_string(saved + 3);
+  const ChildEnd resumed = run("out", {"--quiet", "--resume", "--steps", more});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
+  ASSERT_EQ(run("whole", {"--quiet", "--steps", more}).exit_code, 0);
+  EXPECT_EQ(content("whole/timeseries.csv"), content("out/timeseries.csv"));
 }
 
 TEST_F(Program, AFailingPartnerIsNamedAfterTheLastHalving) {
