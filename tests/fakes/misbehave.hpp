@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <thread>
 
@@ -19,8 +20,15 @@ inline std::string option(const std::string& role, const std::string& name) {
   return options.substr(start + key.size(), options.find(' ', start + 1) - start - key.size());
 }
 
+/// Leaves an empty file TETHER_FAKE_STAMP, whose time is that of the fault.
+inline void stamp() {
+  if (const char* file = std::getenv("TETHER_FAKE_STAMP")) std::ofstream stamp(file);
+}
+
 /// What the fake called `role` is told to do wrong at `point` (a message's name, "start" or "hello").
 inline void misbehave(const std::string& role, const std::string& point) {
+  for (const char* fault : {"kill", "exit", "hang", "refuse", "fail"})
+    if (option(role, fault) == point) stamp();
   if (option(role, "kill") == point) std::raise(SIGKILL);
   if (option(role, "exit") == point) std::_Exit(0);
   if (option(role, "hang") == point) std::this_thread::sleep_for(std::chrono::hours(1));

@@ -23,6 +23,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+double seconds_since_written(const fs::path& file) {
+  if (!fs::exists(file)) return 0;
+  return std::chrono::duration<double>(fs::file_time_type::clock::now() - fs::last_write_time(file)).count();
+}
+
 void nap(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
@@ -88,6 +93,7 @@ JobResult run_job(const std::vector<std::string>& command, const Environment& ex
   fs::create_directories(folder);
   Environment environment = extra;
   environment["TETHER_TEST_JOB"] = name;
+  environment["TETHER_FAKE_STAMP"] = folder / "fault";
   environment["OMPI_ALLOW_RUN_AS_ROOT"] = environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
   const std::string mark = "TETHER_TEST_JOB=" + name + '\0';
   last_mark = mark;
@@ -97,6 +103,7 @@ JobResult run_job(const std::vector<std::string>& command, const Environment& ex
   JobResult result;
   result.exit_code = wait_for(child, mark, limit);
   result.seconds = seconds_since(start);
+  result.seconds_after_fault = seconds_since_written(folder / "fault");
   result.orphans = remaining(mark);
   result.output = contents(folder / "out");
   result.errors = contents(folder / "err");

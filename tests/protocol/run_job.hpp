@@ -10,8 +10,9 @@ namespace tether::tests {
 struct JobResult {
   int exit_code = -1;  ///< 128 + signal if a signal ended it, as a shell says
   double seconds = 0;
-  std::string output, errors;  ///< stdout, stderr
-  std::vector<int> orphans;    ///< the job's programs that still run 1.5 s after its end
+  double seconds_after_fault = 0;  ///< from the fault that a fake was told to make to the end; 0 without one
+  std::string output, errors;      ///< stdout, stderr
+  std::vector<int> orphans;        ///< the job's programs that still run 1.5 s after its end
 };
 
 using Environment = std::map<std::string, std::string>;
