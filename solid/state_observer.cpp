@@ -11,9 +11,9 @@
 namespace tether {
 namespace {
 
-constexpr double stiffer_than_the_wall = 1000;  ///< what is left of a smooth distance is a thousandth
-constexpr double tolerance = 1e-3;              ///< of the extension: the next step sees what it left
-constexpr int most_iterations = 60, worth_a_factor = 8;
+constexpr double stiffer_than_the_wall = 100;  ///< what is left of a smooth distance is a hundredth
+constexpr double tolerance = 1e-3;  ///< of the extension: a rough one shakes the wall, and the coupling works longer
+constexpr int most_iterations = 60, worth_a_factor = 12;
 constexpr double largest_move = 0.25;  ///< of the local mesh size, in one step
 
 /// Mean length of the interface's edges at each node.

@@ -13,7 +13,7 @@ struct NodalDistances {
 
 /// The displacement observer (O.7): pulls the wall toward the measured lumen, dy/dt = u + Ext(gamma d). Ext(t) is the
 /// static displacement of the linear elastic wall, its supports included, whose normal part at the observed nodes is t:
-/// the e that minimises e'K e/2 + kappa/2 sum_a w_a (n_a . e_a - t_a)^2, kappa a thousand times the wall's stiffness
+/// the e that minimises e'K e/2 + kappa/2 sum_a w_a (n_a . e_a - t_a)^2, kappa a hundred times the wall's stiffness
 /// against inflation. K + kappa W is factored once; where the observed nodes or normals change it preconditions a few
 /// conjugate gradients, and is made anew when they become many.
 class StateObserver {
