@@ -62,6 +62,14 @@ void add_results(Json& json, const Simulation& simulation) {
     json["points"][point.name] = {{"interface_node", point.node}, {"distance_to_node", point.distance}};
 }
 
+/// What a state observer did: the run follows the data, and is no evidence for the model.
+Json observer_facts(const ObserverStatistics& s, const UnitSystem& units) {
+  return {{"corrections", s.corrections},
+          {"weakened", s.weakened},
+          {"largest_correction", s.largest},
+          {"largest_correction_mm", units.to_mm(s.largest)}};
+}
+
 }  // namespace
 
 void write_summary(const Simulation& simulation, const RunFacts& facts) {
@@ -78,6 +86,8 @@ void write_summary(const Simulation& simulation, const RunFacts& facts) {
   add_costs(json, facts, simulation.statistics(), static_cast<double>(plan.last_step - simulation.first_step()));
   json["coupling_method"] = facts.method;
   add_results(json, simulation);
+  if (const Observer* observer = simulation.observer())
+    json["observer"] = observer_facts(observer->statistics(), plan.units);
   json["notices"] = facts.notices;
   for (const auto& process : facts.processes) json["versions"][process.name] = process.program;
   json["effective_case"] = Json::parse(facts.effective_case);

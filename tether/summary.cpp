@@ -29,6 +29,15 @@ std::string pressure(const Json& s) {
       image == 0 ? "" : fmt::format(" ({:.1f} in the image, to which other figures are relative)", image));
 }
 
+std::string observer(const Json& s) {
+  if (!s.contains("observer")) return "";
+  return fmt::format(
+      "  observer       moved the lumen by at most {:.2g} mm a step: this run follows the data, and is no evidence for "
+      "the "
+      "model\n",
+      s.at("observer").at("largest_correction_mm").get<double>());
+}
+
 std::string coupling(const Json& s) {
   const Json& c = s.at("coupling_iterations");
   return fmt::format("  coupling       {:.2f} evaluations a step, at most {:.0f} ({})\n", c.at("mean").get<double>(),
@@ -44,7 +53,7 @@ std::string summary_text(const std::filesystem::path& output) {
     const Json s = Json::parse(file);
     return cost(s) + pressure(s) +
            fmt::format("  displacement   at most {:.3g} mm\n", s.at("max_displacement_mm").get<double>()) +
-           coupling(s) +
+           coupling(s) + observer(s) +
            fmt::format("  mass balance   off by at most {:.1e} {}\n", s.at("mass_balance_error_max").get<double>(),
                        s.at("units").at("flow").get<std::string>());
   } catch (const Json::exception& error) {

@@ -1,0 +1,103 @@
+// Twin data from a finished run, and how far another run is from it.
+//   observer_twin surfaces CASE RUN FOLDER FRAMES DEVIATION LENGTH SEED   STL surfaces of the run's lumen over its last
+//   beat,
+//       with normal errors of that deviation, correlated over that length [case's units]
+//   observer_twin distance CASE RUN TRUTH                                 rms distance of a run's lumen to a run's,
+//   over time
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <random>
+
+#include "common/base/error.hpp"
+#include "common/case/mesh_case.hpp"
+#include "common/config/case_file.hpp"
+#include "common/io/lumen_motion.hpp"
+#include "common/mesh/surface.hpp"
+#include "common/observation/lumen_surface.hpp"
+
+namespace tether {
+namespace {
+
+LumenSurface lumen_of_case(const std::filesystem::path& path) {
+  CaseFile file(path);
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  return lumen_of(load_mesh(mesh, file.units(), WallElement::prism));
+}
+
+/// White noise at the nodes, averaged with exp(-r^2/(2 (l/2)^2)): its correlation is exp(-r^2/l^2).
+VectorXd correlated_noise(const Points& x, double deviation, double length, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  const VectorXd white = VectorXd::NullaryExpr(x.cols(), [&] { return normal(random); });
+  VectorXd noise(x.cols());
+  for (Eigen::Index a = 0; a < x.cols(); ++a) {
+    const VectorXd shares = (-2 / (length * length) * (x.colwise() - x.col(a)).colwise().squaredNorm().array()).exp();
+    noise[a] = deviation * shares.dot(white) / shares.norm();
+  }
+  return noise;
+}
+
+void write_stl(const std::filesystem::path& path, const Points& x, const std::vector<Triangle>& triangles) {
+  std::ofstream file(path);
+  file << "solid lumen\n";
+  for (const Triangle& t : triangles) {
+    const Vec3 n = area_vector(x, t).normalized();
+    file << fmt::format("facet normal {} {} {}\nouter loop\n", n[0], n[1], n[2]);
+    for (int node : t) file << fmt::format("vertex {} {} {}\n", x(0, node), x(1, node), x(2, node));
+    file << "endloop\nendfacet\n";
+  }
+  file << "endsolid lumen\n";
+  if (!file) throw run_error("{} cannot be written", path.string());
+}
+
+void write_surfaces(const std::vector<std::string>& words) {
+  const LumenSurface lumen = lumen_of_case(words.at(2));
+  const LumenMotion motion(std::filesystem::path(words.at(3)) / "lumen.motion");
+  const std::filesystem::path folder = words.at(4);
+  const int frames = std::stoi(words.at(5));
+  const double deviation = std::stod(words.at(6)), length = std::stod(words.at(7));
+  std::mt19937 random(static_cast<unsigned>(std::stoul(words.at(8))));
+  std::filesystem::create_directories(folder);
+  std::ofstream list(folder / "frames.csv");
+  list << "file, time [s]\n";
+  for (int k = 0; k < frames; ++k) {
+    const double time = motion.times().front() + (motion.times().back() - motion.times().front()) * k / (frames - 1);
+    Points x = motion.at(time);
+    x += nodal_normals(x, lumen.triangles) * correlated_noise(x, deviation, length, random).asDiagonal();
+    write_stl(folder / fmt::format("lumen_{}.stl", k), x, lumen.triangles);
+    list << fmt::format("lumen_{}.stl, {}\n", k, time);
+  }
+}
+
+/// Along the normals of the true lumen, over its area.
+void print_distance(const std::vector<std::string>& words) {
+  const LumenSurface lumen = lumen_of_case(words.at(2));
+  const LumenMotion run(std::filesystem::path(words.at(3)) / "lumen.motion"),
+      truth(std::filesystem::path(words.at(4)) / "lumen.motion");
+  for (const double time : run.times()) {
+    const Points x = truth.at(time), n = nodal_normals(x, lumen.triangles);
+    const VectorXd area = nodal_areas(x, lumen.triangles), d = n.cwiseProduct(run.at(time) - x).colwise().sum();
+    std::cout << fmt::format("{} {}\n", time, std::sqrt(area.dot(d.cwiseAbs2()) / area.sum()));
+  }
+}
+
+}  // namespace
+}  // namespace tether
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv, argv + argc);
+  try {
+    if (words.size() == 9 && words[1] == "surfaces")
+      tether::write_surfaces(words);
+    else if (words.size() == 5 && words[1] == "distance")
+      tether::print_distance(words);
+    else
+      throw tether::InputError(
+          "observer_twin surfaces CASE RUN FOLDER FRAMES DEVIATION LENGTH SEED | distance CASE RUN TRUTH");
+  } catch (const std::exception& error) {
+    std::cerr << "observer_twin: " << error.what() << "\n";
+    return 1;
+  }
+}
