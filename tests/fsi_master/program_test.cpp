@@ -1,4 +1,6 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +18,7 @@ namespace fs = std::filesystem;
 class Program : public testing::Test {
  protected:
   Program()
-      : folder(fs::path(testing::TempDir()) / "fsi_master" /
+      : folder(fs::path(testing::TempDir()) / fmt::format("fsi_master_{}", getpid()) /
                testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(folder);
     fs::create_directories(folder);

@@ -1,7 +1,9 @@
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 #include <csignal>
 #include <future>
+#include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 
 #include "common/base/child_process.hpp"
@@ -36,7 +38,18 @@ class Resume : public testing::TestWithParam<const char*> {
                               {"along: 20", "along: 12"},
                               {"write_every: 10", "write_every: 3"},
                               {"checkpoint_every: 100", "checkpoint_every: 4"},
-                              {"coupling: {", std::string("coupling: {method: ") + GetParam() + ", "}});
+                              {"coupling: {", coupling(GetParam())}});
+    std::ofstream ring(folder / "case/ring.csv");
+    ring << "slice, frame, time [s], x [cm], y [cm], z [cm]\n";
+    for (int frame = 0; frame < 2; ++frame)
+      for (int k = 0; k < 40; ++k) {
+        const double radius = 2.02 + 0.05 * frame, angle = 2 * std::numbers::pi * k / 40;
+        ring << fmt::format("middle, {}, {}, {}, {}, 5\n", frame, frame, radius * cos(angle), radius * sin(angle));
+      }
+  }
+  static std::string coupling(const std::string& method) {
+    if (method != "observed") return "coupling: {method: " + method + ", ";
+    return "observer: {gain: 60}\nobservations: {contours: {ring: {file: ring.csv}}}\ncoupling: {";
   }
   ChildEnd simulate(const std::string& output, int steps, const std::vector<std::string>& options = {}) const {
     std::vector<std::string> words{TETHER_PROGRAM,  "simulate", case_file.string(),    "--output",
@@ -61,7 +74,7 @@ class Resume : public testing::TestWithParam<const char*> {
     return nlohmann::json::parse(content_of(folder / output / "summary.json"));
   }
   void expect_same_results(const std::string& one, const std::string& other) const {
-    for (const char* name : {"timeseries.csv", "fluid.pvd", "solid.pvd"})
+    for (const char* name : {"timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd"})
       EXPECT_EQ(content_of(folder / one / name), content_of(folder / other / name)) << name;
     int compared = 0;
     for (const auto& entry : fs::directory_iterator(folder / one / "vtk")) {
@@ -94,7 +107,7 @@ TEST_P(Resume, LeavesTheFilesOfARunThatWasNotInterrupted) {
   expect_same_results("whole", "killed");
 }
 
-INSTANTIATE_TEST_SUITE_P(Coupling, Resume, testing::Values("newton_krylov", "iqn_ils"),
+INSTANTIATE_TEST_SUITE_P(Coupling, Resume, testing::Values("newton_krylov", "iqn_ils", "observed"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
