@@ -220,6 +220,8 @@ void validate(const CommandLine& command) {
   findings.of([&] { file.finish(); });
   findings.of([&] { validate_by({"fluid", coupling.programs.fluid, arguments}); });
   findings.of([&] { validate_by({"solid", coupling.programs.solid, arguments}); });
+  if (file.common().observer.is_on())
+    findings.of([&] { validate_by({"solid_observation", coupling.programs.observation, arguments}); });
   findings.throw_if_any();
 }
 
