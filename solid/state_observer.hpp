@@ -12,10 +12,12 @@ struct NodalDistances {
 };
 
 /// The displacement observer (O.7): pulls the wall toward the measured lumen, dy/dt = u + Ext(gamma d). Ext(t) is the
-/// static displacement of the linear elastic wall, its supports included, whose normal part at the observed nodes is t:
-/// the e that minimises e'K e/2 + kappa/2 sum_a w_a (n_a . e_a - t_a)^2, kappa a hundred times the wall's stiffness
-/// against inflation. K + kappa W is factored once; where the observed nodes or normals change it preconditions a few
-/// conjugate gradients, and is made anew when they become many.
+/// static displacement of the linear elastic wall, its supports included, whose part along the imaged lumen's normals N
+/// is t at the observed nodes: the e that minimises e'K e/2 + kappa/2 sum_a A_a (N_a . e_a - t_a)^2, kappa a hundred
+/// times the wall's stiffness against inflation, A_a the node's area. A distance d along n asks for t = d n.N: that is
+/// how far the lumen must move along N, be n the data's normal or a contour's in its slice. K + kappa A is factored
+/// once; while other nodes are observed it preconditions a few conjugate gradients, and it is made anew when they
+/// become many.
 class StateObserver {
  public:
   /// gain: gamma of each interface node [1/time].
@@ -33,29 +35,23 @@ class StateObserver {
   /// What the kept factor was made from, and a mark, so that a run continues bit for bit; all zero if there is none. A
   /// mixture of states is continued with the factor at hand.
   VectorXd state() const;
-  Eigen::Index state_size() const { return 4 * interface_nodes_ + 1; }
+  Eigen::Index state_size() const { return interface_nodes_ + 1; }
   void set_state(const VectorXd& state);
 
  private:
-  /// The observed part of the matrix: area times normal dyad.
-  struct Pattern {
-    VectorXd weight;
-    Points normal;
-    bool empty() const { return weight.size() == 0; }
-  };
-
   Points extend(const NodalDistances& data, const VectorXd& target);
-  Pattern pattern_of(const NodalDistances& data) const;
-  VectorXd times(const Pattern& pattern, const VectorXd& e) const;
-  void factor(const Pattern& pattern);
+  VectorXd observed_area(const NodalDistances& data) const;
+  VectorXd times(const VectorXd& observed, const VectorXd& e) const;
+  void factor(const VectorXd& observed);
 
   Eigen::Index interface_nodes_;
   VectorXd gain_, mesh_size_;
   SparseMatrix K_;
-  double kappa_, nodal_area_;
-  std::vector<int> clamped_;
+  double kappa_;
+  Points normal_;  ///< N of each interface node
+  VectorXd area_;  ///< A; 0 of nodes that cannot move or have no gain
   Cholesky factor_;
-  Pattern factored_;
+  VectorXd factored_;  ///< area of each node observed when the factor was made; empty: there is none
   std::int64_t limited_ = 0;
 };
 

@@ -108,15 +108,26 @@ TEST(StateObserver, LimitsTheMoveOfAStep) {
   EXPECT_LT(e.colwise().norm().maxCoeff(), 0.5 * 2 * std::numbers::pi / 24);
 }
 
-TEST(StateObserver, TheKeptFactorServesNormalsThatTurn) {
+/// A lumen that is cut obliquely moves by d m.N along its normal when its trace moves by d along m in the slice.
+TEST(StateObserver, TakesObliqueDistancesForWhatTheyAre) {
+  const auto model = tube();
+  NodalDistances data = distances(*model, bulge);
+  const Points straight = observer_of(*model).correction(data, dt);
+  for (Eigen::Index a = 0; a < data.weight.size(); ++a) {
+    data.normal.col(a) = (data.normal.col(a) + Vec3(0, 0, 0.5)).normalized();
+    data.distance[a] *= std::sqrt(1.25);
+  }
+  EXPECT_LT((observer_of(*model).correction(data, dt) - straight).norm(), 0.01 * straight.norm());
+}
+
+TEST(StateObserver, TheKeptFactorServesWhenSomeNodesAreNotObserved) {
   const auto model = tube();
   NodalDistances data = distances(*model, bulge);
   StateObserver kept = observer_of(*model);
   kept.correction(data, dt);
-  for (Eigen::Index a = 0; a < data.weight.size(); ++a)
-    data.normal.col(a) = (data.normal.col(a) + 0.1 * Vec3(0, 0, std::sin(double(a)))).normalized();
+  for (Eigen::Index a = 0; a < data.weight.size(); a += 25) data.weight[a] = 0;
   const Points with_kept = kept.correction(data, dt), with_new = observer_of(*model).correction(data, dt);
-  EXPECT_LT((with_kept - with_new).norm(), 2e-2 * with_new.norm());
+  EXPECT_LT((with_kept - with_new).norm(), 5e-3 * with_new.norm());
 }
 
 TEST(StateObserver, ContinuesBitForBitFromItsState) {
@@ -126,8 +137,7 @@ TEST(StateObserver, ContinuesBitForBitFromItsState) {
   first.correction(data, dt);
   StateObserver second = observer_of(*model);
   second.set_state(first.state());
-  for (Eigen::Index a = 0; a < data.weight.size(); ++a)
-    data.normal.col(a) = (data.normal.col(a) + 0.1 * Vec3(0, 0, std::sin(double(a)))).normalized();
+  data.weight[30] = data.weight[31] = 0;
   EXPECT_EQ(first.correction(data, dt), second.correction(data, dt));
   StateObserver mixed = observer_of(*model);
   mixed.set_state(0.5 * (first.state() + second.state()) + VectorXd::Ones(first.state_size()));
