@@ -21,6 +21,7 @@ COMMON = {
 }
 PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "pictures", "tether"]
 HEAVY = re.compile(r"(yaml-cpp/.*|CGAL/.*|vtk.*\.h|spdlog/.*|CLI/.*|nlohmann/.*|cholmod\.h)")
+BUILT_ON = {"tether": ["diagnosis"]}  # rooms that are libraries of a program
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 
 
@@ -36,7 +37,7 @@ def may_include(room, other):
     if room is None or other is None or room == other:
         return True
     if room in PROGRAMS:
-        return other in COMMON
+        return other in COMMON or other in BUILT_ON.get(room, [])
     return other in ["common/" + name for name in COMMON.get(room, [])]
 
 

@@ -117,6 +117,12 @@ std::vector<Sample> ContourSeries::observe(const Points& x, const Frame& frame) 
   return samples;
 }
 
+std::vector<std::string> ContourSeries::series_names() const {
+  std::vector<std::string> names;
+  for (const ContourTrack& track : tracks_) names.push_back(track.name);
+  return names;
+}
+
 std::vector<Frame> ContourSeries::frames() const {
   std::vector<Frame> frames;
   for (std::size_t t = 0; t < tracks_.size(); ++t)

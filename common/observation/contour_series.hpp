@@ -28,6 +28,8 @@ class ContourSeries : public LumenSeries {
   std::vector<Sample> observe(const Points& x, double time) const override;
   std::vector<Sample> observe(const Points& x, const Frame& frame) const override;
   std::vector<Frame> frames() const override;
+  std::vector<std::string> series_names() const override;
+  int sample_dimension() const override { return 1; }
   const SourceSettings& settings() const override { return settings_; }
   const std::vector<std::string>& notes() const override { return notes_; }
   const std::vector<ContourTrack>& tracks() const { return tracks_; }

@@ -47,6 +47,10 @@ class LumenSeries {
   /// The same against one frame, held out or not.
   virtual std::vector<Sample> observe(const Points& x, const Frame& frame) const = 0;
   virtual std::vector<Frame> frames() const = 0;
+  /// Of its contours; of surfaces the one name of the source.
+  virtual std::vector<std::string> series_names() const = 0;
+  /// What a sample's weight is: 2 an area, 1 a length.
+  virtual int sample_dimension() const = 0;
   virtual const SourceSettings& settings() const = 0;
   /// What was found and done on loading, one line each: data left out, surfaces turned, holes.
   virtual const std::vector<std::string>& notes() const = 0;

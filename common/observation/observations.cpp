@@ -149,9 +149,11 @@ Trace load(const std::string& name, const TraceCase& given, const CaseFile& file
   const bool shifted = given.quantity == "pressure" && given.absolute;
   for (double& time : table.times) time += given.time_shift;
   for (double& value : table.values) value = given.curve.scale * value - (shifted ? file.common().image.pressure : 0);
-  Curve curve(table.times, table.values, {.period = given.curve.period.value_or(0)});
+  const double period = given.curve.period.value_or(0);
+  Curve curve(table.times, table.values, {.period = period});
   return {
-      name, given.observable, std::move(table.times), std::move(table.values), std::move(curve), noise_of(given.noise)};
+      name,  given.observable, std::move(table.times), std::move(table.values), std::move(curve), noise_of(given.noise),
+      period};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Trace {
   std::vector<double> times, values;  ///< as measured; pressures relative to the image's
   Curve curve;
   Noise noise;
+  double period = 0;  ///< 0: it does not repeat [time]
 };
 
 /// All that was measured of a case.

@@ -25,6 +25,9 @@ class SurfaceSeries : public LumenSeries {
   std::vector<Sample> observe(const Points& x, double time) const override;
   std::vector<Sample> observe(const Points& x, const Frame& frame) const override;
   std::vector<Frame> frames() const override;
+  std::vector<std::string> series_names() const override { return {settings_.name}; }
+  int sample_dimension() const override { return 2; }
+  const TriangleSurface& surface(const Frame& frame) const { return frames_[frame.number].surface; }
   const SourceSettings& settings() const override { return settings_; }
   const std::vector<std::string>& notes() const override { return notes_; }
 

@@ -1,0 +1,55 @@
+#include "diagnosis/trace_discrepancy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "diagnosis/run_motion.hpp"
+#include "diagnosis/statistics.hpp"
+
+namespace tether {
+
+std::optional<double> TraceDiscrepancy::z() const {
+  if (noise.deviation <= 0 || times.empty()) return std::nullopt;
+  return bias * std::sqrt(effective) / noise.deviation;  // (D.3)
+}
+
+TraceDiscrepancy compare(const Trace& data, const RunTrace& run) {
+  TraceDiscrepancy result{data.name, data.observable, run.unit, data.noise, {}, {}, {}};
+  std::vector<std::pair<double, double>> found;
+  const double tolerance = 1e-9 * (run.times.back() - run.times.front());
+  for (std::size_t i = 0; i < data.times.size(); ++i)
+    if (const auto time = time_in_run(data.times[i], data.period, run.times.front(), run.times.back(), tolerance))
+      found.emplace_back(*time, data.values[i]);
+    else
+      ++result.outside;
+  std::sort(found.begin(), found.end());
+  const Curve model(run.times, run.values);
+  double squares = 0;
+  for (const auto& [time, measured] : found) {
+    const double difference = measured - model(time);
+    result.times.push_back(time);
+    result.measured.push_back(measured);
+    result.model.push_back(model(time));
+    squares += difference * difference;
+    result.bias += difference / static_cast<double>(found.size());
+    result.largest = std::max(result.largest, std::abs(difference));
+  }
+  if (found.empty()) return result;
+  result.rms = std::sqrt(squares / static_cast<double>(found.size()));
+  result.effective = effective_number(found.back().first - found.front().first, 1, data.noise.correlation_time,
+                                      static_cast<int>(found.size()));
+  return result;
+}
+
+std::string sentence_of(const TraceDiscrepancy& trace) {
+  if (trace.times.empty()) return fmt::format("{}: the run reaches none of its times", trace.name);
+  const std::string sigma = trace.z() ? fmt::format(" ({:.1f} sigma)", std::abs(*trace.z())) : "";
+  return fmt::format("{}: {} is {:.3g} {} too {} on average{}, {:.3g} off in root mean square", trace.name,
+                     trace.observable, std::abs(trace.bias), trace.unit, trace.bias > 0 ? "low" : "high", sigma,
+                     trace.rms);
+}
+
+}  // namespace tether

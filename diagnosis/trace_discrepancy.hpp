@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "common/observation/observations.hpp"
+
+namespace tether {
+
+/// A measured pressure or flow set against the same of a run, at the times of the measurement.
+struct TraceDiscrepancy {
+  std::string name, observable, unit;
+  Noise noise;
+  std::vector<double> times, measured, model;  ///< in the order of the run's times
+  int outside = 0;                             ///< measured values at times that the run does not reach
+  double rms = 0, largest = 0, bias = 0;       ///< bias: mean of measured minus model
+  double effective = 0;                        ///< number of independent values (D.2)
+  std::optional<double> z() const;             ///< of the bias (D.3); nothing without a noise
+};
+
+/// A column of a run's table of times.
+struct RunTrace {
+  std::vector<double> times, values;
+  std::string unit;
+};
+
+TraceDiscrepancy compare(const Trace& data, const RunTrace& run);
+
+/// "cuff: fluid.outlet.pressure is 5.1 g/(cm s2) too low on average (4.2 sigma)"
+std::string sentence_of(const TraceDiscrepancy& trace);
+
+}  // namespace tether

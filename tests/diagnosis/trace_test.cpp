@@ -1,0 +1,48 @@
+#include "diagnosis/trace_discrepancy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tether {
+namespace {
+
+Trace trace(std::vector<double> times, std::vector<double> values, Noise noise, double period) {
+  Curve curve(times, values, {.period = period});
+  return {"cuff", "fluid.outlet.pressure", std::move(times), std::move(values), std::move(curve), noise, period};
+}
+
+/// A run of two periods whose value is its time within the period.
+RunTrace saw() {
+  RunTrace run{{}, {}, "g/(cm s2)"};
+  for (int i = 0; i <= 200; ++i) {
+    run.times.push_back(0.01 * i);
+    run.values.push_back(std::fmod(0.01 * i, 1.0));
+  }
+  return run;
+}
+
+TEST(Trace, IsComparedAtItsOwnTimesInTheLastPeriod) {
+  const TraceDiscrepancy found = compare(trace({0.1, 0.25, 0.4}, {0.4, 0.55, 0.1}, {0.1, 0, 0.05}, 1), saw());
+  ASSERT_EQ(found.times.size(), 3U);
+  EXPECT_NEAR(found.times[0], 1.1, 1e-12);
+  EXPECT_NEAR(found.model[1], 0.25, 1e-12);
+  EXPECT_NEAR(found.bias, 0.1, 1e-12);
+  EXPECT_NEAR(found.largest, 0.3, 1e-12);
+  EXPECT_NEAR(found.rms, 0.3, 1e-12);
+  EXPECT_NEAR(found.effective, 3, 1e-12) << "0.3 s of errors alike over 0.05 s, as many as values";
+  EXPECT_NEAR(*found.z(), std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(sentence_of(found),
+            "cuff: fluid.outlet.pressure is 0.1 g/(cm s2) too low on average (1.7 sigma), 0.3 off in root mean square");
+}
+
+TEST(Trace, CountsValuesThatTheRunDoesNotReach) {
+  const TraceDiscrepancy found = compare(trace({0.5, 1.5, 2.5}, {0.2, 0.5, 1}, {}, 0), saw());
+  EXPECT_EQ(found.outside, 1);
+  EXPECT_FALSE(found.z());
+  EXPECT_EQ(sentence_of(found),
+            "cuff: fluid.outlet.pressure is 0.15 g/(cm s2) too high on average, 0.212 off in root mean square");
+}
+
+}  // namespace
+}  // namespace tether
