@@ -54,7 +54,7 @@ void set_effective_numbers(std::vector<Group>& groups, int dimension, double cor
 }
 
 /// Frames of equal time and kind become one moment; those that the run does not reach are returned apart.
-std::vector<Moment> moments_of(const LumenSeries& data, const RunMotion& run, FramesOutside& outside) {
+std::vector<Moment> moments_of(const LumenSeries& data, const RunMotion& run, std::vector<Frame>& outside) {
   const SourceSettings& settings = data.settings();
   std::vector<Moment> moments;
   for (const Frame& frame : data.frames()) {
@@ -99,6 +99,12 @@ SourceDiscrepancy compare(const LumenSeries& data, const std::vector<std::string
   result.training = training.groups();
   result.held_out = held_out.groups();
   return result;
+}
+
+std::size_t SourceDiscrepancy::frames() const {
+  std::size_t count = outside.size();
+  for (const Moment& moment : moments) count += moment.frames.size();
+  return count;
 }
 
 const Group* group_of_region(const Moment& moment, int region) {

@@ -24,9 +24,6 @@ struct Moment {
   std::vector<Group> groups;
 };
 
-/// What became of a source's frames that the run does not reach.
-using FramesOutside = std::vector<Frame>;
-
 /// A source set against a run.
 struct SourceDiscrepancy {
   std::string name;
@@ -35,7 +32,8 @@ struct SourceDiscrepancy {
   std::vector<std::string> series, regions;
   std::vector<Moment> moments;            ///< in the order of the run's times
   std::vector<Group> training, held_out;  ///< over all moments of the kind; without an effective number
-  FramesOutside outside;
+  std::vector<Frame> outside;             ///< that the run does not reach
+  std::size_t frames() const;             ///< in and outside the run
 };
 
 /// Compares the lumen of a run with every frame of a source, held-out ones too.

@@ -10,6 +10,17 @@
 #include "diagnosis/statistics.hpp"
 
 namespace tether {
+namespace {
+
+/// In what a person reads a column of this unit, and the factor to it.
+std::pair<double, std::string> shown_in(const std::string& unit, const UnitSystem& units) {
+  if (unit == units.symbol(dimension::pressure)) return {units.to_mmhg(1), "mmHg"};
+  if (unit == units.symbol(dimension::flow)) return {units.to_ml_per_s(1), "ml/s"};
+  if (unit == units.symbol(dimension::length)) return {units.to_mm(1), "mm"};
+  return {1, unit};
+}
+
+}  // namespace
 
 std::optional<double> TraceDiscrepancy::z() const {
   if (noise.deviation <= 0 || times.empty()) return std::nullopt;
@@ -44,12 +55,13 @@ TraceDiscrepancy compare(const Trace& data, const RunTrace& run) {
   return result;
 }
 
-std::string sentence_of(const TraceDiscrepancy& trace) {
+std::string sentence_of(const TraceDiscrepancy& trace, const UnitSystem& units) {
   if (trace.times.empty()) return fmt::format("{}: the run reaches none of its times", trace.name);
+  const auto [factor, unit] = shown_in(trace.unit, units);
   const std::string sigma = trace.z() ? fmt::format(" ({:.1f} sigma)", std::abs(*trace.z())) : "";
   return fmt::format("{}: {} is {:.3g} {} too {} on average{}, {:.3g} off in root mean square", trace.name,
-                     trace.observable, std::abs(trace.bias), trace.unit, trace.bias > 0 ? "low" : "high", sigma,
-                     trace.rms);
+                     trace.observable, factor * std::abs(trace.bias), unit, trace.bias > 0 ? "low" : "high", sigma,
+                     factor * trace.rms);
 }
 
 }  // namespace tether

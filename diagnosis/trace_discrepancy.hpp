@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "common/base/units.hpp"
 #include "common/observation/observations.hpp"
 
 namespace tether {
@@ -25,7 +26,7 @@ struct RunTrace {
 
 TraceDiscrepancy compare(const Trace& data, const RunTrace& run);
 
-/// "cuff: fluid.outlet.pressure is 5.1 g/(cm s2) too low on average (4.2 sigma)"
-std::string sentence_of(const TraceDiscrepancy& trace);
+/// "cuff: fluid.outlet.pressure is 5.1 mmHg too low on average (4.2 sigma), 6.3 off in root mean square"
+std::string sentence_of(const TraceDiscrepancy& trace, const UnitSystem& units);
 
 }  // namespace tether

@@ -4,27 +4,13 @@
 
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
-#include "common/case/mesh_case.hpp"
-#include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
+#include "common/observation/observed_case.hpp"
 #include "common/protocol/run.hpp"
 #include "observation_manager/server.hpp"
 
 namespace tether {
 namespace {
-
-/// A case file and the sections of it that observation needs.
-struct ObservedCase {
-  explicit ObservedCase(const std::filesystem::path& path) : file(path) {
-    file.read("mesh", mesh);
-    file.read("observations", observations);
-    file.finish();
-  }
-  LumenSurface lumen() const { return lumen_of(load_mesh(mesh, file.units(), WallElement::prism)); }
-  CaseFile file;
-  MeshCase mesh;
-  ObservationsCase observations;
-};
 
 std::string effective_section(ObservedCase& observed) {
   return echo_json("observations", observed.observations);

@@ -35,9 +35,13 @@ void mark(const fs::path& folder, const fs::path& case_file) {
 
 }  // namespace
 
+fs::path output_of(const CommandLine& command, const CaseFile& file) {
+  return command.output.empty() ? fs::path("out") / file.common().name : command.output;
+}
+
 fs::path claim_output(const CommandLine& command, const CaseFile& file) {
   const std::string& name = file.common().name;
-  const fs::path folder = command.output.empty() ? fs::path("out") / name : command.output;
+  const fs::path folder = output_of(command, file);
   if (!command.overwrite) check_owner(folder, name);
   std::error_code error;
   fs::create_directories(folder, error);

@@ -14,7 +14,7 @@ Trace trace(std::vector<double> times, std::vector<double> values, Noise noise, 
 
 /// A run of two periods whose value is its time within the period.
 RunTrace saw() {
-  RunTrace run{{}, {}, "g/(cm s2)"};
+  RunTrace run{{}, {}, "cm"};
   for (int i = 0; i <= 200; ++i) {
     run.times.push_back(0.01 * i);
     run.values.push_back(std::fmod(0.01 * i, 1.0));
@@ -32,16 +32,16 @@ TEST(Trace, IsComparedAtItsOwnTimesInTheLastPeriod) {
   EXPECT_NEAR(found.rms, 0.3, 1e-12);
   EXPECT_NEAR(found.effective, 3, 1e-12) << "0.3 s of errors alike over 0.05 s, as many as values";
   EXPECT_NEAR(*found.z(), std::sqrt(3.0), 1e-12);
-  EXPECT_EQ(sentence_of(found),
-            "cuff: fluid.outlet.pressure is 0.1 g/(cm s2) too low on average (1.7 sigma), 0.3 off in root mean square");
+  EXPECT_EQ(sentence_of(found, UnitSystem::cgs()),
+            "cuff: fluid.outlet.pressure is 1 mm too low on average (1.7 sigma), 3 off in root mean square");
 }
 
 TEST(Trace, CountsValuesThatTheRunDoesNotReach) {
   const TraceDiscrepancy found = compare(trace({0.5, 1.5, 2.5}, {0.2, 0.5, 1}, {}, 0), saw());
   EXPECT_EQ(found.outside, 1);
   EXPECT_FALSE(found.z());
-  EXPECT_EQ(sentence_of(found),
-            "cuff: fluid.outlet.pressure is 0.15 g/(cm s2) too high on average, 0.212 off in root mean square");
+  EXPECT_EQ(sentence_of(found, UnitSystem::cgs()),
+            "cuff: fluid.outlet.pressure is 1.5 mm too high on average, 2.12 off in root mean square");
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 #include <sstream>
 
 #include "common/base/child_process.hpp"
-#include "common/case/mesh_case.hpp"
-#include "common/observation/observations.hpp"
+#include "common/observation/observed_case.hpp"
 #include "tests/protocol/run_job.hpp"
 
 namespace tether {
@@ -14,17 +13,9 @@ namespace {
 
 const std::string case_file = "configs/descending_aorta/case.yaml";
 
-struct Vessel {
-  Vessel() : file(case_file) {
-    MeshCase mesh;
-    ObservationsCase given;
-    file.read("mesh", mesh);
-    file.read("observations", given);
-    lumen = lumen_of(load_mesh(mesh, file.units(), WallElement::prism));
-    data = load_observations(given, lumen, file);
-  }
-  CaseFile file;
-  LumenSurface lumen;
+struct Vessel : ObservedCase {
+  Vessel() : ObservedCase(case_file), surface(lumen()), data(load_observations(observations, surface, file)) {}
+  LumenSurface surface;
   Observations data;
 };
 
@@ -44,7 +35,7 @@ TEST(ObservationManager, AnswersWhatTheLibrarySays) {
   std::string first;
   std::getline(lines, first);
   EXPECT_EQ(first, "Tether observation_manager");
-  const std::vector<Sample> samples = vessel.data.observe(vessel.lumen.points, 0.2);
+  const std::vector<Sample> samples = vessel.data.observe(vessel.surface.points, 0.2);
   ASSERT_EQ(samples.size(), 3U * 64);
   for (const Sample& sample : samples) {
     double distance = 0, weight = 0;
@@ -73,7 +64,7 @@ TEST(ObservationManager, RefusesAnotherLumen) {
 
 /// Root mean square of the distances at a time [mm].
 double root_mean_square(const Vessel& vessel, double time) {
-  const std::vector<Sample> samples = vessel.data.observe(vessel.lumen.points, time);
+  const std::vector<Sample> samples = vessel.data.observe(vessel.surface.points, time);
   double weight = 0;
   for (const Sample& s : samples) weight += s.weight;
   EXPECT_EQ(count_exclusions(samples)[0], static_cast<int>(samples.size()));

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "common/case/mesh_case.hpp"
+#include "common/config/case_file.hpp"
+#include "common/observation/observations.hpp"
+
+namespace tether {
+
+/// A case file and the sections of it that observation needs. Throws InputError.
+struct ObservedCase {
+  explicit ObservedCase(const std::filesystem::path& path) : file(path) {
+    file.read("mesh", mesh);
+    file.read("observations", observations);
+    file.finish();
+  }
+  /// The wall's element does not matter: interface nodes are the same.
+  LumenSurface lumen() const { return lumen_of(load_mesh(mesh, file.units(), WallElement::prism)); }
+
+  CaseFile file;
+  MeshCase mesh;
+  ObservationsCase observations;
+};
+
+}  // namespace tether

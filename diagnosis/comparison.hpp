@@ -1,0 +1,37 @@
+#pragma once
+
+#include "diagnosis/trace_discrepancy.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace tether {
+
+/// The run that was compared.
+struct ComparedRun {
+  std::string case_name, title, folder;
+  int steps = 0;
+  double start = 0, end = 0;  ///< [time]
+  double observer_gain = 0;   ///< above zero the run was pulled toward the data, and is no evidence [1/time]
+  bool is_evidence() const { return observer_gain == 0; }
+};
+
+/// A run set against all that was measured.
+struct Comparison {
+  ComparedRun run;
+  UnitSystem units = UnitSystem::cgs();
+  std::vector<SourceDiscrepancy> sources;
+  std::vector<TraceDiscrepancy> traces;
+};
+
+/// Compares everything. `trace`: the column of the run's table with that name.
+Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunMotion& motion,
+                   const std::function<RunTrace(const std::string&)>& trace);
+
+/// What a person should know first, one sentence each: that the run is no evidence, where and when it fails.
+std::vector<std::string> sentences_of(const Comparison& comparison);
+
+/// comparison.json and comparison.csv (docs/comparison.md), in the case's units. Throw RunError if they cannot be
+/// written.
+void write_json(const std::filesystem::path& path, const Comparison& comparison);
+void write_csv(const std::filesystem::path& path, const Comparison& comparison);
+
+}  // namespace tether
