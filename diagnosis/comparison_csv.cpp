@@ -23,10 +23,15 @@ int excluded(const Statistics& s) {
   return count;
 }
 
+/// A name with a comma in quotes.
+std::string cell(const std::string& name) {
+  return name.find(',') == std::string::npos ? name : '"' + name + '"';
+}
+
 std::string row(const Group& group, const Moment& moment, const SourceDiscrepancy& source) {
   std::string text =
       fmt::format("{},{},{},{},{},{},{},{},{}", source.name,
-                  group.series < 0 ? "all" : source.series[static_cast<std::size_t>(group.series)], moment.time,
+                  group.series < 0 ? "all" : cell(source.series[static_cast<std::size_t>(group.series)]), moment.time,
                   moment.held_out ? 1 : 0, group.region < 0 ? "all" : region_name(source, group.region),
                   group.model.used(), excluded(group.model), group.model.extent, group.model.unnormalised);
   for (const Statistics* s : {&group.model, &group.apparent})

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace tether {
 namespace {
@@ -105,6 +107,19 @@ std::string nothing_seen(const Verdict& verdict, const UnitSystem& units) {
       verdict.tests, units.to_mm(smallest), units.to_mm(largest));
 }
 
+/// The largest failure of each region that is not among `named`.
+std::vector<const Failure*> largest_of_other_regions(const Verdict& verdict, const std::set<int>& named) {
+  std::map<int, const Failure*> largest;
+  for (const Failure& failure : verdict.failures) {
+    const Failure*& kept = largest[failure.region];
+    if (kept == nullptr || failure.size() > kept->size()) kept = &failure;
+  }
+  std::vector<const Failure*> others;
+  for (const auto& [region, failure] : largest)
+    if (!named.contains(region)) others.push_back(failure);
+  return others;
+}
+
 }  // namespace
 
 double Failure::size() const {
@@ -165,9 +180,11 @@ std::vector<std::string> sentences_of(const Verdict& verdict, const SourceDiscre
         fmt::format("{}: no noise is stated, so nothing can be called significant; farthest off: {}", name, largest)};
   if (verdict.failures.empty()) return {fmt::format("{}: {}", name, nothing_seen(verdict, units))};
   const Failure *first = first_of(verdict), *worst = worst_of(verdict);
-  if (first == worst) return {fmt::format("{}: {}", name, sentence_of(*first, source, units))};
-  return {fmt::format("{}: worst: {}", name, sentence_of(*worst, source, units)),
-          fmt::format("{}: first: {}", name, sentence_of(*first, source, units))};
+  std::vector<std::string> all{fmt::format("{}: {}", name, sentence_of(*worst, source, units))};
+  if (first != worst) all.push_back(fmt::format("{}, first: {}", name, sentence_of(*first, source, units)));
+  for (const Failure* other : largest_of_other_regions(verdict, {first->region, worst->region}))
+    all.push_back(fmt::format("{}, also: {}", name, sentence_of(*other, source, units)));
+  return all;
 }
 
 }  // namespace tether

@@ -31,8 +31,8 @@ const Failure* worst_of(const Verdict& verdict);
 /// "spine, 0.18-0.36 s: the model lies 1.4 mm too far outward (6.2 sigma)"
 std::string sentence_of(const Failure& failure, const SourceDiscrepancy& source, const UnitSystem& units);
 
-/// What the verdict tells a person, one sentence each: where the model fails first and worst; or that it does not, and
-/// how large an offset would have been seen; or, without a noise, only where it is farthest off.
+/// What the verdict tells a person, one sentence each: where the model fails worst, first, and in other regions; or
+/// that it does not, and how large an offset would have been seen; or, without a noise, only where it is farthest off.
 std::vector<std::string> sentences_of(const Verdict& verdict, const SourceDiscrepancy& source, bool held_out,
                                       const UnitSystem& units);
 

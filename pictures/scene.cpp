@@ -110,6 +110,7 @@ vtkSmartPointer<vtkColorTransferFunction> colours(const Scene& scene, vtkPointSe
     range[1] = std::max(std::abs(range[0]), std::abs(range[1])), range[0] = -range[1];
   const auto at = [&range](double s) { return range[0] + s * (range[1] - range[0]); };
   const auto table = vtkSmartPointer<vtkColorTransferFunction>::New();
+  table->SetNanColor(0.82, 0.82, 0.82);
   if (scene.diverging) {  // Moreland's cool to warm
     table->SetColorSpaceToDiverging();
     table->AddRGBPoint(at(0), 0.23, 0.30, 0.75);
@@ -147,7 +148,9 @@ void add_surface(vtkRenderer* renderer, const DataSet& mesh, vtkColorTransferFun
   renderer->AddActor(actor);
 }
 
-void add_lines(vtkRenderer* renderer, const std::filesystem::path& path) {
+/// Brought forward, which parallel projection does not show: lines just inside the mesh are seen too, those behind it
+/// are not.
+void add_lines(vtkRenderer* renderer, const std::filesystem::path& path, const Vec3& forward) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(vtkPolyData::SafeDownCast(read(path)));
   mapper->ScalarVisibilityOff();
@@ -155,6 +158,7 @@ void add_lines(vtkRenderer* renderer, const std::filesystem::path& path) {
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(0, 0, 0);
   actor->GetProperty()->SetLineWidth(2.5F);
+  actor->SetPosition(forward.x(), forward.y(), forward.z());
   renderer->AddActor(actor);
 }
 
@@ -224,7 +228,7 @@ void draw(const Scene& scene, const std::filesystem::path& png) {
     }
     const Vec3 toward_viewer = place.directions.col(2 - view);
     add_surface(renderer, scene.cut ? half_behind(mesh, place, toward_viewer) : mesh, table);
-    if (!scene.lines.empty()) add_lines(renderer, scene.lines);
+    if (!scene.lines.empty()) add_lines(renderer, scene.lines, 0.03 * place.length * toward_viewer);
     aim(renderer, place, toward_viewer);
   }
   window->Render();

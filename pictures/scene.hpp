@@ -10,7 +10,7 @@ namespace tether {
 /// One picture of a mesh coloured by a field, from two sides.
 struct Scene {
   std::filesystem::path mesh;                      ///< .vtu or .vtp
-  std::string field;                               ///< of points or cells; of a vector the magnitude is shown
+  std::string field;                               ///< of points or cells; of a vector the magnitude; grey where NaN
   std::string title;                               ///< above the colours, unit included
   double factor = 1;                               ///< from the file's unit to the title's
   std::optional<std::pair<double, double>> range;  ///< of the colours, in the title's unit; absent: that of the field

@@ -24,6 +24,7 @@ struct Verb {
 
 constexpr std::array verbs{
     Verb{"simulate", "run a case: progress, results, plots and a summary", simulate},
+    Verb{"compare", "compare a run with the measurements; simulates first if need be", compare},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
     Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false},

@@ -40,7 +40,9 @@ std::optional<std::pair<double, fs::path>> nearest(const fs::path& series, doubl
   return std::pair{best->first, series.parent_path() / best->second};
 }
 
-bool draw(const fs::path& mesh, const fs::path& png, const std::vector<std::string>& options) {
+}  // namespace
+
+bool draw_picture(const fs::path& mesh, const fs::path& png, const std::vector<std::string>& options) {
   Command command{{"xvfb-run", "-a", sibling("tether_picture").string(), mesh.string(), png.string()}, {}};
   command.words.insert(command.words.end(), options.begin(), options.end());
   return capture(command).exit_code == 0;
@@ -49,8 +51,6 @@ bool draw(const fs::path& mesh, const fs::path& png, const std::vector<std::stri
 bool has_display_server() {
   return capture({{"sh", "-c", "command -v xvfb-run"}, {}}).exit_code == 0;
 }
-
-}  // namespace
 
 std::vector<std::string> draw_pictures(const fs::path& output, const UnitSystem& units) {
   if (!has_display_server()) return {};
@@ -65,7 +65,7 @@ std::vector<std::string> draw_pictures(const fs::path& output, const UnitSystem&
                                      "--factor", fmt::format("{}", factor),
                                      "--title",  fmt::format("{}\n{:.3f} s", title, shown->first)};
     options.insert(options.end(), more.begin(), more.end());
-    if (draw(shown->second, output / "plots" / name, options)) drawn.emplace_back(name);
+    if (draw_picture(shown->second, output / "plots" / name, options)) drawn.emplace_back(name);
   };
   picture("wall.png", "solid.pvd", time_of_peak(table, "interface.max_displacement", ""), "displacement",
           units.to_mm(1.0), "displacement [mm]", {});

@@ -13,4 +13,11 @@ namespace tether {
 /// the names of the pictures; none if there is no display (xvfb-run is not installed) or no series.
 std::vector<std::string> draw_pictures(const std::filesystem::path& output, const UnitSystem& units);
 
+/// Whether pictures can be drawn: xvfb-run is installed.
+bool has_display_server();
+
+/// Runs tether_picture MESH PNG with these options. Returns whether it drew.
+bool draw_picture(const std::filesystem::path& mesh, const std::filesystem::path& png,
+                  const std::vector<std::string>& options);
+
 }  // namespace tether

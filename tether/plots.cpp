@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <optional>
 
-#include "common/base/child_process.hpp"
 #include "common/base/csv.hpp"
-#include "common/base/error.hpp"
+#include "tether/gnuplot.hpp"
 
 namespace tether {
 namespace {
@@ -68,9 +66,7 @@ std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& 
 std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, const UnitSystem& units,
                                                         double image_pressure) {
   std::string text =
-      "# Run in the folder of timeseries.csv: gnuplot plots/plots.gp\n"
-      "set terminal pngcairo noenhanced size 1000,600 font 'sans,12'\n"
-      "set datafile separator ','\nset key outside right\nset grid\nset xlabel 'time [s]'\n";
+      gnuplot_head(1000, 600) + "set datafile separator ','\nset key outside right\nset xlabel 'time [s]'\n";
   std::vector<std::string> pictures;
   for (const auto& plot : plots) {
     const std::string lines = lines_of(plot, table, units, image_pressure);
@@ -83,20 +79,13 @@ std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, c
   return {text, pictures};
 }
 
-bool has_gnuplot() {
-  return capture({{"sh", "-c", "command -v gnuplot"}, {}}).exit_code == 0;
-}
-
 }  // namespace
 
 std::vector<std::string> draw_plots(const std::filesystem::path& output, const UnitSystem& units,
                                     double image_pressure) {
   if (!has_gnuplot()) return {};
   const auto [text, pictures] = script(CsvTable(output / "timeseries.csv"), units, image_pressure);
-  std::filesystem::create_directories(output / "plots");
-  std::ofstream(output / "plots" / "plots.gp") << text;
-  const ChildEnd end = capture({{"sh", "-c", "cd \"$0\" && exec gnuplot plots/plots.gp", output.string()}, {}});
-  if (end.exit_code != 0) throw run_error("{}: gnuplot failed: {}", (output / "plots/plots.gp").string(), end.errors);
+  run_gnuplot(output, "plots.gp", text);
   return pictures;
 }
 

@@ -48,8 +48,16 @@ TEST(Verdict, TellsTheFirstFailureFromTheWorst) {
   const Verdict verdict = judge(source, false);
   EXPECT_EQ(verdict.failures.size(), 2U);
   EXPECT_EQ(sentences(source),
-            (std::vector<std::string>{"ct: worst: right, 0.5-0.6 s: the model lies 2 mm too far outward (13.3 sigma)",
-                                      "ct: first: right, 0.2 s: the model lies 1 mm too far inward (6.7 sigma)"}));
+            (std::vector<std::string>{"ct: right, 0.5-0.6 s: the model lies 2 mm too far outward (13.3 sigma)",
+                                      "ct, first: right, 0.2 s: the model lies 1 mm too far inward (6.7 sigma)"}));
+}
+
+TEST(Verdict, NamesOtherRegionsToo) {
+  SourceDiscrepancy source = source_of({0, 0.1, 0, 0});
+  source.moments[3].groups[2].model.mean = -0.09;
+  EXPECT_EQ(sentences(source),
+            (std::vector<std::string>{"ct: right, 0.2 s: the model lies 1 mm too far inward (6.7 sigma)",
+                                      "ct, also: left, 0.4 s: the model lies 0.9 mm too far outward (6.0 sigma)"}));
 }
 
 TEST(Verdict, AFailureThatTurnsAroundIsTwo) {

@@ -1,0 +1,34 @@
+#include "common/io/vtp_writer.hpp"
+
+#include <fstream>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+
+void write_vtp(const std::filesystem::path& path, const std::vector<Points>& lines) {
+  std::string points, connectivity, offsets;
+  Eigen::Index count = 0;
+  for (const Points& line : lines) {
+    for (const auto& x : line.colwise()) {
+      points += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
+      connectivity += fmt::format("{} ", count++);
+    }
+    offsets += fmt::format("{} ", count);
+  }
+  std::ofstream file(path);
+  file << fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">
+<PolyData><Piece NumberOfPoints="{}" NumberOfLines="{}" NumberOfVerts="0" NumberOfStrips="0" NumberOfPolys="0">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+{}</DataArray></Points>
+<Lines><DataArray type="Int64" Name="connectivity" format="ascii">{}</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">{}</DataArray></Lines>
+</Piece></PolyData></VTKFile>
+)",
+                      count, lines.size(), points, connectivity, offsets);
+  file.flush();
+  if (!file) throw run_error("{} cannot be written", path.string());
+}
+
+}  // namespace tether

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/base/types.hpp"
+
+namespace tether {
+
+/// Polylines, one column a point, as a .vtp file for viewing. Throws RunError if it cannot be written.
+void write_vtp(const std::filesystem::path& path, const std::vector<Points>& lines);
+
+}  // namespace tether

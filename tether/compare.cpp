@@ -1,0 +1,94 @@
+#include <iostream>
+
+#include "common/base/csv.hpp"
+#include "common/base/error.hpp"
+#include "common/config/output_folder.hpp"
+#include "common/observation/observed_case.hpp"
+#include "tether/comparison_drawings.hpp"
+#include "tether/comparison_text.hpp"
+#include "tether/finished_run.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case with its measurements.
+struct MeasuredCase : ObservedCase {
+  explicit MeasuredCase(const fs::path& path)
+      : ObservedCase(path), surface(lumen()), data(load_observations(observations, surface, file)) {
+    if (data.lumen.empty() && data.traces.empty())
+      throw input_error("{}: names nothing that was measured", file.where("observations"));
+  }
+  LumenSurface surface;
+  Observations data;
+};
+
+/// Simulates the case unless its output folder holds that run. Returns the exit code.
+int provide_run(const CommandLine& command, const CaseFile& file, const fs::path& output) {
+  const auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
+  if (!why) return exit_done;
+  if (!command.quiet) std::cout << *why << ": simulating first\n" << std::flush;
+  return simulate(command);
+}
+
+RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen) {
+  const Points &ours = lumen.points, &its = run.motion.imaged();
+  const double size = (ours.rowwise().maxCoeff() - ours.rowwise().minCoeff()).norm();
+  if (ours.cols() != its.cols() || (ours - its).cwiseAbs().maxCoeff() > 1e-6 * size)
+    throw input_error("lumen.motion: its {} nodes are not the {} of the case's mesh", its.cols(), ours.cols());
+  return {run.motion.times().front(), run.motion.times().back(), its,
+          [&run](double time) { return run.motion.at(time); }};
+}
+
+RunTrace trace_of(const CsvTable& table, const std::string& column) {
+  return {table.numbers("time"), table.numbers(column), table.unit(column)};
+}
+
+Comparison comparison_of(const MeasuredCase& measured, const FinishedRun& run, const RunMotion& motion,
+                         const fs::path& output) {
+  const CsvTable table(output / "timeseries.csv");
+  Comparison comparison = compare(measured.data, measured.surface.region_names, motion,
+                                  [&table](const std::string& column) { return trace_of(table, column); });
+  const CommonCase& common = measured.file.common();
+  comparison.units = measured.file.units();
+  comparison.run = {common.name, common.title, output.string(), run.steps, motion.start, motion.end, run.observer_gain};
+  return comparison;
+}
+
+std::vector<std::string> draw(const DrawnComparison& drawn) {
+  fs::create_directories(drawn.output / "plots");
+  std::vector<std::string> all;
+  for (const auto& drawing : {draw_distances, draw_slices, draw_walls})
+    for (std::string& name : drawing(drawn)) all.push_back(std::move(name));
+  return all;
+}
+
+std::string where_to_look(const fs::path& output, const std::vector<std::string>& pictures) {
+  std::string text = fmt::format(
+      "In {}:\n  comparison.json    all figures, per source, time, slice and region\n"
+      "  comparison.csv     the same as a table\n",
+      output.string());
+  for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
+  return text;
+}
+
+}  // namespace
+
+int compare(const CommandLine& command) {
+  check_case(command);
+  const MeasuredCase measured(command.case_file);
+  const fs::path output = output_of(command, measured.file);
+  if (const int code = provide_run(command, measured.file, output); code != exit_done) return code;
+  const FinishedRun run(output);
+  const RunMotion motion = motion_of(run, measured.surface);
+  const Comparison comparison = comparison_of(measured, run, motion, output);
+  write_json(output / "comparison.json", comparison);
+  write_csv(output / "comparison.csv", comparison);
+  const auto pictures = draw({comparison, measured.data, measured.surface, motion, output});
+  if (!command.quiet) std::cout << text_of(comparison) << where_to_look(output, pictures);
+  return exit_done;
+}
+
+}  // namespace tether

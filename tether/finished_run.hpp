@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "common/config/case_file.hpp"
+#include "common/io/lumen_motion.hpp"
+
+namespace tether {
+
+/// Why what the folder holds cannot be taken for a finished run of this very case with at least so many steps; nothing
+/// if it can. What the case says of title, observations, identification, diagnosis and output may differ.
+std::optional<std::string> why_not_run(const std::filesystem::path& output, const CaseFile& file, int steps);
+
+/// What a finished run left of its lumen, and the facts of its summary.
+struct FinishedRun {
+  /// Throws InputError if the folder holds none.
+  explicit FinishedRun(const std::filesystem::path& output);
+  LumenMotion motion;
+  int steps = 0;
+  double observer_gain = 0;  ///< by which the run was pulled toward the data [1/time]
+};
+
+}  // namespace tether

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tether/comparison_drawings.hpp"
+#include "tether/gnuplot.hpp"
+
+namespace tether {
+namespace {
+
+/// Lines in the plane's coordinates [mm], an empty line between two of them.
+std::string flat(const Lines& lines, const SlicePlane& plane, const UnitSystem& units) {
+  std::string text;
+  for (const Points& line : lines) {
+    for (const auto& x : line.colwise()) {
+      const Vec2 p = plane.flat(x);
+      text += fmt::format("{} {}\n", units.to_mm(p[0]), units.to_mm(p[1]));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string samples_of(const SliceView& view, int region, const UnitSystem& units) {
+  std::string text;
+  for (const Sample& sample : view.samples) {
+    if (sample.region != region) continue;
+    const Vec2 p = view.plane.flat(sample.position);
+    text += fmt::format("{} {}\n", units.to_mm(p[0]), units.to_mm(p[1]));
+  }
+  return text;
+}
+
+/// One panel: its data and its plot command.
+struct Panel {
+  std::string data, plot;
+
+  void line(const std::string& name, const std::string& rows, const std::string& style) {
+    if (rows.empty()) return;
+    data += fmt::format("${} << end_of_rows\n{}end_of_rows\n", name, rows);
+    plot += fmt::format("{}${} with {}", plot.empty() ? "plot " : ", ", name, style);
+  }
+};
+
+Panel panel_of(const SliceView& view, const std::string& suffix, const std::vector<std::string>& regions,
+               const UnitSystem& units) {
+  Panel panel;
+  panel.line("imaged" + suffix, flat(view.imaged, view.plane, units),
+             "lines dashtype 2 linecolor '#888888' title 'imaged lumen'");
+  panel.line("data" + suffix, flat(view.data, view.plane, units), "lines linewidth 2 linecolor '#000000' title 'data'");
+  panel.line("model" + suffix, flat(view.model, view.plane, units),
+             "lines linewidth 2 linecolor '#d55e00' title 'model'");
+  for (int r = 0; r < static_cast<int>(regions.size()); ++r)
+    panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, r, units),
+               fmt::format("points pointtype 7 pointsize 0.8 linecolor {} title '{}'", r + 2,
+                           regions[static_cast<std::size_t>(r)]));
+  return panel;
+}
+
+/// The panels of each slice by its name.
+std::map<std::string, std::vector<Panel>> panels_of(const SourceDiscrepancy& source, const LumenSeries& data,
+                                                    const DrawnComparison& drawn) {
+  std::map<std::string, std::vector<Panel>> panels;
+  std::vector<const Moment*> moments{worst_moment(source), fullest_moment(source)};
+  if (moments[0] == moments[1]) moments.pop_back();
+  for (const Moment* moment : moments)
+    for (const SliceView& view : slices_at(*moment, data, drawn.lumen, drawn.run)) {
+      auto& of_slice = panels[view.name];
+      Panel panel = panel_of(view, std::to_string(of_slice.size()), source.regions, drawn.comparison.units);
+      const char* which = moments.size() == 1    ? "farthest off, largest lumen"
+                          : moment == moments[0] ? "farthest off"
+                                                 : "largest lumen";
+      if (!panel.plot.empty())
+        panel.plot = fmt::format("set title '{}, {:.3f} s: {} [mm]'\n{}\n", view.name, moment->time, which, panel.plot);
+      of_slice.push_back(std::move(panel));
+    }
+  return panels;
+}
+
+}  // namespace
+
+std::string file_name(const std::string& name) {
+  std::string result = name;
+  std::replace_if(
+      result.begin(), result.end(), [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != '.'; }, '_');
+  return result;
+}
+
+std::vector<std::string> draw_slices(const DrawnComparison& drawn) {
+  if (!has_gnuplot()) return {};
+  std::vector<std::string> pictures;
+  for (std::size_t i = 0; i < drawn.data.lumen.size(); ++i) {
+    const SourceDiscrepancy& source = drawn.comparison.sources[i];
+    if (source.moments.empty()) continue;
+    for (const auto& [slice, panels] : panels_of(source, *drawn.data.lumen[i], drawn)) {
+      const std::string name = fmt::format("contours_{}_{}", file_name(source.name), file_name(slice));
+      std::string text = gnuplot_head(600 * static_cast<int>(panels.size()), 600), plots;
+      for (const Panel& panel : panels) text += panel.data, plots += panel.plot;
+      text += fmt::format(
+          "set output 'plots/{}.png'\nset size ratio -1\nset key outside bottom horizontal\nset multiplot layout "
+          "1,{}\n{}unset multiplot\n",
+          name, panels.size(), plots);
+      run_gnuplot(drawn.output, name + ".gp", text);
+      pictures.push_back(name + ".png");
+    }
+  }
+  return pictures;
+}
+
+}  // namespace tether
