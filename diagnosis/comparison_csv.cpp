@@ -30,15 +30,15 @@ std::string cell(const std::string& name) {
 
 std::string row(const Group& group, const Moment& moment, const SourceDiscrepancy& source) {
   std::string text =
-      fmt::format("{},{},{},{},{},{},{},{},{}", source.name,
+      fmt::format("{},{},{:.9g},{},{},{},{},{:.9g},{:.9g}", source.name,
                   group.series < 0 ? "all" : cell(source.series[static_cast<std::size_t>(group.series)]), moment.time,
                   moment.held_out ? 1 : 0, group.region < 0 ? "all" : region_name(source, group.region),
                   group.model.used(), excluded(group.model), group.model.extent, group.model.unnormalised);
   for (const Statistics* s : {&group.model, &group.apparent})
-    text += fmt::format(",{},{},{},{}", s->rms, s->largest, s->mean, s->p95);
+    text += fmt::format(",{:.9g},{:.9g},{:.9g},{:.9g}", s->rms, s->largest, s->mean, s->p95);
   const double deviation = source.noise.deviation;
-  text += fmt::format(",{},{}", group.effective, deviation);
-  return text + (deviation > 0 ? fmt::format(",{}\n", significance(group, source.noise)) : ",\n");
+  text += fmt::format(",{:.9g},{:.9g}", group.effective, deviation);
+  return text + (deviation > 0 ? fmt::format(",{:.9g}\n", significance(group, source.noise)) : ",\n");
 }
 
 }  // namespace

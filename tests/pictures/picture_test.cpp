@@ -5,6 +5,7 @@
 #include <vtkPNGReader.h>
 
 #include "common/base/child_process.hpp"
+#include "common/io/vtp_writer.hpp"
 #include "common/io/vtu_writer.hpp"
 #include "common/mesh/sweep.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -21,8 +22,12 @@ class Picture : public testing::Test {
   void SetUp() override {
     const WallMesh wall = circular_tube(1, 4, 0.2, 16, 8).wall;
     Points x = wall.points;
+    VectorXd above = wall.points.row(2).transpose();
+    for (double& z : above) z = z < 1.9 ? std::nan("") : z;
     write_vtu(folder_ / "wall.vtu", wall.points, cells_of(wall),
-              {Field::scalars("height", wall.points.row(2).transpose()), Field::vectors("displacement", x)}, {});
+              {Field::scalars("height", wall.points.row(2).transpose()), Field::vectors("displacement", x),
+               Field::scalars("above", above)},
+              {});
   }
   ChildEnd draw(const std::string& options) {
     return capture(
@@ -55,6 +60,22 @@ TEST_F(Picture, ShowsTheFieldInColoursFromTwoSides) {
     EXPECT_GT(high.green, 2 * high.blue);
     EXPECT_EQ(beside.red + beside.green + beside.blue, 3 * 255);
   }
+}
+
+/// Grey where the field says nothing, and a black line just within the wall.
+TEST_F(Picture, ShowsWhatIsNotKnownAndLines) {
+  Points circle(3, 91);
+  for (int i = 0; i <= 90; ++i) circle.col(i) << 1.15 * std::cos(0.0698132 * i), 1.15 * std::sin(0.0698132 * i), 3;
+  write_vtp(folder_ / "lines.vtp", {circle});
+  const ChildEnd end = draw("--field above --diverging --range -4 4 --lines " + (folder_ / "lines.vtp").string());
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  const Colour unknown = pixel(0.21, 0.2), known = pixel(0.21, 0.85);
+  EXPECT_NEAR(unknown.red, unknown.blue, 3);
+  EXPECT_LT(unknown.red, 240);
+  EXPECT_GT(known.red, 1.5 * known.blue);
+  double darkest = 255;
+  for (double up = 0.65; up < 0.8; up += 0.002) darkest = std::min(darkest, pixel(0.21, up).red);
+  EXPECT_LT(darkest, 60);
 }
 
 TEST_F(Picture, NamesAFieldThatIsNotThere) {

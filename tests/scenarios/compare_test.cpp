@@ -1,0 +1,172 @@
+/// `tether compare` with the real programs on a coarse configs/tube: against surfaces made from its own run, and a
+/// trace.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "common/base/child_process.hpp"
+#include "common/base/csv.hpp"
+#include "common/io/lumen_motion.hpp"
+#include "common/observation/observed_case.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/case_variant.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr double step = 2e-3, outward = 0.05, higher = 1000;
+
+void write_stl(const fs::path& path, const Points& x, const std::vector<Triangle>& triangles) {
+  std::ofstream file(path);
+  file << "solid lumen\n";
+  for (const Triangle& t : triangles) {
+    file << "facet normal 0 0 0\nouter loop\n";
+    for (const int node : t) file << fmt::format("vertex {:.9g} {:.9g} {:.9g}\n", x(0, node), x(1, node), x(2, node));
+    file << "endloop\nendfacet\n";
+  }
+  file << "endsolid lumen\n";
+}
+
+/// A run of eight steps, and the case that measures it.
+class Compare : public testing::Test {
+ protected:
+  static constexpr const char* source = TETHER_SOURCE "/configs/tube/case.yaml";
+  static void SetUpTestSuite() {
+    run = fs::temp_directory_path() / ("tether_compare_test_" + std::to_string(getpid()));
+    const fs::path coarse = variant(run / "case", {});
+    const ChildEnd end = tether("simulate", coarse, run / "out");
+    ASSERT_EQ(end.exit_code, 0) << end.errors;
+  }
+  static void TearDownTestSuite() { fs::remove_all(run); }
+  void SetUp() override {
+    fs::copy(run / "out", output, fs::copy_options::recursive);
+    compared = variant(folder / "case", {{"output:", measurements()}, {"Straight tube", "A tube"}});
+  }
+  /// A coarse case with these edits; its curve is older than the run.
+  static fs::path variant(const fs::path& at, Edits edits) {
+    edits.insert(edits.end(), {{"around: 24", "around: 12"}, {"along: 20", "along: 12"}});
+    const fs::path result = case_variant(source, at, edits);
+    fs::last_write_time(result.parent_path() / "aortic_flow.csv",
+                        fs::file_time_type::clock::now() - std::chrono::hours(1));
+    return result;
+  }
+  static ChildEnd tether(const std::string& verb, const fs::path& case_file, const fs::path& output) {
+    return capture({{TETHER_PROGRAM, verb, case_file.string(), "--output", output.string(), "--steps", "8"}, {}});
+  }
+  ChildEnd compare() const { return tether("compare", compared, output); }
+  /// What is measured of the run in `output`: after 2, 4, 8 and 20 steps a wider lumen, after 6 the right one, held
+  /// out; and a pressure that is too high.
+  std::string measurements() const {
+    const LumenMotion motion(output / "lumen.motion");
+    const std::vector<Triangle> triangles = ObservedCase(run / "case" / "case.yaml").lumen().triangles;
+    std::string list = "file, time [s]\n";
+    for (const int k : {2, 4, 6, 8, 20}) {
+      Points x = motion.at(step * std::min(k, 8));
+      for (auto node : x.colwise())
+        if (k != 6) node.head<2>() += outward * node.head<2>().normalized();
+      const std::string name = fmt::format("frame_{}.stl", k);
+      write_stl(folder / name, x, triangles);
+      list += fmt::format("{}, {}\n", name, step * k);
+    }
+    std::ofstream(folder / "frames.csv") << list;
+    const CsvTable table(output / "timeseries.csv");
+    std::ofstream pressures(folder / "pressures.csv");
+    pressures << "time [s], pressure [dyn/cm2]\n";
+    for (std::size_t i = 0; i < table.rows(); ++i)
+      pressures << fmt::format("{}, {}\n", table.numbers("time")[i],
+                               table.numbers("fluid.outlet.pressure")[i] + higher);
+    return fmt::format(
+        "observations:\n"
+        "  surfaces: {{ct: {{file: {0}/frames.csv, unit: cm, held_out: [2], trust_distance: 0.5, noise: {{deviation: "
+        "0.2 mm, correlation_length: 4 mm}}}}}}\n"
+        "  traces: {{cuff: {{observable: fluid.outlet.pressure, quantity: pressure, absolute: false, curve: {{file: "
+        "{0}/pressures.csv, value: pressure}}}}}}\n\noutput:",
+        folder.path().string());
+  }
+  Json comparison() const { return Json::parse(content_of(output / "comparison.json")); }
+
+  static inline fs::path run;
+  TemporaryFolder folder;
+  fs::path output = folder / "out", compared;
+};
+
+/// Group of a kind over all frames; null for the whole wall.
+Json all_frames(const Json& source, const char* kind, const Json& region) {
+  for (const Json& group : source[kind]["all_frames"])
+    if (group["series"].is_null() && group["region"] == region) return group;
+  return {};
+}
+
+TEST_F(Compare, FindsWhatWasDoneToTheDataAndKeepsTheRun) {
+  const auto written = fs::last_write_time(output / "summary.json");
+
+  const ChildEnd end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(fs::last_write_time(output / "summary.json"), written) << "observations and title do not change a run";
+  // Nearest places lie on facets of a dodecagon.
+  const double distance = outward * std::cos(std::numbers::pi / 12);
+  const Json json = comparison(), ct = json["sources"][0];
+  for (const char* region : {"spine", "opposite"}) {
+    const Json group = all_frames(ct, "training", region);
+    EXPECT_NEAR(group["mean"], distance, 1e-3) << region;
+    EXPECT_NEAR(group["l2"], distance, 1e-3) << region;
+    EXPECT_NEAR(group["in_noise"]["mean"].get<double>(), distance / 0.02, 0.05) << region;
+  }
+  EXPECT_LT(all_frames(ct, "held_out", nullptr)["linf"], 1e-6);
+  EXPECT_GT(all_frames(ct, "held_out", nullptr)["apparent"]["linf"], 1e-5);
+  EXPECT_EQ(ct["moments"].size(), 4U);
+  ASSERT_EQ(ct["frames_outside_the_run"].size(), 1U);
+  EXPECT_EQ(ct["frames_outside_the_run"][0]["frame"], 4);
+  EXPECT_TRUE(json["run"]["is_evidence"]);
+  EXPECT_NEAR(json["traces"][0]["bias"], higher, 1e-3);
+  EXPECT_NEAR(json["traces"][0]["l2"], higher, 1e-3);
+
+  EXPECT_NE(end.output.find("0.004-0.016 s: the model lies 0.48 mm too far inward"), std::string::npos) << end.output;
+  EXPECT_NE(end.output.find("ct, held-out frames: all 4 regions and frames are within the noise"), std::string::npos);
+  EXPECT_NE(end.output.find("ct: 1 of 5 frames are outside the run"), std::string::npos);
+  EXPECT_NE(end.output.find("cuff: fluid.outlet.pressure is 0.75 mmHg too low on average"), std::string::npos);
+  const CsvTable table(output / "comparison.csv");
+  EXPECT_EQ(table.rows(), 4U * 5) << "frames times regions, and the whole wall";
+  for (const char* name : {"comparison_ct.png", "trace_cuff.png", "contours_ct_plane_2.png"})
+    EXPECT_GT(fs::file_size(output / "plots" / name), 5000U) << name;
+}
+
+TEST_F(Compare, SaysThatAPulledRunIsNoEvidence) {
+  Json summary = Json::parse(content_of(output / "summary.json"));
+  summary["effective_case"]["observer"]["gain"] = 3.0;
+  std::ofstream(output / "summary.json") << summary;
+  const ChildEnd end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_TRUE(end.output.starts_with("NO EVIDENCE: this run was pulled toward the data (observer.gain 3 1/s)"))
+      << end.output;
+  EXPECT_FALSE(comparison()["run"]["is_evidence"]);
+}
+
+TEST_F(Compare, SimulatesWhatIsNotThere) {
+  std::string text = content_of(compared);
+  text.replace(text.find("young: 4e6"), 10, "young: 1e7");
+  std::ofstream(compared) << text;
+  const ChildEnd end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.output.find("the run in " + output.string() + " had another 'solid': simulating first"),
+            std::string::npos)
+      << end.output;
+  EXPECT_GT(all_frames(comparison()["sources"][0], "held_out", nullptr)["linf"], 1e-5)
+      << "another wall moves otherwise";
+}
+
+TEST_F(Compare, NeedsMeasurements) {
+  const ChildEnd end = tether("compare", run / "case" / "case.yaml", output);
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("observations: names nothing that was measured"), std::string::npos) << end.errors;
+}
+
+}  // namespace
+}  // namespace tether
