@@ -15,10 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Sections that do not change what a run computes.
+/// Sections that do not change what a run computes; measurements do if an observer pulls the wall toward them.
 constexpr std::array without_effect{"title", "observations", "identification", "diagnosis", "output"};
 
-bool has_effect(const std::string& section) {
+bool has_effect(const std::string& section, const YamlNode& tree) {
+  if (section == "observations" && tree.find("observer") != nullptr) return true;
   return std::find(without_effect.begin(), without_effect.end(), section) == without_effect.end();
 }
 
@@ -39,7 +40,7 @@ std::string first_difference(const YamlNode& one, const YamlNode& other) {
   for (const auto* tree : {&one, &other})
     for (const auto& entry : tree->entries) {
       const YamlNode *a = one.find(entry.key), *b = other.find(entry.key);
-      if (has_effect(entry.key) && (a == nullptr || b == nullptr || !same(*a, *b))) return entry.key;
+      if (has_effect(entry.key, *tree) && (a == nullptr || b == nullptr || !same(*a, *b))) return entry.key;
     }
   return {};
 }
@@ -67,6 +68,13 @@ Json summary_of(const fs::path& output) {
   }
 }
 
+/// Of a state observer, in any region.
+double largest_gain(const Json& observer) {
+  double gain = observer.value("gain", 0.0);
+  for (const Json& region : observer.value("regions", Json::object())) gain = std::max(gain, region.value("gain", 0.0));
+  return gain;
+}
+
 }  // namespace
 
 std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& file, int steps) {
@@ -78,7 +86,7 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
   const auto written = fs::last_write_time(output / "summary.json");
   for (const auto& entry : now.entries)
     if (const std::string newer = newer_file(entry.value, file.path().parent_path(), written);
-        has_effect(entry.key) && !newer.empty())
+        has_effect(entry.key, now) && !newer.empty())
       return fmt::format("{} is newer than the run in {}", newer, output.string());
   if (const int made = summary_of(output).value("steps", 0); made < steps)
     return fmt::format("the run in {} ended after {} of {} steps", output.string(), made, steps);
@@ -88,7 +96,7 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
 FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion") {
   const Json summary = summary_of(output);
   steps = summary.value("steps", 0);
-  observer_gain = summary.value("/effective_case/observer/gain"_json_pointer, 0.0);
+  observer_gain = largest_gain(summary.value("/effective_case/observer"_json_pointer, Json::object()));
 }
 
 }  // namespace tether

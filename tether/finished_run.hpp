@@ -9,7 +9,8 @@
 namespace tether {
 
 /// Why what the folder holds cannot be taken for a finished run of this very case with at least so many steps; nothing
-/// if it can. What the case says of title, observations, identification, diagnosis and output may differ.
+/// if it can. What the case says of title, identification, diagnosis and output may differ, and, without a state
+/// observer, of observations.
 std::optional<std::string> why_not_run(const std::filesystem::path& output, const CaseFile& file, int steps);
 
 /// What a finished run left of its lumen, and the facts of its summary.
@@ -18,7 +19,7 @@ struct FinishedRun {
   explicit FinishedRun(const std::filesystem::path& output);
   LumenMotion motion;
   int steps = 0;
-  double observer_gain = 0;  ///< by which the run was pulled toward the data [1/time]
+  double observer_gain = 0;  ///< the largest by which a region was pulled toward the data [1/time]
 };
 
 }  // namespace tether

@@ -140,7 +140,7 @@ TEST_F(Compare, FindsWhatWasDoneToTheDataAndKeepsTheRun) {
 
 TEST_F(Compare, SaysThatAPulledRunIsNoEvidence) {
   Json summary = Json::parse(content_of(output / "summary.json"));
-  summary["effective_case"]["observer"]["gain"] = 3.0;
+  summary["effective_case"]["observer"] = {{"gain", 0.0}, {"regions", {{"spine", {{"gain", 3.0}}}}}};
   std::ofstream(output / "summary.json") << summary;
   const ChildEnd end = compare();
   ASSERT_EQ(end.exit_code, 0) << end.errors;

@@ -47,6 +47,13 @@ TEST_F(FinishedRunTest, IsNotThatOfAnotherCase) {
   EXPECT_EQ(why_not(with_solid + "observer: {gain: 3}\n"), said(" had another 'observer'"));
 }
 
+TEST_F(FinishedRunTest, DependsOnMeasurementsIfAnObserverFollowsThem) {
+  const std::string observed = with_solid + "observer: {gain: 3}\nobservations: {contours: {}}\n";
+  std::ofstream(output / case_as_run) << observed;
+  EXPECT_EQ(why_not(observed), "it can");
+  EXPECT_EQ(why_not(with_solid + "observer: {gain: 3}\n"), said(" had another 'observations'"));
+}
+
 TEST_F(FinishedRunTest, IsNotOlderThanAFileOfTheCase) {
   fs::last_write_time(folder / "flow.csv", fs::file_time_type::clock::now() + std::chrono::seconds(5));
   EXPECT_EQ(why_not(with_solid), "flow.csv is newer than the run in " + output.string());
