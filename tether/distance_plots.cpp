@@ -65,11 +65,12 @@ std::string script(const SourceDiscrepancy& source, const std::string& png, cons
     if (!held_out.empty()) text += block("held_out" + number, held_out);
     for (const Panel& p : {Panel{"root mean square [mm]", 2, 3}, Panel{"mean signed distance [mm]", 4, 5}})
       panels += panel(p, region_name(source, region), number, !held_out.empty(), noise, noise);
-    panels += "unset key\n";  // once is enough
+    panels += "unset key\nset offsets 0, 0, graph 0.05, 0\n";  // one legend is enough
   }
   return text +
          fmt::format(
-             "set output 'plots/{}'\nset key outside bottom center horizontal\nset autoscale xfix\nset xlabel 'time "
+             "set output 'plots/{}'\nset key top right maxrows 2\nset offsets 0, 0, graph 0.4, 0\nset autoscale "
+             "xfix\nset xlabel 'time "
              "[s]'\nset multiplot layout {},2\n",
              png, regions + 1) +
          panels + "unset multiplot\n";
