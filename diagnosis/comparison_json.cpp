@@ -97,6 +97,7 @@ Json source_json(const SourceDiscrepancy& source, const UnitSystem& units) {
              {{"deviation", source.noise.deviation},
               {"correlation_length", source.noise.correlation_length},
               {"correlation_time", source.noise.correlation_time}}},
+            {"notes", source.notes},
             {"frames", source.frames()},
             {"frames_outside_the_run", frames_json(source.outside, source)}};
   for (const auto& [name, held_out] : {std::pair{"training", false}, {"held_out", true}})

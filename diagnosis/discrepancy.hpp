@@ -32,6 +32,7 @@ struct SourceDiscrepancy {
   std::vector<std::string> series, regions;
   std::vector<Moment> moments;            ///< in the order of the run's times
   std::vector<Group> training, held_out;  ///< over all moments of the kind; without an effective number
+  std::vector<std::string> notes;         ///< what was found and done on loading the data
   std::vector<Frame> outside;             ///< that the run does not reach
   std::size_t frames() const;             ///< in and outside the run
 };

@@ -10,18 +10,6 @@
 #include "diagnosis/statistics.hpp"
 
 namespace tether {
-namespace {
-
-/// In what a person reads a column of this unit, and the factor to it.
-std::pair<double, std::string> shown_in(const std::string& unit, const UnitSystem& units) {
-  if (unit == units.symbol(dimension::pressure)) return {units.to_mmhg(1), "mmHg"};
-  if (unit == units.symbol(dimension::flow)) return {units.to_ml_per_s(1), "ml/s"};
-  if (unit == units.symbol(dimension::length)) return {units.to_mm(1), "mm"};
-  return {1, unit};
-}
-
-}  // namespace
-
 std::optional<double> TraceDiscrepancy::z() const {
   if (noise.deviation <= 0 || times.empty()) return std::nullopt;
   return bias * std::sqrt(effective) / noise.deviation;  // (D.3)
@@ -53,6 +41,13 @@ TraceDiscrepancy compare(const Trace& data, const RunTrace& run) {
   result.effective = effective_number(found.back().first - found.front().first, 1, data.noise.correlation_time,
                                       static_cast<int>(found.size()));
   return result;
+}
+
+ShownUnit shown_in(const std::string& unit, const UnitSystem& units) {
+  if (unit == units.symbol(dimension::pressure)) return {units.to_mmhg(1), "mmHg"};
+  if (unit == units.symbol(dimension::flow)) return {units.to_ml_per_s(1), "ml/s"};
+  if (unit == units.symbol(dimension::length)) return {units.to_mm(1), "mm"};
+  return {1, unit};
 }
 
 std::string sentence_of(const TraceDiscrepancy& trace, const UnitSystem& units) {

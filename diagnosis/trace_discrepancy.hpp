@@ -26,6 +26,13 @@ struct RunTrace {
 
 TraceDiscrepancy compare(const Trace& data, const RunTrace& run);
 
+/// In what a person reads a column of this unit, and the factor to it.
+struct ShownUnit {
+  double factor;
+  std::string symbol;
+};
+ShownUnit shown_in(const std::string& unit, const UnitSystem& units);
+
 /// "cuff: fluid.outlet.pressure is 5.1 mmHg too low on average (4.2 sigma), 6.3 off in root mean square"
 std::string sentence_of(const TraceDiscrepancy& trace, const UnitSystem& units);
 

@@ -76,16 +76,17 @@ std::string script(const SourceDiscrepancy& source, const std::string& png, cons
          panels + "unset multiplot\n";
 }
 
-std::string script(const TraceDiscrepancy& trace, const std::string& png) {
+std::string script(const TraceDiscrepancy& trace, const std::string& png, const UnitSystem& units) {
+  const auto [factor, unit] = shown_in(trace.unit, units);
   std::string rows;
   for (std::size_t i = 0; i < trace.times.size(); ++i)
-    rows += fmt::format("{} {} {}\n", trace.times[i], trace.measured[i], trace.model[i]);
+    rows += fmt::format("{} {} {}\n", trace.times[i], factor * trace.measured[i], factor * trace.model[i]);
   return gnuplot_head(1000, 600) + block("rows", rows) +
          fmt::format(
              "set output 'plots/{}'\nset xlabel 'time [s]'\nset ylabel '{} [{}]'\nset title '{}'\n"
              "plot $rows using 1:2 with points pointtype 7 title 'measured', $rows using 1:3 with lines "
              "linewidth 2 title 'model'\n",
-             png, trace.observable, trace.unit, trace.name);
+             png, trace.observable, unit, trace.name);
 }
 
 }  // namespace
@@ -102,7 +103,7 @@ std::vector<std::string> draw_distances(const DrawnComparison& drawn) {
   for (const TraceDiscrepancy& trace : drawn.comparison.traces) {
     if (trace.times.empty()) continue;
     const std::string name = "trace_" + file_name(trace.name);
-    run_gnuplot(drawn.output, name + ".gp", script(trace, name + ".png"));
+    run_gnuplot(drawn.output, name + ".gp", script(trace, name + ".png", drawn.comparison.units));
     pictures.push_back(name + ".png");
   }
   return pictures;

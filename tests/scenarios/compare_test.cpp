@@ -132,6 +132,7 @@ TEST_F(Compare, FindsWhatWasDoneToTheDataAndKeepsTheRun) {
   EXPECT_NE(end.output.find("ct, held-out frames: all 4 regions and frames are within the noise"), std::string::npos);
   EXPECT_NE(end.output.find("ct: 1 of 5 frames are outside the run"), std::string::npos);
   EXPECT_NE(end.output.find("cuff: fluid.outlet.pressure is 0.75 mmHg too low on average"), std::string::npos);
+  EXPECT_NE(end.output.find("beside an open rim"), std::string::npos) << "the surfaces end where the model does";
   const CsvTable table(output / "comparison.csv");
   EXPECT_EQ(table.rows(), 4U * 5) << "frames times regions, and the whole wall";
   for (const char* name : {"comparison_ct.png", "trace_cuff.png", "contours_ct_plane_2.png"})
