@@ -121,11 +121,13 @@ void FluidSolver::predict_velocity() {
   trial_.velocity = accepted_.velocity;
   trial_.velocity(Eigen::all, domain_.sigma.nodes) = trial_.mesh_velocity(Eigen::all, domain_.sigma.nodes);
   trial_.inflow = 0;
+  trial_.profiles.clear();
   for (auto& inlet : flow_inlets_) {
     const auto& face = inlet.face();
-    const Points profile = inlet.velocity(trial_.end_time, kinematic_viscosity());
-    trial_.inflow -= face.total_flux(profile);
-    trial_.velocity(Eigen::all, face.nodes) = profile + face.local(trial_.mesh_velocity);
+    trial_.profiles.push_back(inlet.velocity(trial_.end_time, kinematic_viscosity()));
+    trial_.inflow -= face.total_flux(trial_.profiles.back());
+    for (int local : face.inner)
+      trial_.velocity.col(face.nodes[static_cast<std::size_t>(local)]) = trial_.profiles.back().col(local);
   }
   const Points force = acceleration();
   const StageInput input{blood_->density,    trial_.dt,         blood_->backflow_stabilisation, *rheology_,
@@ -138,7 +140,7 @@ void FluidSolver::predict_velocity() {
         result.residual, result.iterations);
 }
 
-/// (F.8), (F.9): the matrix, and of the right-hand side (v~, grad q) - <u_in.n, q>, the end faces' motion included.
+/// (F.8), (F.9): the matrix, and of the right-hand side (v~, grad q) - <u_in.n, q>.
 void FluidSolver::prepare_projection() {
   trial_.rhs = VectorXd::Zero(domain_.node_count());
   for (std::size_t e = 0; e < domain_.tetrahedra().size(); ++e) {
@@ -149,9 +151,9 @@ void FluidSolver::prepare_projection() {
     for (int a = 0; a < 4; ++a) trial_.rhs[tet[static_cast<std::size_t>(a)]] += shares[a];
   }
   trial_.swept = 0;
-  for (const auto& inlet : flow_inlets_) {
-    const auto& face = inlet.face();
-    trial_.rhs(face.nodes) -= face.flux(face.local(trial_.velocity));
+  for (std::size_t i = 0; i < flow_inlets_.size(); ++i) {
+    const auto& face = flow_inlets_[i].face();
+    trial_.rhs(face.nodes) -= face.flux(trial_.profiles[i]);
     trial_.swept += face.total_flux(face.local(trial_.mesh_velocity));
   }
   std::vector<double> impedances;
@@ -159,9 +161,7 @@ void FluidSolver::prepare_projection() {
   trial_.inputs.clear();
   for (std::size_t i = 0; i < openings_.size(); ++i) {
     const auto& opening = openings_[i];
-    const VectorXd sweeping = opening.face().flux(opening.face().local(trial_.mesh_velocity));
-    trial_.rhs(opening.face().nodes) -= sweeping;
-    trial_.swept += sweeping.sum();
+    trial_.swept += opening.face().total_flux(opening.face().local(trial_.mesh_velocity));
     trial_.inputs.push_back(opening.input(trial_.end_time, trial_.dt, accepted_.stored[static_cast<Eigen::Index>(i)]));
     trial_.known[static_cast<Eigen::Index>(i)] = opening.beyond->known(trial_.inputs.back());
     impedances.push_back(opening.beyond->impedance(trial_.dt));

@@ -93,7 +93,8 @@ class FluidSolver {
     VectorXd rhs;                                  // of the projection, without the interface's part
     VectorXd known;                                // of each opening
     std::vector<OutletInput> inputs;
-    double inflow = 0, swept = 0;  // through the flow inlets, relative to them; by the end faces' own motion, outward
+    std::vector<Points> profiles;  // of each flow inlet, u_in
+    double inflow = 0, swept = 0;  // through the flow inlets; by the end faces' own motion, outward
     Points viscous_load;
     // of the last evaluation
     Points interface_displacement;

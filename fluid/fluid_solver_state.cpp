@@ -110,7 +110,7 @@ void FluidSolver::declare_observables() {
   observed_ = VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
 }
 
-/// Flows are relative to the moving faces: into the vessel at inlets, out of it at outlets. (F.13)
+/// Flows are those of the blood in space: into the vessel at inlets, out of it at outlets. (F.13)
 void FluidSolver::observe() {
   const auto& solution = trial_.solution;
   std::vector<double> values;
@@ -130,8 +130,8 @@ void FluidSolver::observe() {
   for (const Probe& probe : probes_) values.push_back(probe.value(solution.pressure));
   const double volume = domain_.volume(trial_.interface_displacement);
   values.push_back(volume);
-  values.push_back(net_inflow - trial_.interface_flux - trial_.swept);
-  values.push_back(net_inflow - (volume - accepted_.volume) / trial_.dt);
+  values.push_back(net_inflow - trial_.interface_flux);
+  values.push_back(net_inflow + trial_.swept - (volume - accepted_.volume) / trial_.dt);
   values.push_back(domain_.smallest_jacobian());
   observed_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }

@@ -44,7 +44,7 @@ double size_of(const Points& points) {
 /// wall is stable.
 StressFreeResult search(const WallMesh& mesh, const Material& material, const VectorXd& load,
                         const std::vector<int>& fixed, const Points& start, double tolerance) {
-  constexpr int max_iterations = 30;
+  constexpr int max_iterations = 80;
   const double size = size_of(mesh.points);
   StressFreeResult result;
   result.positions = start;

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
 
-void check_owner(const fs::path& folder, const std::string& name) {
+/// Throws InputError if the folder holds anything but results of this very case file.
+void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
   if (!fs::exists(folder / case_as_run)) {
@@ -21,14 +22,23 @@ void check_owner(const fs::path& folder, const std::string& name) {
   }
   const YamlNode marker = read_yaml(folder / case_as_run);
   const YamlNode* owner = marker.find("name");
-  if (owner && owner->text == name) return;
+  std::ifstream copy(folder / case_as_run);
+  std::string first;
+  std::getline(copy, first);
+  const bool same_file =
+      first.find(" " + fs::absolute(case_file).lexically_normal().string() + " ") != std::string::npos;
+  if (owner && owner->text == name && same_file) return;
+  if (owner && owner->text == name)
+    throw input_error("{}: holds the results of another case file of the name '{}' ({}); {}", folder.string(), name,
+                      first.substr(std::min<std::size_t>(first.size(), 10)), way_out);
   throw input_error("{}: holds the results of the case '{}'; {}", folder.string(), owner ? owner->text : "?", way_out);
 }
 
 void mark(const fs::path& folder, const fs::path& case_file) {
   std::ifstream from(case_file);
   std::ofstream to(folder / case_as_run);
-  to << "# Copy of " << case_file.string() << " as it was when the run started. Its paths are relative to that file.\n";
+  to << "# Copy of " << fs::absolute(case_file).lexically_normal().string()
+     << " as it was when the run started. Its paths are relative to that file.\n";
   to << from.rdbuf();
   if (!to) throw input_error("{}: cannot be written to", folder.string());
 }
@@ -42,7 +52,7 @@ fs::path output_of(const CommandLine& command, const CaseFile& file) {
 fs::path claim_output(const CommandLine& command, const CaseFile& file) {
   const std::string& name = file.common().name;
   const fs::path folder = output_of(command, file);
-  if (!command.overwrite) check_owner(folder, name);
+  if (!command.overwrite) check_owner(folder, name, file.path());
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw input_error("{}: cannot be made: {}", folder.string(), error.message());
