@@ -92,7 +92,10 @@ void Simulation::record(std::int64_t step, const StepRecord& record, double seco
   note_fluid(record.fluid);
   series_.append(row(step, record));
   motion_.append(plan_.time_at(step), displacement());
-  progress_->show({step, plan_.time_at(step), record.evaluations, pressure_now_, largest_displacement()});
+  Extent shown;  // absolute, as a person thinks of it
+  for (const double relative : {pressure_now_.min, pressure_now_.max})
+    if (!pressure_now_.empty()) shown.add(plan_.image_pressure + relative);
+  progress_->show({step, plan_.time_at(step), record.evaluations, shown, largest_displacement()});
 }
 
 /// Takes the mass balance and the pressures out of the fluid's observables, which it names as docs/protocol.md says.

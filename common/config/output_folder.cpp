@@ -10,6 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view copy_of = "# Copy of ", as_it_was = " as it was";
 constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
 
 /// Throws InputError if the folder holds anything but results of this very case file.
@@ -29,16 +30,19 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
       first.find(" " + fs::absolute(case_file).lexically_normal().string() + " ") != std::string::npos;
   if (owner && owner->text == name && same_file) return;
   if (owner && owner->text == name)
-    throw input_error("{}: holds the results of another case file of the name '{}' ({}); {}", folder.string(), name,
-                      first.substr(std::min<std::size_t>(first.size(), 10)), way_out);
+    throw input_error("{}: holds the results of another case file of the name '{}'{}; {}", folder.string(), name,
+                      first.starts_with(copy_of)
+                          ? " (" + first.substr(copy_of.size(), first.find(as_it_was) - copy_of.size()) + ")"
+                          : "",
+                      way_out);
   throw input_error("{}: holds the results of the case '{}'; {}", folder.string(), owner ? owner->text : "?", way_out);
 }
 
 void mark(const fs::path& folder, const fs::path& case_file) {
   std::ifstream from(case_file);
   std::ofstream to(folder / case_as_run);
-  to << "# Copy of " << fs::absolute(case_file).lexically_normal().string()
-     << " as it was when the run started. Its paths are relative to that file.\n";
+  to << copy_of << fs::absolute(case_file).lexically_normal().string() << as_it_was
+     << " when the run started. Its paths are relative to that file.\n";
   to << from.rdbuf();
   if (!to) throw input_error("{}: cannot be written to", folder.string());
 }

@@ -5,8 +5,8 @@
 namespace tether {
 namespace {
 
-std::string claim(const std::string& name, bool overwrite = false) {
-  const auto path = write_file("case.yaml", "name: " + name + "\nunits: cgs\ntime: {step: 0.1, end: 1}\n");
+std::string claim(const std::string& name, bool overwrite = false, const std::string& file = "case.yaml") {
+  const auto path = write_file(file, "name: " + name + "\nunits: cgs\ntime: {step: 0.1, end: 1}\n");
   CommandLine command;
   command.output = test_folder() / "results";
   command.overwrite = overwrite;
@@ -31,6 +31,14 @@ TEST_F(OutputFolder, IsRefusedToAnotherCase) {
             "results: holds the results of the case 'tube'; choose another folder with --output, or give --overwrite");
   EXPECT_EQ(claim("aorta", true), "no error");
   EXPECT_EQ(claim("aorta"), "no error") << "it is this case's from then on";
+}
+
+/// A case that was copied and edited keeps its name, and must not cost the first one's results.
+TEST_F(OutputFolder, IsRefusedToAnotherFileOfTheSameName) {
+  EXPECT_EQ(claim("tube"), "no error");
+  EXPECT_TRUE(claim("tube", false, "copy.yaml")
+                  .starts_with("results: holds the results of another case file of the name 'tube' ("));
+  EXPECT_EQ(claim("tube", true, "copy.yaml"), "no error");
 }
 
 TEST_F(OutputFolder, IsNotTakenFromOtherFiles) {

@@ -154,6 +154,10 @@ TEST_F(Compare, SimulatesWhatIsNotThere) {
   std::string text = content_of(compared);
   text.replace(text.find("young: 4e6"), 10, "young: 1e7");
   std::ofstream(compared) << text;
+  std::string marker = content_of(output / "case_as_run.yaml");  // the run was of this file, before it was edited
+  const std::string before = (run / "case/case.yaml").string();
+  marker.replace(marker.find(before), before.size(), compared.string());
+  std::ofstream(output / "case_as_run.yaml") << marker;
   const ChildEnd end = compare();
   ASSERT_EQ(end.exit_code, 0) << end.errors;
   EXPECT_NE(end.output.find("the run in " + output.string() + " had another 'solid': simulating first"),

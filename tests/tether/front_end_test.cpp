@@ -112,7 +112,9 @@ TEST_F(FrontEnd, ReturnsTheCodeOfARunThatFails) {
 
 TEST_F(FrontEnd, CallsAKilledRunFailed) {
   program("fsi_master", "case \"$*\" in *--validate*) exit 0;; esac; kill -KILL $$");
-  EXPECT_EQ(tether("simulate case.yaml --quiet").exit_code, 1);
+  const ChildEnd end = tether("simulate case.yaml --quiet");
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_NE(end.errors.find("tether: fsi_master was ended by signal 9"), std::string::npos) << end.errors;
 }
 
 TEST_F(FrontEnd, KeepsAnotherCasesResults) {
