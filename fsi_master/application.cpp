@@ -14,6 +14,7 @@
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupling_case.hpp"
 #include "fsi_master/message_partners.hpp"
+#include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
 
 namespace tether {
@@ -84,16 +85,19 @@ void check_points(const Simulation& simulation, const CaseFile& file, double siz
 }
 
 /// What a person should know before the run: in summary.json, and printed unless quiet.
-std::vector<std::string> notices_of(std::span<Partner> partners, bool quiet) {
+std::vector<std::string> notices_of(std::span<Partner> partners, const RunPlan& plan) {
   std::vector<std::string> all;
+  if (const std::string sentence = unusual_image_pressure(plan.image_pressure, plan.units); !sentence.empty())
+    all.push_back(sentence);
   for (Partner& partner : partners) {
     const protocol::Hello& hello = partner.hello();
     for (const std::string& notice : hello.notices) all.push_back(fmt::format("{}: {}", partner.role(), notice));
+    for (const std::string& sentence : unusual_numbers(hello.parameters, plan.units)) all.push_back(sentence);
     if (!hello.has_state && partner.role() != "solid_observation")
       all.push_back(fmt::format("{} ({}) announces no state: this run cannot be resumed, nor used for identification",
                                 partner.role(), hello.program));
   }
-  if (!quiet)
+  if (!plan.quiet)
     for (const std::string& notice : all) fmt::print("{}\n", notice);
   return all;
 }
@@ -128,7 +132,7 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   const CouplingOptions options{master.coupling.tolerance, master.coupling.max_iterations, master.coupling.reuse,
                                 diagonal(solid_surface.points)};
   const auto coupling = make_coupling(master.coupling.method, fluid, solid, options);
-  const std::vector<std::string> notices = notices_of(processes, plan.quiet);
+  const std::vector<std::string> notices = notices_of(processes, plan);
   const std::string fluid_case = fluid_process.hello().effective_case,
                     solid_case = solid_process.hello().effective_case;
   plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, solid_surface.points);
