@@ -59,9 +59,10 @@ void check_shapes(const std::string& mesh, const char* element, const Points& po
   if (bad == 0) return;
   const double volume = signed_volume(points, tetrahedra[worst]);
   throw input_error(
-      "{}: {} of {} {} are inverted or flat: the worst is number {} near {}, volume {:.3g}: must be positive{}", mesh,
-      bad, tetrahedra.size() / parts, element, worst / parts, at(middle(points, tetrahedra[worst])), volume,
-      parts == 3 ? ", the wall's thickness too" : "");
+      "{}: {} of {} {} are inverted or flat: the worst is number {} near {}, volume {:.3g} with edges of {:.3g}: must "
+      "be positive, and not flat{}",
+      mesh, bad, tetrahedra.size() / parts, element, worst / parts, at(middle(points, tetrahedra[worst])), volume,
+      longest_edge(points, tetrahedra[worst]), parts == 3 ? ", the wall's thickness too" : "");
 }
 
 void check_parts(const std::string& mesh, const Points& points, const std::vector<Tetrahedron>& tetrahedra) {
@@ -176,8 +177,8 @@ void check_interface(const VesselMesh& vessel) {
     throw input_error("interface: fluid and wall have the same nodes but connect them by other triangles");
 }
 
-void check_size(const VesselMesh& vessel, const UnitSystem& units) {
-  const double diameter = mean_lumen_diameter(vessel.fluid), in_mm = units.to_mm(diameter);
+void check_lumen(const FluidMesh& fluid, const UnitSystem& units) {
+  const double diameter = mean_lumen_diameter(fluid), in_mm = units.to_mm(diameter);
   if (!(in_mm >= 0.3 && in_mm <= 120))
     throw input_error(
         "mesh: the lumen's mean diameter is {:.4g} {} = {:.4g} mm: must be 0.3 to 120 mm in units: {}. Coordinates in "
@@ -185,17 +186,23 @@ void check_size(const VesselMesh& vessel, const UnitSystem& units) {
         "Multiplied by {:g} it would be {:.3g} mm",
         diameter, units.symbol(dimension::length), in_mm, units.name(), likely_factor(in_mm),
         in_mm * likely_factor(in_mm));
+}
+
+void check_thickness(const VesselMesh& vessel) {
+  const double diameter = mean_lumen_diameter(vessel.fluid);
   if (const double thickness = mean_wall_thickness(vessel.wall);
       thickness > 0.5 * diameter || thickness < 1e-3 * diameter)
     throw input_error("mesh: the wall is {:.4g} thick on average, the lumen {:.4g} wide: must be 0.001 to 0.5 of it",
                       thickness, diameter);
 }
 
+/// The size first: a lumen of 20 m has elements that are flat for its wall's sake, but that is not what is wrong.
 void check(const VesselMesh& vessel, const UnitSystem& units) {
+  check_lumen(vessel.fluid, units);
   check(vessel.fluid);
   check(vessel.wall);
   check_interface(vessel);
-  check_size(vessel, units);
+  check_thickness(vessel);
 }
 
 MeshReport report(const VesselMesh& vessel) {
