@@ -60,7 +60,8 @@ void check_shapes(const std::string& mesh, const char* element, const Points& po
   const double volume = signed_volume(points, tetrahedra[worst]);
   throw input_error(
       "{}: {} of {} {} are inverted or flat: the worst is number {} near {}, volume {:.3g} with edges of {:.3g}: must "
-      "be positive, and not flat{}",
+      "be "
+      "positive{}, and not flat",
       mesh, bad, tetrahedra.size() / parts, element, worst / parts, at(middle(points, tetrahedra[worst])), volume,
       longest_edge(points, tetrahedra[worst]), parts == 3 ? ", the wall's thickness too" : "");
 }
@@ -179,7 +180,7 @@ void check_interface(const VesselMesh& vessel) {
 
 void check_lumen(const FluidMesh& fluid, const UnitSystem& units) {
   const double diameter = mean_lumen_diameter(fluid), in_mm = units.to_mm(diameter);
-  if (!(in_mm >= 0.3 && in_mm <= 120))
+  if (diameter > 0 && !(in_mm >= 0.3 && in_mm <= 120))
     throw input_error(
         "mesh: the lumen's mean diameter is {:.4g} {} = {:.4g} mm: must be 0.3 to 120 mm in units: {}. Coordinates in "
         "another unit? "
@@ -196,7 +197,8 @@ void check_thickness(const VesselMesh& vessel) {
                       thickness, diameter);
 }
 
-/// The size first: a lumen of 20 m has elements that are flat for its wall's sake, but that is not what is wrong.
+/// The size first, if there is a lumen: a lumen of 20 m has elements that are flat for its wall's sake, but that is not
+/// what is wrong.
 void check(const VesselMesh& vessel, const UnitSystem& units) {
   check_lumen(vessel.fluid, units);
   check(vessel.fluid);
