@@ -21,7 +21,7 @@ class FlowInlet {
 
   /// Into the vessel [volume/time].
   double flow(double time) const { return inflow->gain() * curve_(inflow->curve_time(time)); }
-  /// At the face's nodes (local), relative to the moving face; its flux is -flow(time) to round-off.
+  /// At the face's nodes (local), in space; its flux is -flow(time) to round-off.
   Points velocity(double time, double kinematic_viscosity);
 
  private:
