@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
-#include "common/config/yaml_tree.hpp"
 
 namespace tether {
 namespace {
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 /// Sections that do not change what a run computes; measurements do if an observer pulls the wall toward them.
-constexpr std::array without_effect{"title", "observations", "identification", "diagnosis", "output"};
+constexpr std::array without_effect{"title", "twin", "observations", "identification", "diagnosis", "output"};
 
 bool has_effect(const std::string& section, const YamlNode& tree) {
   if (section == "observations" && tree.find("observer") != nullptr) return true;
@@ -80,7 +80,7 @@ double largest_gain(const Json& observer) {
 std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& file, int steps) {
   for (const char* name : {case_as_run, "summary.json", "lumen.motion", "timeseries.csv"})
     if (!fs::exists(output / name)) return fmt::format("{} holds no finished run", output.string());
-  const YamlNode now = read_yaml(file.path()), then = read_yaml(output / case_as_run);
+  const YamlNode now = as_one_file(read_case_tree(file.path())), then = read_yaml(output / case_as_run);
   if (const std::string section = first_difference(now, then); !section.empty())
     return fmt::format("the run in {} had another '{}'", output.string(), section);
   const auto written = fs::last_write_time(output / "summary.json");

@@ -10,6 +10,7 @@ namespace tether {
 namespace {
 
 constexpr std::array sections{
+    TopLevelSection{"base", "a case file that this one builds on"},
     TopLevelSection{"name", "of the case"},
     TopLevelSection{"title", "of the case"},
     TopLevelSection{"units", "of all numbers"},
@@ -23,6 +24,7 @@ constexpr std::array sections{
     TopLevelSection{"observer", "pulls the wall toward the measured lumen during the run"},
     TopLevelSection{"identification", "parameters to be found from measurements"},
     TopLevelSection{"diagnosis", "effects that may be missing from the model"},
+    TopLevelSection{"twin", "data to be made from a run with a hidden effect"},
     TopLevelSection{"output", "what is written, and how often"},
 };
 

@@ -1,6 +1,7 @@
 #include "common/config/case_file.hpp"
 
 #include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
 #include "common/config/reader.hpp"
 #include "common/config/rules.hpp"
 
@@ -42,17 +43,13 @@ struct CaseFile::Contents {
   CommonCase common;
 
   explicit Contents(const std::filesystem::path& file)
-      : path(file),
-        tree(read_yaml(file)),
-        units(units_of(tree)),
-        problems(file.string()),
-        reader(tree, file.parent_path(), units, problems) {}
+      : path(file), tree(read_case_tree(file)), units(units_of(tree)), reader(tree, units, problems) {}
 };
 
 CaseFile::CaseFile(const std::filesystem::path& file) : contents_(std::make_unique<Contents>(file)) {
   if (contents_->tree.kind == YamlNode::Kind::scalar || contents_->tree.kind == YamlNode::Kind::list)
-    throw input_error("{}:{}: a case file is a section of named fields, such as 'name: tube'", file.string(),
-                      contents_->tree.line);
+    throw input_error("{}: a case file is a section of named fields, such as 'name: tube'",
+                      contents_->tree.place.text());
   contents_->common.declare(contents_->reader);
 }
 
@@ -77,9 +74,9 @@ void CaseFile::finish() {
   for (const auto& entry : contents_->tree.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string near = nearest(entry.key, known);
-    contents_->problems.add(
-        entry.line, fmt::format("{}: unknown section; {}", entry.key,
-                                near.empty() ? "known are " + listed(known) : fmt::format("did you mean '{}'?", near)));
+    contents_->problems.add(entry.place, fmt::format("{}: unknown section; {}", entry.key,
+                                                     near.empty() ? "known are " + listed(known)
+                                                                  : fmt::format("did you mean '{}'?", near)));
   }
   contents_->problems.throw_if_any();
 }
@@ -90,10 +87,10 @@ std::string CaseFile::given(std::string_view field) const {
 }
 
 std::string CaseFile::where(std::string_view field) const {
-  int line = contents_->tree.line;
+  const YamlNode* nearest = &contents_->tree;
   for (const YamlNode* node : chain(contents_->tree, field))
-    if (node) line = node->line;
-  return fmt::format("{}:{}: {}", contents_->path.string(), line, field);
+    if (node) nearest = node;
+  return fmt::format("{}: {}", nearest->place.text(), field);
 }
 
 }  // namespace tether

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
-#include "common/config/yaml_tree.hpp"
+#include "common/config/case_tree.hpp"
 
 namespace tether {
 namespace {
@@ -38,12 +38,22 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
   throw input_error("{}: holds the results of the case '{}'; {}", folder.string(), owner ? owner->text : "?", way_out);
 }
 
+/// The case as one file: as it stands, or merged with what it builds on.
+void copy_case(const fs::path& case_file, const std::vector<fs::path>& files, std::ostream& to) {
+  if (files.size() == 1) {
+    to << std::ifstream(case_file).rdbuf();
+    return;
+  }
+  for (std::size_t i = 1; i < files.size(); ++i)
+    to << "# Merged with " << fs::absolute(files[i]).lexically_normal().string() << "\n";
+  to << yaml_text(as_one_file(read_case_tree(case_file)));
+}
+
 void mark(const fs::path& folder, const fs::path& case_file) {
-  std::ifstream from(case_file);
   std::ofstream to(folder / case_as_run);
   to << copy_of << fs::absolute(case_file).lexically_normal().string() << as_it_was
      << " when the run started. Its paths are relative to that file.\n";
-  to << from.rdbuf();
+  copy_case(case_file, files_of_case(case_file), to);
   if (!to) throw input_error("{}: cannot be written to", folder.string());
 }
 

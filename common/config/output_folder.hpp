@@ -5,7 +5,8 @@
 
 namespace tether {
 
-/// The file in an output folder that says whose results it holds: a copy of the case.
+/// The file in an output folder that says whose results it holds: a copy of the case,
+/// merged with what it builds on.
 inline constexpr const char* case_as_run = "case_as_run.yaml";
 
 /// Where a run's results are, or will be: --output, or out/NAME.

@@ -37,26 +37,30 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 }  // namespace
 
-void Problems::throw_if_any() const {
+void Problems::throw_if_any() {
+  std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.file->depth, a.first.line) < std::pair(b.first.file->depth, b.first.line);
+  });
   std::vector<std::string> lines;
-  for (const auto& [line, text] : found_) lines.push_back(fmt::format("{}:{}: {}", file_, line, text));
+  for (const auto& [place, text] : found_) lines.push_back(fmt::format("{}: {}", place.text(), text));
   if (!lines.empty()) throw input_error("{}", fmt::join(lines, "\n"));
 }
 
-Reader::Reader(const YamlNode& root, std::filesystem::path folder, const UnitSystem& units, Problems& problems)
-    : folder_(std::move(folder)), units_(units), problems_(problems) {
-  sections_.push_back({&root, "", 1, "", {}, {}});
+Reader::Reader(const YamlNode& root, const UnitSystem& units, Problems& problems) : units_(units), problems_(problems) {
+  Section& whole = sections_.emplace_back();
+  whole.node = &root;
+  whole.place = {root.place.file, 1};
 }
 
 std::string Reader::unit(Dimension dimension) const {
   return dimension == dimension::none ? "" : units_.symbol(dimension);
 }
 
-void Reader::wrong(const Field& field, int line, const std::string& value, const std::string& rule) {
+void Reader::wrong(const Field& field, const YamlPlace& place, const std::string& value, const std::string& rule) {
   Section& section = sections_.back();
   section.failed = true;
   const std::string shown = value.empty() ? "" : value + ": ";
-  problems_.add(line, fmt::format("{}{}: {}{}{}", section.path, field.name, shown, rule, with_meaning(field.meaning)));
+  problems_.add(place, fmt::format("{}{}: {}{}{}", section.path, field.name, shown, rule, with_meaning(field.meaning)));
 }
 
 const Reader::Condition* Reader::broken_condition() const {
@@ -79,7 +83,7 @@ const YamlNode* Reader::find(const Field& field) {
   if (node && node->kind != YamlNode::Kind::empty) return node;
   if (field.required) {
     const std::string unit = field.unit.empty() ? "" : fmt::format(" in {}", field.unit);
-    wrong(field, node ? node->line : section.line, "missing", "must be given" + unit);
+    wrong(field, node ? node->place : section.place, "missing", "must be given" + unit);
   }
   return nullptr;
 }
@@ -87,7 +91,7 @@ const YamlNode* Reader::find(const Field& field) {
 const YamlNode* Reader::scalar(const Field& field) {
   const YamlNode* node = find(field);
   if (!node || node->kind == YamlNode::Kind::scalar) return node;
-  wrong(field, node->line, described(node->kind), "must be a single value");
+  wrong(field, node->place, described(node->kind), "must be a single value");
   return nullptr;
 }
 
@@ -97,11 +101,11 @@ std::optional<double> Reader::quantity(const Field& field, const YamlNode& node,
   try {
     value = units_.quantity(node.text, dimension);
   } catch (const InputError& error) {
-    wrong(field, node.line, "", error.what());
+    wrong(field, node.place, "", error.what());
     return std::nullopt;
   }
   if (std::isfinite(value) && range.contains(value)) return value;
-  wrong(field, node.line, with_unit(node.text, field.unit), std::isfinite(value) ? rule_of(range) : "must be finite");
+  wrong(field, node.place, with_unit(node.text, field.unit), std::isfinite(value) ? rule_of(range) : "must be finite");
   return std::nullopt;
 }
 
@@ -124,8 +128,8 @@ void Reader::integer(Text name, int& value, IntegerRange range, Text meaning) {
   int read = 0;
   const char* end = node->text.data() + node->text.size();
   const auto [last, error] = std::from_chars(node->text.data(), end, read);
-  if (error != std::errc{} || last != end) return wrong(field, node->line, node->text, "must be a whole number");
-  if (read < range.lower || read > range.upper) return wrong(field, node->line, node->text, rule_of(as_range(range)));
+  if (error != std::errc{} || last != end) return wrong(field, node->place, node->text, "must be a whole number");
+  if (read < range.lower || read > range.upper) return wrong(field, node->place, node->text, rule_of(as_range(range)));
   value = read;
 }
 
@@ -135,7 +139,7 @@ void Reader::flag(Text name, bool& value, Text meaning) {
   if (!node) return;
   const auto is = [&](auto... words) { return ((node->text == words) || ...); };
   if (!is("true", "yes", "on", "false", "no", "off"))
-    return wrong(field, node->line, node->text, "must be true or false");
+    return wrong(field, node->place, node->text, "must be true or false");
   value = is("true", "yes", "on");
 }
 
@@ -157,16 +161,16 @@ void Reader::choice(Text name, std::string& value, std::span<const Word> words, 
   const std::string near = nearest(node->text, known);
   value.clear();  // no guess: fields that depend on it are then neither asked for nor refused
   const std::string hint = near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
-  wrong(field, node->line, node->text, fmt::format("must be one of {}{}", listed(known), hint));
+  wrong(field, node->place, node->text, fmt::format("must be one of {}{}", listed(known), hint));
 }
 
 void Reader::path(Text name, std::filesystem::path& value, Text meaning, Need need) {
   const Field field{name, meaning, "", need == Need::required && value.empty()};
   const YamlNode* node = scalar(field);
   if (!node) return;
-  value = (folder_ / node->text).lexically_normal();
+  value = (node->place.file->path.parent_path() / node->text).lexically_normal();
   if (!std::filesystem::exists(value))
-    wrong(field, node->line, node->text, fmt::format("no such file or folder: {}", value.string()));
+    wrong(field, node->place, node->text, fmt::format("no such file or folder: {}", value.string()));
 }
 
 void Reader::numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning, Need need) {
@@ -174,14 +178,14 @@ void Reader::numbers(Text name, std::vector<double>& values, const ListRule& rul
   const YamlNode* node = find(field);
   if (!node) return;
   if (node->kind != YamlNode::Kind::list)
-    return wrong(field, node->line, described(node->kind), "must be a list of numbers");
+    return wrong(field, node->place, described(node->kind), "must be a list of numbers");
   const std::size_t given = node->items.size();
   if (given == 0 || (rule.count != 0 && given != rule.count))
-    return wrong(field, node->line, fmt::format("{} numbers", given),
+    return wrong(field, node->place, fmt::format("{} numbers", given),
                  rule.count == 0 ? "must be at least one" : fmt::format("must be {} numbers", rule.count));
   std::vector<double> read;
   for (const auto& item : node->items) {
-    if (item.kind != YamlNode::Kind::scalar) return wrong(field, item.line, described(item.kind), "must be a number");
+    if (item.kind != YamlNode::Kind::scalar) return wrong(field, item.place, described(item.kind), "must be a number");
     if (const auto value = quantity(field, item, rule.dimension, rule.range)) read.push_back(*value);
   }
   if (read.size() == given) values = std::move(read);
@@ -192,11 +196,11 @@ void Reader::texts(Text name, std::vector<std::string>& values, Text meaning, Ne
   const YamlNode* node = find(field);
   if (!node) return;
   if (node->kind != YamlNode::Kind::list)
-    return wrong(field, node->line, described(node->kind), "must be a list of words");
+    return wrong(field, node->place, described(node->kind), "must be a list of words");
   std::vector<std::string> read;
   for (const auto& item : node->items) {
     if (item.kind != YamlNode::Kind::scalar || item.text.empty())
-      return wrong(field, item.line, described(item.kind), "must be a word");
+      return wrong(field, item.place, described(item.kind), "must be a word");
     read.push_back(item.text);
   }
   values = std::move(read);
@@ -207,7 +211,7 @@ void Reader::check(bool holds, Text field, Text rule) {
   if (holds || section.failed || broken_condition()) return;
   const YamlNode* node = section.node ? section.node->find(field) : nullptr;
   const std::string value = node && node->kind == YamlNode::Kind::scalar ? node->text : "";
-  wrong({field, {}, ""}, node ? node->line : section.line, value, std::string(rule));
+  wrong({field, {}, ""}, node ? node->place : section.place, value, std::string(rule));
 }
 
 bool Reader::enter(Text name, Text meaning) {
@@ -215,12 +219,12 @@ bool Reader::enter(Text name, Text meaning) {
   const YamlNode* node = find(field);
   if (broken_condition()) return false;
   if (node && node->kind != YamlNode::Kind::map) {
-    wrong(field, node->line, described(node->kind), "must be a section of named fields");
+    wrong(field, node->place, described(node->kind), "must be a section of named fields");
     return false;
   }
   const Section& outer = sections_.back();
   sections_.push_back(
-      {node, fmt::format("{}{}.", outer.path, name), node ? node->line : outer.line, std::string(meaning), {}, {}});
+      {node, fmt::format("{}{}.", outer.path, name), node ? node->place : outer.place, std::string(meaning), {}, {}});
   return true;
 }
 
@@ -244,7 +248,7 @@ std::vector<std::string> Reader::entry_names(const std::vector<std::string>&, Ne
     for (const auto& entry : section.node->entries) section.known.push_back(entry.key);
   if (section.known.empty() && need == Need::required) {
     section.failed = true;
-    problems_.add(section.line,
+    problems_.add(section.place,
                   fmt::format("{}: missing: at least one entry must be given{}",
                               section.path.substr(0, section.path.size() - 1), with_meaning(section.meaning)));
   }
@@ -253,7 +257,10 @@ std::vector<std::string> Reader::entry_names(const std::vector<std::string>&, Ne
 
 bool Reader::begin_when(Text field, const std::string& value, std::span<const Text> words) {
   const bool holds = std::find(words.begin(), words.end(), value) != words.end();
-  conditions_.push_back({holds, std::string(field), value, fmt::format("{}", fmt::join(words, " or "))});
+  const YamlNode* section = sections_.back().node;
+  const YamlNode* choice = section ? section->find(field) : nullptr;
+  const int depth = choice ? choice->place.file->depth : std::numeric_limits<int>::max();
+  conditions_.push_back({holds, std::string(field), value, fmt::format("{}", fmt::join(words, " or ")), depth});
   return true;
 }
 
@@ -266,12 +273,17 @@ std::string Reader::only_with(const Condition& condition) {
                      condition.chosen);
 }
 
+/// What belongs to a choice that was not understood, or that a file made which builds on the one where this stands.
+bool Reader::is_moot(const Condition& condition, const YamlNode::Entry& entry) {
+  return condition.chosen.empty() || condition.depth < entry.place.file->depth;
+}
+
 void Reader::report_unknown(const Section& section) {
   if (!section.node) return;
   for (const auto& entry : section.node->entries) {
     if (std::find(section.known.begin(), section.known.end(), entry.key) != section.known.end()) continue;
     const auto elsewhere = section.inapplicable.find(entry.key);
-    if (elsewhere != section.inapplicable.end() && elsewhere->second.chosen.empty()) continue;
+    if (elsewhere != section.inapplicable.end() && is_moot(elsewhere->second, entry)) continue;
     const std::string near = nearest(entry.key, section.known);
     std::string rule = "unknown field";
     if (elsewhere != section.inapplicable.end())
@@ -280,7 +292,7 @@ void Reader::report_unknown(const Section& section) {
       rule += fmt::format("; did you mean '{}'?", near);
     else if (!section.known.empty())
       rule += "; known here: " + listed(section.known);
-    problems_.add(entry.line, fmt::format("{}{}: {}", section.path, entry.key, rule));
+    problems_.add(entry.place, fmt::format("{}{}: {}", section.path, entry.key, rule));
   }
 }
 

@@ -11,22 +11,22 @@ namespace tether {
 /// What is wrong with a file, collected so that the user sees all of it at once.
 class Problems {
  public:
-  explicit Problems(std::string file) : file_(std::move(file)) {}
-  void add(int line, const std::string& text) { found_.emplace(line, text); }
+  void add(const YamlPlace& place, const std::string& text) { found_.emplace_back(place, text); }
   bool empty() const { return found_.empty(); }
-  /// Throws InputError with one line "file:line: text" per problem, in the order of the file.
-  void throw_if_any() const;
+  /// Throws InputError with one line "file:line: text" per problem, in the order of the file, a file before the one
+  /// that it builds on.
+  void throw_if_any();
 
  private:
-  std::string file_;
-  std::multimap<int, std::string> found_;
+  std::vector<std::pair<YamlPlace, std::string>> found_;
 };
 
-/// Reads declared fields from a YAML tree; everything that breaks a declaration is added to `problems`.
+/// Reads declared fields from a YAML tree; everything that breaks a declaration is added to `problems`. Paths are
+/// relative to the file that they stand in.
 class Reader : public Fields {
  public:
-  /// `folder`: what paths are relative to. All references must outlive the reader.
-  Reader(const YamlNode& root, std::filesystem::path folder, const UnitSystem& units, Problems& problems);
+  /// All references must outlive the reader.
+  Reader(const YamlNode& root, const UnitSystem& units, Problems& problems);
 
   void number(Text name, double& value, Dimension dimension, Range range, Text meaning) override;
   void number(Text name, std::optional<double>& value, Dimension dimension, Range range, Text meaning) override;
@@ -58,12 +58,13 @@ class Reader : public Fields {
   struct Condition {
     bool holds;
     std::string field, chosen, words;
+    int depth;  ///< of the file that makes the choice
   };
   /// The section being read; `node` is null where the file leaves the section out.
   struct Section {
-    const YamlNode* node;
+    const YamlNode* node = nullptr;
     std::string path;  ///< with its final dot: "solid.support."
-    int line;
+    YamlPlace place;
     std::string meaning;
     std::vector<std::string> known;
     std::map<std::string, Condition> inapplicable;  ///< field -> where it would apply
@@ -74,11 +75,11 @@ class Reader : public Fields {
   const YamlNode* find(const Field& field);
   const YamlNode* scalar(const Field& field);
   std::optional<double> quantity(const Field& field, const YamlNode& node, Dimension dimension, const Range& range);
-  void wrong(const Field& field, int line, const std::string& value, const std::string& rule);
+  void wrong(const Field& field, const YamlPlace& place, const std::string& value, const std::string& rule);
   static std::string only_with(const Condition& condition);
+  static bool is_moot(const Condition& condition, const YamlNode::Entry& entry);
   void report_unknown(const Section& section);
 
-  std::filesystem::path folder_;
   const UnitSystem& units_;
   Problems& problems_;
   std::vector<Section> sections_;

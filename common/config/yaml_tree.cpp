@@ -16,12 +16,12 @@ int line_of(const YAML::Mark& mark) {
 /// Copies yaml-cpp's nodes, looking for what it lets pass.
 class Copier {
  public:
-  explicit Copier(const std::string& file) : file_(file) {}
+  explicit Copier(std::shared_ptr<const YamlFile> file) : file_(std::move(file)) {}
 
   YamlNode operator()(const YAML::Node& from, int depth = 0) const {
     YamlNode to;
-    to.line = line_of(from.Mark());
-    if (depth > deepest) throw input_error("{}:{}: nested too deeply (an alias that contains itself?)", file_, to.line);
+    to.place = place_of(from.Mark());
+    if (depth > deepest) throw input_error("{}: nested too deeply (an alias that contains itself?)", to.place.text());
     if (from.IsScalar()) {
       to.kind = YamlNode::Kind::scalar;
       to.text = from.Scalar();
@@ -36,18 +36,45 @@ class Copier {
   }
 
  private:
+  YamlPlace place_of(const YAML::Mark& mark) const { return {file_, line_of(mark)}; }
+
   void add(YamlNode& map, const YAML::Node& key, const YAML::Node& value, int depth) const {
-    const int line = line_of(key.Mark());
-    if (!key.IsScalar()) throw input_error("{}:{}: a name is expected before ':'", file_, line);
+    const YamlPlace place = place_of(key.Mark());
+    if (!key.IsScalar()) throw input_error("{}: a name is expected before ':'", place.text());
     for (const auto& entry : map.entries)
       if (entry.key == key.Scalar())
-        throw input_error("{}:{}: '{}' is given twice; first on line {}", file_, line, key.Scalar(), entry.line);
-    map.entries.push_back({key.Scalar(), line, (*this)(value, depth + 1)});
-    if (map.entries.back().value.kind != YamlNode::Kind::scalar) map.entries.back().value.line = line;
+        throw input_error("{}: '{}' is given twice; first on line {}", place.text(), key.Scalar(), entry.place.line);
+    map.entries.push_back({key.Scalar(), place, (*this)(value, depth + 1)});
+    if (map.entries.back().value.kind != YamlNode::Kind::scalar) map.entries.back().value.place = place;
   }
 
-  const std::string& file_;
+  std::shared_ptr<const YamlFile> file_;
 };
+
+/// Scalars that YAML would take for nothing keep their quotes: yaml-cpp sees to it.
+void emit(YAML::Emitter& out, const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::empty:
+      out << YAML::Null;
+      break;
+    case YamlNode::Kind::scalar:
+      out << node.text;
+      break;
+    case YamlNode::Kind::list:
+      out << YAML::Flow << YAML::BeginSeq;
+      for (const auto& item : node.items) emit(out, item);
+      out << YAML::EndSeq;
+      break;
+    case YamlNode::Kind::map:
+      out << YAML::BeginMap;
+      for (const auto& entry : node.entries) {
+        out << YAML::Key << entry.key << YAML::Value;
+        emit(out, entry.value);
+      }
+      out << YAML::EndMap;
+      break;
+  }
+}
 
 }  // namespace
 
@@ -57,21 +84,42 @@ const YamlNode* YamlNode::find(std::string_view key) const {
   return nullptr;
 }
 
-YamlNode read_yaml(const std::filesystem::path& file) {
+std::string YamlPlace::text() const {
+  return fmt::format("{}:{}", file ? file->path.string() : "", line);
+}
+
+YamlNode read_yaml(const std::filesystem::path& file, int depth) {
   const std::string name = file.string();
   if (!std::filesystem::exists(file)) throw input_error("{}: no such file", name);
   if (!std::filesystem::is_regular_file(file)) throw input_error("{}: is not a file", name);
+  const auto source = std::make_shared<const YamlFile>(YamlFile{file, depth});
   try {
     const auto documents = YAML::LoadAllFromFile(name);
     if (documents.size() > 1)
       throw input_error("{}:{}: a second document starts here; a case file has one", name,
                         line_of(documents[1].Mark()));
-    return documents.empty() ? YamlNode{} : Copier(name)(documents.front());
+    YamlNode nothing;
+    nothing.place = {source, 1};
+    return documents.empty() ? nothing : Copier(source)(documents.front());
   } catch (const YAML::BadFile&) {
     throw input_error("{}: cannot be read", name);
   } catch (const YAML::Exception& error) {
     throw input_error("{}:{}: not YAML: {}", name, line_of(error.mark), error.msg);
   }
+}
+
+YamlNode yaml_value(const std::string& text) {
+  try {
+    return Copier(nullptr)(YAML::Load(text));
+  } catch (const YAML::Exception& error) {
+    throw input_error("'{}': not YAML: {}", text, error.msg);
+  }
+}
+
+std::string yaml_text(const YamlNode& tree) {
+  YAML::Emitter out;
+  emit(out, tree);
+  return std::string(out.c_str()) + "\n";
 }
 
 }  // namespace tether

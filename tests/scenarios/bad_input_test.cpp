@@ -142,8 +142,9 @@ const Mistake mistakes[] = {
      "case.yaml:15: fluid.viscosty: unknown field; known here: density, rheology, mesh_motion, backflow_stabilisation, "
      "inlets, outlets, probes"},
     {"UnknownSection", In::the_case, "solid:", "tissue: {}\nsolid:",
-     "case.yaml:21: tissue: unknown section; known are name, title, units, time, image, mesh, fluid, solid, coupling, "
-     "observations, observer, identification, diagnosis, output"},
+     "case.yaml:21: tissue: unknown section; known are base, name, title, units, time, image, mesh, fluid, solid, "
+     "coupling, "
+     "observations, observer, identification, diagnosis, twin, output"},
     {"MissingField", In::the_case, "  density: 1.06\n", "",
      "case.yaml:13: fluid.density: missing: must be given in g/cm3 (density of the blood)"},
     {"NegativeStiffness", In::the_case, "stiffness: 1e6", "stiffness: -3",

@@ -59,6 +59,28 @@ TEST_F(FinishedRunTest, IsNotOlderThanAFileOfTheCase) {
   EXPECT_EQ(why_not(with_solid), "flow.csv is newer than the run in " + output.string());
 }
 
+/// The mark holds the merged case, so a change of the base is one of the case; a twin's data change nothing.
+TEST_F(FinishedRunTest, OfACaseThatBuildsOnAnother) {
+  fs::create_directories(folder / "base");
+  std::ofstream(folder / "base/flow.csv") << "t, q\n";
+  fs::last_write_time(folder / "base/flow.csv", fs::file_time_type::clock::now() - std::chrono::hours(1));
+  folder.file("base/case.yaml", with_solid);
+  const std::string over = "base: base/case.yaml\nname: other\nsolid: {young: 3}\n";
+  CommandLine command;
+  command.output = output;
+  command.overwrite = true;
+  claim_output(command, CaseFile(folder.file("case.yaml", over)));
+  std::ofstream(output / "summary.json") << R"({"steps": 2})";
+  EXPECT_EQ(why_not(over), "it can");
+  EXPECT_EQ(why_not(over + "twin: {truth: x}\n"), "it can");
+  folder.file("base/case.yaml", with_solid + "coupling: {tolerance: 1}\n");
+  EXPECT_EQ(why_not(over), said(" had another 'coupling'"));
+  folder.file("base/case.yaml", with_solid);
+  EXPECT_EQ(why_not("base: base/case.yaml\nname: other\nsolid: {young: 4}\n"), said(" had another 'solid'"));
+  fs::last_write_time(folder / "base/flow.csv", fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  EXPECT_EQ(why_not(over), "base/flow.csv is newer than the run in " + output.string());
+}
+
 TEST_F(FinishedRunTest, IsFinished) {
   EXPECT_EQ(why_not(with_solid, 3), said(" ended after 2 of 3 steps"));
   fs::remove(output / "summary.json");

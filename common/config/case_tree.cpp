@@ -1,0 +1,114 @@
+#include "common/config/case_tree.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_bases = 16;
+
+YamlNode::Entry* entry_of(YamlNode& map, const std::string& key) {
+  const auto found = std::find_if(map.entries.begin(), map.entries.end(), [&](const auto& e) { return e.key == key; });
+  return found == map.entries.end() ? nullptr : &*found;
+}
+
+/// Puts `over` upon `under`.
+void merge(YamlNode& under, const YamlNode& over) {
+  using Kind = YamlNode::Kind;
+  if (under.kind != Kind::map || over.kind != Kind::map) {
+    under = over;
+    return;
+  }
+  under.place = over.place;
+  for (const auto& entry : over.entries) {
+    YamlNode::Entry* known = entry_of(under, entry.key);
+    if (!known) {
+      under.entries.push_back(entry);
+    } else if (entry.value.kind == Kind::empty) {
+      std::erase_if(under.entries, [&](const auto& e) { return e.key == entry.key; });
+    } else {
+      known->place = entry.place;
+      merge(known->value, entry.value);
+    }
+  }
+}
+
+/// Bare numbers of the base would be taken in the other unit.
+void check_units(const YamlNode& under, const YamlNode& over) {
+  const YamlNode *base = under.find("units"), *own = over.find("units");
+  if (base && own && own->kind == YamlNode::Kind::scalar && own->text != base->text)
+    throw input_error(
+        "{}: units: {}: must be the base's ({}), whose numbers would be taken in these; leave it out, and "
+        "write numbers with their unit where it differs",
+        own->place.text(), own->text, base->text);
+}
+
+/// The path that `base` names; empty if there is none.
+fs::path base_of(const YamlNode& tree) {
+  const YamlNode* base = tree.find("base");
+  if (!base) return {};
+  if (base->kind != YamlNode::Kind::scalar || base->text.empty())
+    throw input_error("{}: base: must be the path of a case file", base->place.text());
+  const fs::path path = (base->place.file->path.parent_path() / base->text).lexically_normal();
+  if (!fs::is_regular_file(path)) throw input_error("{}: base: {}: no such file", base->place.text(), path.string());
+  return path;
+}
+
+/// The files of a case as trees, itself first.
+std::vector<YamlNode> chain_of(const fs::path& file) {
+  std::vector<YamlNode> chain;
+  for (fs::path next = file; !next.empty(); next = base_of(chain.back())) {
+    const auto again = std::any_of(chain.begin(), chain.end(),
+                                   [&](const YamlNode& tree) { return fs::equivalent(tree.place.file->path, next); });
+    const std::string where = chain.empty() ? "" : chain.back().find("base")->place.text();
+    if (again) throw input_error("{}: base: {}: a case cannot build on itself", where, next.string());
+    if (chain.size() > most_bases)
+      throw input_error("{}: base: more than {} files build on each other", where, most_bases);
+    chain.push_back(read_yaml(next, static_cast<int>(chain.size())));
+  }
+  return chain;
+}
+
+void move_paths(YamlNode& node, const fs::path& folder) {
+  if (node.kind == YamlNode::Kind::scalar && node.place.file->depth > 0 && !node.text.empty()) {
+    std::error_code none;
+    const fs::path named = node.place.file->path.parent_path() / node.text;
+    if (fs::exists(named, none))
+      node.text = fs::absolute(named).lexically_normal().lexically_proximate(folder).string();
+  }
+  for (auto& item : node.items) move_paths(item, folder);
+  for (auto& entry : node.entries) move_paths(entry.value, folder);
+}
+
+}  // namespace
+
+YamlNode read_case_tree(const fs::path& file) {
+  std::vector<YamlNode> chain = chain_of(file);
+  YamlNode tree = std::move(chain.back());
+  for (chain.pop_back(); !chain.empty(); chain.pop_back()) {
+    YamlNode& over = chain.back();
+    std::erase_if(over.entries, [](const auto& entry) { return entry.key == "base"; });
+    check_units(tree, over);
+    merge(tree, over);
+  }
+  return tree;
+}
+
+std::vector<fs::path> files_of_case(const fs::path& file) {
+  std::vector<fs::path> files;
+  for (const YamlNode& tree : chain_of(file)) files.push_back(tree.place.file->path);
+  return files;
+}
+
+YamlNode as_one_file(YamlNode tree) {
+  const fs::path folder = fs::absolute(tree.place.file->path).lexically_normal().parent_path();
+  for (auto& entry : tree.entries)
+    if (entry.value.kind != YamlNode::Kind::scalar) move_paths(entry.value, folder);
+  return tree;
+}
+
+}  // namespace tether

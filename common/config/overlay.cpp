@@ -1,0 +1,70 @@
+#include "common/config/overlay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "common/base/error.hpp"
+#include "common/config/yaml_tree.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+YamlNode scalar(const std::string& text) {
+  YamlNode node;
+  node.kind = YamlNode::Kind::scalar;
+  node.text = text;
+  return node;
+}
+
+YamlNode& entry_of(YamlNode& map, const std::string& key) {
+  for (auto& entry : map.entries)
+    if (entry.key == key) return entry.value;
+  return map.entries.emplace_back(YamlNode::Entry{key, {}, {}}).value;
+}
+
+/// Sections grow on the way to the field.
+void set(YamlNode& tree, const Overlay::Value& value) {
+  YamlNode* node = &tree;
+  for (std::size_t begin = 0; begin <= value.field.size();) {
+    const std::size_t end = std::min(value.field.find('.', begin), value.field.size());
+    if (end == begin) throw input_error("'{}': a name is missing beside a dot", value.field);
+    node->kind = YamlNode::Kind::map;
+    const std::size_t before = node->entries.size();
+    YamlNode& next = entry_of(*node, value.field.substr(begin, end - begin));
+    const bool is_new = node->entries.size() > before, is_last = end == value.field.size();
+    if (!is_new && (is_last || next.kind != YamlNode::Kind::map))
+      throw input_error("{}: is given twice, or lies within a field that is", value.field);
+    node = &next;
+    begin = end + 1;
+  }
+  *node = yaml_value(value.text);
+}
+
+std::string relative_to(const fs::path& folder, const fs::path& path) {
+  return fs::absolute(path).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal()).string();
+}
+
+}  // namespace
+
+std::string number_text(double value) {
+  return fmt::format("{}", value);
+}
+
+void write_overlay(const fs::path& file, const Overlay& overlay) {
+  YamlNode tree;
+  tree.kind = YamlNode::Kind::map;
+  entry_of(tree, "base") = scalar(relative_to(fs::absolute(file).parent_path(), overlay.base));
+  entry_of(tree, "name") = scalar(overlay.name);
+  if (!overlay.title.empty()) entry_of(tree, "title") = scalar(overlay.title);
+  for (const auto& value : overlay.values) set(tree, value);
+  std::ofstream to(file);
+  to << yaml_text(tree);
+  to.close();
+  if (!to) throw input_error("{}: cannot be written", file.string());
+}
+
+}  // namespace tether
