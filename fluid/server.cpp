@@ -1,6 +1,7 @@
 #include "fluid/server.hpp"
 
 #include "common/base/error.hpp"
+#include "common/protocol/announce.hpp"
 
 namespace tether::fluid {
 namespace {
@@ -26,9 +27,8 @@ protocol::Hello FluidServer::hello() const {
   hello.state_size = solver_->state().size();
   hello.unknowns = 4 * solver_->domain().node_count();
   hello.effective_case = effective_case_;
-  for (const auto& [name, p, value, set] : solver_->parameters().entries())
-    hello.parameters.push_back({name, p.meaning, units_.symbol(p.dimension), name_of(p.transform), value(), p.absent,
-                                p.range.lower, p.range.upper, p.prior_deviation});
+  for (const ParameterTable::Entry& entry : solver_->parameters().entries())
+    hello.parameters.push_back(protocol::info_of(entry, units_));
   for (const auto& [name, dimension] : solver_->observables())
     hello.observables.push_back({name, units_.symbol(dimension)});
   return hello;

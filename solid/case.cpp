@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "common/base/csv.hpp"
-#include "common/base/curve.hpp"
 #include "common/base/error.hpp"
 #include "solid/lumen_regions.hpp"
 #include "solid/materials/registry.hpp"
@@ -52,6 +50,7 @@ std::vector<int> clamped_nodes(const SolidCase& solid, const WallMesh& mesh) {
   for (const Patch& ring : mesh.rings) {
     const RingCase* chosen = named(solid.rings, ring.name);
     if (chosen != nullptr && chosen->effect.type != clamped_ring.name) continue;
+    if (is_loose(ring.name, solid.effects)) continue;
     const std::vector<int> more = nodes_of(ring.triangles);
     nodes.insert(nodes.end(), more.begin(), more.end());
   }
@@ -72,6 +71,7 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
     result.emplace_back(ring, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values),
                         chosen->motion ? chosen->motion->load(units) : TissueMotion{});
   }
+  add_surface_effects(solid.effects, mesh, units, result);
   return result;
 }
 
@@ -102,10 +102,9 @@ std::string prestress(WallModel& wall, double pressure) {
       initial.held_share > 0.25 ? "; that is much: is the lumen's surface rough, or the pressure too high?" : "");
 }
 
-bool nothing_holds(const SolidCase& solid) {
-  return std::all_of(solid.support.regions.begin(), solid.support.regions.end(), [](const auto& region) {
-    const std::vector<double>& values = region.second.effect.values;
-    return std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
+bool nothing_holds(const std::vector<SurfaceSupport>& supports) {
+  return std::all_of(supports.begin(), supports.end(), [](const SurfaceSupport& support) {
+    return support.effect().declaration().place != Place::outer_wall || support.effect().is_absent();
   });
 }
 
@@ -123,32 +122,6 @@ VectorXd observer_gain(const ObserverCase& observer, const WallMesh& mesh) {
 }
 
 }  // namespace
-
-void MotionCase::declare(Fields& f) {
-  f.path("file", file, "CSV file with the ring's displacement over time", Need::required);
-  f.text("time", time, "column of the time");
-  f.text("x", x, "column of the displacement along x");
-  f.text("y", y, "column of the displacement along y");
-  f.text("z", z, "column of the displacement along z");
-  f.number("period", period, dimension::time, range::positive,
-           "duration after which the motion repeats; absent: it does not");
-}
-
-TissueMotion MotionCase::load(const UnitSystem& units) const {
-  const CsvTable table(file);
-  const auto column = [&](const std::string& name, Dimension dimension) {
-    std::vector<double> values = table.numbers(name);
-    const std::string unit = table.unit(name);
-    if (!unit.empty())
-      for (double& value : values) value *= units.quantity("1 " + unit, dimension);
-    return values;
-  };
-  const CurveShape shape{.period = period.value_or(0.0)};
-  const auto curve = [&](const std::string& name) {
-    return Curve(column(time, dimension::time), column(name, dimension::length), shape);
-  };
-  return [cx = curve(x), cy = curve(y), cz = curve(z)](double t) { return Vec3(cx(t), cy(t), cz(t)); };
-}
 
 void SupportCase::declare(Fields& f) {
   static const auto family = declarations(supports());
@@ -191,11 +164,13 @@ void SolidCase::declare(Fields& f) {
   f.check(integrator == "midpoint" || theta == 0.5, "theta", "must be 0.5 for the integrator energy_conserving");
   f.group("support", support, "tissue around the wall");
   f.groups("rings", rings, "end rings of the wall; clamped if not named");
+  f.groups("effects", effects, "what else acts on the wall or is different in it, any number on the same region");
 }
 
 void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file) {
   check_names(solid.support.regions, mesh.outside, "solid.support.regions", file);
   check_names(solid.rings, mesh.rings, "solid.rings", file);
+  check_effects(solid.effects, mesh, file);
   check_names(file.common().observer.regions, mesh.outside, "observer.regions", file);
 }
 
@@ -215,7 +190,7 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
       image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;
   PreparedWall wall;
   if (file.common().observer.is_on()) wall.observer_gain = observer_gain(file.common().observer, mesh);
-  if (nothing_holds(solid)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
+  if (nothing_holds(held)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
   wall.model = std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held));
   if (image.loads_wall() && image.wall == "prestressed") wall.notices.push_back(prestress(*wall.model, image.pressure));
   return wall;

@@ -3,19 +3,11 @@
 #include <memory>
 
 #include "common/config/case_file.hpp"
+#include "solid/effects_case.hpp"
+#include "solid/motion_case.hpp"
 #include "solid/wall_model.hpp"
 
 namespace tether {
-
-/// A measured motion over time, from columns of a CSV file: that of the heart at the inlet ring.
-struct MotionCase {
-  std::filesystem::path file;
-  std::string time = "time", x = "x", y = "y", z = "z";
-  std::optional<double> period;
-  void declare(Fields& f);
-  /// In the case's units. Throws InputError "file:line: ...".
-  TissueMotion load(const UnitSystem& units) const;
-};
 
 /// How a region of the outer wall is held.
 struct SupportCase {
@@ -43,6 +35,7 @@ struct SolidCase {
   EffectCase material;
   SupportsCase support;
   Named<RingCase> rings;
+  Named<WallEffectCase> effects;
   void declare(Fields& f);
 };
 

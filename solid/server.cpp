@@ -1,6 +1,7 @@
 #include "solid/server.hpp"
 
 #include "common/base/error.hpp"
+#include "common/protocol/announce.hpp"
 #include "solid/lumen_regions.hpp"
 #include "solid/wall_series.hpp"
 
@@ -45,13 +46,14 @@ protocol::Hello SolidServer::hello() const {
   hello.unknowns = model_->unknowns();
   hello.effective_case = effective_case_;
   hello.notices = notices_;
-  for (const auto& [name, p, value, set] : model_->parameters().entries())
-    hello.parameters.push_back({name, p.meaning, units_.symbol(p.dimension), name_of(p.transform), value(), p.absent,
-                                p.range.lower, p.range.upper, p.prior_deviation});
+  for (const ParameterTable::Entry& entry : model_->parameters().entries())
+    hello.parameters.push_back(protocol::info_of(entry, units_));
   hello.observables.push_back({"largest_displacement", units_.symbol(dimension::length)});
   for (const SurfaceSupport& support : model_->supports())
     for (const char* axis : {"x", "y", "z"})
-      hello.observables.push_back({"support." + support.name() + ".force_" + axis, units_.symbol(dimension::force)});
+      hello.observables.push_back(
+          {(support.path().empty() ? "support." : "effect.") + support.name() + ".force_" + axis,
+           units_.symbol(dimension::force)});
   return hello;
 }
 

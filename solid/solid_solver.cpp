@@ -36,6 +36,7 @@ void SolidSolver::begin_step(double time, double dt) {
   time_ = time;
   dt_ = dt;
   iterate_ = mean_velocity_;
+  for (const int unknown : model_.clamped_unknowns()) iterate_.reshaped()[unknown] = 0;  // of a clamp just set
   drift_.setZero();
   evaluations_ = 0;
   calls_ = most_calls_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,34 +9,49 @@
 #include "common/base/configured.hpp"
 #include "common/linalg/sparse.hpp"
 #include "common/mesh/mesh.hpp"
+#include "solid/motions/motion.hpp"
 #include "solid/supports/support.hpp"
 
 namespace tether {
-
-/// Displacement of the tissue to which a ring is tied, over time: the heart's motion y_b(t).
-using TissueMotion = std::function<Vec3(double time)>;
 
 /// Where a step's support is evaluated: the displacement at y0 + theta dt V and the velocity V.
 struct SupportStep {
   const Points& displacement;
   const Points& velocity;
-  double time;     ///< of that displacement
-  double advance;  ///< theta dt: change of the displacement with V
+  double time;                           ///< of that displacement
+  double advance;                        ///< theta dt: change of the displacement with V
+  const Points* acceleration = nullptr;  ///< (V - u0)/(theta dt); null: none
+};
+
+/// Tissue that moves; it is shared by all that holds the wall there.
+struct MovingTissue {
+  std::string path;  ///< of its parameters: "solid.effects.breathing"
+  Configured<Motion> motion;
+  TissueMotion measured;  ///< of laws that ask for it
 };
 
 /// A support on one region of the outer wall or on an end ring (S.4): int traction N_a dA, three points a triangle.
 class SurfaceSupport {
  public:
-  SurfaceSupport(Patch patch, Configured<Support> support, TissueMotion motion = {});
+  /// `path`: of its parameters; empty: that of the region's or ring's own support.
+  SurfaceSupport(Patch patch, Configured<Support> support, TissueMotion motion = {}, std::string path = {});
 
   const std::string& name() const { return patch_.name; }
+  const std::string& path() const { return path_; }
+  const std::vector<Triangle>& triangles() const { return patch_.triangles; }
   Configured<Support>& effect() { return support_; }
+  const Configured<Support>& effect() const { return support_; }
+  /// From now on it is tied to this tissue, beside others.
+  void follow(std::shared_ptr<MovingTissue> tissue) { tissues_.push_back(std::move(tissue)); }
+  const std::vector<std::shared_ptr<MovingTissue>>& tissues() const { return tissues_; }
 
   /// Areas and normals are those of these positions until the next call. `pattern`: the wall's matrix.
   void place(const Points& positions);
   void attach(const SparseMatrix& pattern);
+  /// A number at each node that grows along the vessel (S.15), for laws that use its direction; before `place`.
+  void orient(std::shared_ptr<const VectorXd> place_along_vessel) { along_ = std::move(place_along_vessel); }
 
-  /// force += what the support exerts on the wall; tangent, if not null, += - d force / dV.
+  /// force += what the support exerts on the wall; tangent, if not null, += - d force / dV. Nothing if it is absent.
   void add(const SupportStep& step, VectorXd& force, SparseMatrix* tangent) const;
   /// K += - d force / d displacement where nothing has moved; attach first.
   void add_stiffness(SparseMatrix& K) const;
@@ -45,13 +61,18 @@ class SurfaceSupport {
  private:
   struct Face {
     double area;
-    Vec3 normal;
+    Vec3 normal, axial;
+    Mat3 corners;  ///< imaged
   };
-  SupportTraction at(const SupportStep& step, std::size_t triangle, int edge) const;
+  SupportTraction at(const SupportStep& step, const Vec3& rest, std::size_t triangle, int edge) const;
+  Vec3 rest_at(double time) const;
 
   Patch patch_;
   Configured<Support> support_;
   TissueMotion motion_;
+  std::string path_;
+  std::vector<std::shared_ptr<MovingTissue>> tissues_;
+  std::shared_ptr<const VectorXd> along_;
   std::vector<Face> faces_;
   ScatterMap scatter_;
 };

@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "solid/materials/registry.hpp"
+#include "solid/vessel_direction.hpp"
 
 namespace tether {
 
@@ -21,15 +22,35 @@ WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& 
       material_(materials(), settings.material, settings.material_values),
       elements_(make_wall_elements(mesh_, stress_free)),
       supports_(std::move(supports)),
-      clamped_(unknowns_of(clamped_nodes)) {
+      always_clamped_(unknowns_of(clamped_nodes)) {
   if (settings.conserve_energy && settings.theta != 0.5)
     throw input_error("solid.theta: {} with integrator energy_conserving: must be 0.5", settings.theta);
   const SparseMatrix pattern = elements_->zero_matrix();
+  orient_supports();
   for (SurfaceSupport& support : supports_) {
     support.attach(pattern);
     support.place(mesh_.points);
   }
   declare_parameters();
+  update_clamps();
+}
+
+void WallModel::orient_supports() {
+  std::shared_ptr<const VectorXd> along;
+  for (SurfaceSupport& support : supports_) {
+    if (!support.effect()->uses_axial()) continue;
+    if (!along) along = std::make_shared<const VectorXd>(place_along_vessel(mesh_));
+    support.orient(along);
+  }
+}
+
+void WallModel::update_clamps() {
+  clamped_ = always_clamped_;
+  for (const SurfaceSupport& support : supports_) {
+    if (!support.effect()->replaces_clamp() || !support.effect().is_absent()) continue;
+    const std::vector<int> more = unknowns_of(nodes_of(support.triangles()));
+    clamped_.insert(clamped_.end(), more.begin(), more.end());
+  }
 }
 
 void WallModel::declare_parameters() {
@@ -48,17 +69,33 @@ void WallModel::declare_parameters() {
                             .standard = 0.0,
                             .absent = 0.0,
                             .transform = Transform::log2,
-                            .prior_deviation = 1.0};
+                            .prior_deviation = 1.0,
+                            .scale = 50};
   parameters_.add(
       {"solid.density", density, [this] { return settings_.density; }, [this](double v) { settings_.density = v; }});
   parameters_.add({"solid.viscosity", viscosity, [this] { return settings_.viscosity; },
                    [this](double v) { settings_.viscosity = v; }});
   parameters_.add_effect("solid.material", material_);
+  declare_supports();
+}
+
+void WallModel::declare_supports() {
+  std::vector<const MovingTissue*> known;
   for (SurfaceSupport& support : supports_) {
-    const bool ring =
-        std::any_of(mesh_.rings.begin(), mesh_.rings.end(), [&](const Patch& p) { return p.name == support.name(); });
-    parameters_.add_effect((ring ? "solid.rings." : "solid.support.regions.") + support.name(), support.effect());
+    parameters_.add_effect(path_of(support), support.effect(), [this] { update_clamps(); });
+    for (const auto& tissue : support.tissues()) {
+      if (std::find(known.begin(), known.end(), tissue.get()) != known.end()) continue;
+      known.push_back(tissue.get());
+      parameters_.add_effect(tissue->path, tissue->motion);
+    }
   }
+}
+
+std::string WallModel::path_of(const SurfaceSupport& support) const {
+  if (!support.path().empty()) return support.path();
+  const bool ring =
+      std::any_of(mesh_.rings.begin(), mesh_.rings.end(), [&](const Patch& p) { return p.name == support.name(); });
+  return (ring ? "solid.rings." : "solid.support.regions.") + support.name();
 }
 
 void WallModel::set_initial_stress(const InitialStress& initial) {
@@ -83,7 +120,7 @@ VectorXd WallModel::step_forces(const Points& displacement, const Points& start_
                         {&*material_, settings_.viscosity, settings_.density}, forces, tangent);
   const Points middle = displacement + advance * velocity;
   for (const SurfaceSupport& support : supports_)
-    support.add({middle, velocity, time + advance, advance}, holding, tangent);
+    support.add({middle, velocity, time + advance, advance, &acceleration}, holding, tangent);
   forces -= holding;
   for (int unknown : clamped_) forces[unknown] = 0;
   if (tangent != nullptr) constrain(*tangent, clamped_, tangent->coeff(0, 0));

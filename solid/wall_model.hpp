@@ -39,6 +39,7 @@ class WallModel {
   const WallSettings& settings() const { return settings_; }
   const WallElements& elements() const { return *elements_; }
   const Material& material() const { return *material_; }
+  /// Those of the clamped nodes, and of rings whose clamp nothing replaces now.
   const std::vector<int>& clamped_unknowns() const { return clamped_; }
   const std::vector<SurfaceSupport>& supports() const { return supports_; }
   const ParameterTable& parameters() const { return parameters_; }
@@ -55,6 +56,10 @@ class WallModel {
 
  private:
   void declare_parameters();
+  void declare_supports();
+  std::string path_of(const SurfaceSupport& support) const;
+  void orient_supports();
+  void update_clamps();
 
   WallMesh mesh_;
   WallSettings settings_;
@@ -62,7 +67,7 @@ class WallModel {
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
   VectorXd held_;  ///< force of the surroundings beside the supports, a dead load; empty if none
-  std::vector<int> clamped_;
+  std::vector<int> always_clamped_, clamped_;
   ParameterTable parameters_;
 };
 

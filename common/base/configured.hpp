@@ -12,7 +12,8 @@
 
 namespace tether {
 
-/// What a case says about one effect: which one, and the values it gives. Values left out take their standard.
+/// What a case says about one effect: which one, and the values it gives. Values left out take their standard, which is
+/// in SI: case files state all values, in their own units.
 struct EffectChoice {
   std::string type;
   std::map<std::string, double> values;
@@ -64,6 +65,17 @@ class Configured {
   const Physics& operator*() const { return *physics_; }
   const Physics* operator->() const { return physics_.get(); }
   const EffectDeclaration& declaration() const { return entry_->declaration; }
+  /// Whether all parameters that can switch the effect off do so. An effect without any is never absent.
+  bool is_absent() const {
+    bool any = false;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const double absent = declaration().parameters[i].absent;
+      if (absent != absent) continue;
+      if (values_[i] != absent) return false;
+      any = true;
+    }
+    return any;
+  }
   /// In the declaration's order.
   const std::vector<double>& values() const { return values_; }
 

@@ -28,16 +28,20 @@ inline constexpr Range any{}, positive{0, infinite, true, false}, not_negative{0
 /// How a parameter is stretched to the real line when it is identified.
 enum class Transform { linear, log, log2, bounded };
 
-/// A number that an effect depends on: what the case file, --help, the manual and the identification need to know of it.
+/// A number that an effect depends on: what the case file, --help, the manual and the identification need to know of
+/// it.
 struct Parameter {
-  std::string name;       ///< words: "distal_resistance"
-  std::string meaning;    ///< one sentence
-  Dimension dimension;    ///< its unit follows from the case's unit system
-  Range range;            ///< of admissible values
-  double standard;        ///< value when the case file is silent; `undefined`: must be given
-  double absent;          ///< value at which the effect does nothing; `undefined`: there is no such value
+  std::string name;     ///< words: "distal_resistance"
+  std::string meaning;  ///< one sentence
+  Dimension dimension;  ///< its unit follows from the case's unit system
+  Range range;          ///< of admissible values
+  double standard;      ///< value when the case file is silent, in SI; `undefined`: must be given
+  double absent;        ///< value at which the effect does nothing; `undefined`: there is no such value
   Transform transform = Transform::linear;
-  double prior_deviation = undefined;  ///< standard deviation after the transform, for identification
+  double prior_deviation = undefined;  ///< standard deviation after the transform, for identification; `linear`: in SI
+  /// How far from `absent` the value of a patient may be, in SI: what a logarithm cannot say where `absent` is zero.
+  /// `linear`: the prior deviation, unless it is given.
+  double scale = undefined;
 };
 
 /// Where an effect acts.
@@ -51,7 +55,8 @@ struct EffectDeclaration {
   std::vector<Parameter> parameters;
 };
 
-/// An entry of a family's registry: `Physics` is the family's abstract class of point functions (a material, a support, an outlet).
+/// An entry of a family's registry: `Physics` is the family's abstract class of point functions (a material, a support,
+/// an outlet).
 template <class Physics>
 struct Registered {
   const EffectDeclaration& declaration;

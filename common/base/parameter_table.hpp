@@ -22,12 +22,16 @@ class ParameterTable {
   void add(Entry entry) { entries_.push_back(std::move(entry)); }
 
   /// All parameters of a configured effect, named path + "." + the parameter's name. The effect must outlive the table.
+  /// `changed`: called after one of them was set.
   template <class Physics>
-  void add_effect(const std::string& path, Configured<Physics>& effect) {
+  void add_effect(const std::string& path, Configured<Physics>& effect, const std::function<void()>& changed = {}) {
     for (std::size_t i = 0; i < effect.declaration().parameters.size(); ++i) {
       const Parameter& parameter = effect.declaration().parameters[i];
       add({path + "." + parameter.name, parameter, [&effect, i] { return effect.values()[i]; },
-           [&effect, name = parameter.name](double value) { effect.set(name, value); }});
+           [&effect, name = parameter.name, changed](double value) {
+             effect.set(name, value);
+             if (changed) changed();
+           }});
     }
   }
 

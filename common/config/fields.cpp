@@ -3,15 +3,6 @@
 #include <cmath>
 
 namespace tether {
-namespace {
-
-std::vector<double> standard_values(const EffectDeclaration& declaration) {
-  std::vector<double> values;
-  for (const auto& parameter : declaration.parameters) values.push_back(parameter.standard);
-  return values;
-}
-
-}  // namespace
 
 Range as_range(const IntegerRange& range) {
   return {range.lower == IntegerRange{}.lower ? -infinite : range.lower,
@@ -42,7 +33,8 @@ void Fields::effect(EffectCase& effect, EffectFamily family, Text meaning) {
   if (effect.type != type_before) effect.values.clear();
   for (const auto* declaration : family) {
     when("type", effect.type, {declaration->name}, [&] {
-      auto values = standard_values(*declaration);
+      std::vector<double> values;
+      for (const Parameter& p : declaration->parameters) values.push_back(from_si(p.standard, p.dimension));
       if (effect.type == declaration->name && effect.values.size() == values.size()) values = effect.values;
       for (std::size_t i = 0; i < values.size(); ++i) {
         const Parameter& p = declaration->parameters[i];

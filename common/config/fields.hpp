@@ -125,6 +125,8 @@ class Fields {
   }
 
  protected:
+  /// A number of a declaration, which is in SI, in the units of the fields.
+  virtual double from_si(double value, Dimension) const { return value; }
   virtual bool enter(Text name, Text meaning) = 0;
   virtual bool enter_if_given(Text name, Text meaning, bool held) = 0;
   virtual void leave() = 0;

@@ -40,6 +40,7 @@ class Reader : public Fields {
   void check(bool holds, Text field, Text rule) override;
 
  protected:
+  double from_si(double value, Dimension dimension) const override { return units_.from_si(value, dimension); }
   bool enter(Text name, Text meaning) override;
   bool enter_if_given(Text name, Text meaning, bool held) override;
   void leave() override;

@@ -56,7 +56,7 @@ Hello hello_of(const tether_description& d) {
               {}};
   for (const auto& p : array(d.parameters, d.parameter_count))
     hello.parameters.push_back({text(p.name), text(p.meaning), text(p.unit), text(p.transform), p.value, p.absent,
-                                p.lower, p.upper, p.prior_deviation});
+                                p.lower, p.upper, p.prior_deviation, p.scale});
   for (const auto& o : array(d.observables, d.observable_count))
     hello.observables.push_back({text(o.name), text(o.unit)});
   return hello;

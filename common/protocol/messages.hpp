@@ -33,7 +33,8 @@ struct ParameterInfo {
   std::string name, meaning, unit, transform;
   double value = 0, absent = 0, lower = 0, upper = 0;  ///< absent: NaN if there is no such value
   double prior_deviation = 0;                          ///< NaN if undefined
-  TETHER_FIELDS(name, meaning, unit, transform, value, absent, lower, upper, prior_deviation)
+  double scale = 0;  ///< how far from `absent` the value of a patient may be; NaN if undefined
+  TETHER_FIELDS(name, meaning, unit, transform, value, absent, lower, upper, prior_deviation, scale)
 };
 
 /// A scalar that the partner reports after every accepted step, such as "outlet.flow" in cm3/s.

@@ -26,11 +26,12 @@ extern "C" {
 
 typedef struct tether_partner tether_partner;
 
-/* A number that the master may set by name. `absent`, `prior_deviation`: NaN if undefined. */
+/* A number that the master may set by name. `absent`, `prior_deviation`, `scale`: NaN if undefined. */
 typedef struct {
   const char *name, *meaning, *unit;
   const char* transform; /* "linear", "log", "log2", "bounded" */
   double value, absent, lower, upper, prior_deviation;
+  double scale; /* how far from `absent` the value of a patient may be */
 } tether_parameter;
 
 /* A scalar that the partner reports after each step. */

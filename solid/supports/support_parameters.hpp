@@ -12,7 +12,8 @@ inline Parameter stiffness_parameter(const char* meaning) {
           .standard = 0.0,
           .absent = 0.0,
           .transform = Transform::log2,
-          .prior_deviation = 1.0};
+          .prior_deviation = 1.0,
+          .scale = 1e6};
 }
 
 inline Parameter damping_parameter(const char* meaning) {
@@ -23,7 +24,8 @@ inline Parameter damping_parameter(const char* meaning) {
           .standard = 0.0,
           .absent = 0.0,
           .transform = Transform::log2,
-          .prior_deviation = 1.0};
+          .prior_deviation = 1.0,
+          .scale = 1e4};
 }
 
 }  // namespace tether

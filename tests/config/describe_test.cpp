@@ -12,7 +12,7 @@ const EffectDeclaration spring{
     "spring",
     "pulls back",
     Place::ring,
-    {{"stiffness", "traction per way", dimension::support_stiffness, range::not_negative, 3, 0}}};
+    {{"stiffness", "traction per way", dimension::support_stiffness, range::not_negative, 30, 0}}};  // in SI
 const EffectDeclaration* const family[] = {&still, &spring};
 
 struct Ring {

@@ -8,12 +8,12 @@ const EffectDeclaration spring{
     "pulls back in proportion to the displacement",
     Place::ring,
     {{"stiffness", "traction per displacement", dimension::support_stiffness, range::not_negative, undefined, 0},
-     {"damping", "traction per velocity", dimension::support_damping, range::not_negative, 5, 0}}};
+     {"damping", "traction per velocity", dimension::support_damping, range::not_negative, 50, 0}}};  // in SI
 const EffectDeclaration moving{
     "moving",
     "follows a prescribed motion",
     Place::ring,
-    {{"stiffness", "traction per distance", dimension::support_stiffness, range::positive, 7, undefined}}};
+    {{"stiffness", "traction per distance", dimension::support_stiffness, range::positive, 70, undefined}}};  // in SI
 const EffectDeclaration clamped{"clamped", "does not move", Place::ring, {}};
 const EffectDeclaration* const family[] = {&clamped, &spring, &moving};
 

@@ -11,28 +11,48 @@ namespace {
 
 class SupportContract : public testing::TestWithParam<int> {
  protected:
-  const Registered<Support>& entry() const { return supports()[static_cast<std::size_t>(GetParam())]; }
+  const Registered<Support>& entry() const { return surface_effects()[static_cast<std::size_t>(GetParam())]; }
   std::unique_ptr<Support> with(double factor) const {
     std::vector<double> values;
-    for (std::size_t i = 0; i < entry().declaration.parameters.size(); ++i)
-      values.push_back(factor * (2.0 + 0.7 * double(i)));
+    for (const Parameter& parameter : entry().declaration.parameters)
+      values.push_back(parameter.name == "gap" ? 0 : factor * (2.0 + 0.7 * double(values.size())));
     return entry().make(values);
   }
-  SupportPoint point() { return {vector(), vector(), vector().normalized()}; }
+  SupportPoint point() {
+    SupportPoint p{vector(), vector(), vector().normalized()};
+    p.acceleration = vector();
+    p.axial = p.normal.cross(vector()).normalized();
+    p.position = vector();
+    p.time = 0.4;
+    return p;
+  }
   Vec3 vector() { return random_.matrix(3, 1); }
   Random random_{11};
 };
 
 TEST_P(SupportContract, AbsentValuesExertNothing) {
   std::vector<double> absent;
-  for (const Parameter& parameter : entry().declaration.parameters) absent.push_back(parameter.absent);
+  for (const Parameter& parameter : entry().declaration.parameters)
+    absent.push_back(std::isnan(parameter.absent) ? 0.3 : parameter.absent);
+  EXPECT_TRUE(Configured<Support>(surface_effects(), entry().declaration.name, absent).is_absent());
   const SupportTraction traction = entry().make(absent)->at(point());
   EXPECT_EQ(traction.traction, Vec3::Zero());
   EXPECT_EQ(traction.stiffness, Mat3::Zero());
   EXPECT_EQ(traction.damping, Mat3::Zero());
+  EXPECT_EQ(traction.inertia, Mat3::Zero());
 }
 
-TEST_P(SupportContract, StiffnessAndDampingAreTheDerivatives) {
+/// What identification and diagnosis need: a scale for whatever can be switched on, and a prior for it.
+TEST_P(SupportContract, WhatCanBeAbsentHasAScale) {
+  for (const Parameter& parameter : entry().declaration.parameters) {
+    if (std::isnan(parameter.absent)) continue;
+    EXPECT_TRUE(parameter.range.contains(parameter.absent)) << parameter.name;
+    EXPECT_GT(parameter.prior_deviation, 0) << parameter.name;
+    EXPECT_TRUE(parameter.scale > 0 || parameter.transform == Transform::linear) << parameter.name;
+  }
+}
+
+TEST_P(SupportContract, StiffnessDampingAndInertiaAreTheDerivatives) {
   const auto support = with(1);
   for (int sample = 0; sample < 10; ++sample) {
     const SupportPoint at = point();
@@ -49,21 +69,29 @@ TEST_P(SupportContract, StiffnessAndDampingAreTheDerivatives) {
       };
       EXPECT_LE((coded.stiffness.col(i) + moved(&SupportPoint::displacement)).norm(), 1e-11);
       EXPECT_LE((coded.damping.col(i) + moved(&SupportPoint::velocity)).norm(), 1e-11);
+      EXPECT_LE((coded.inertia.col(i) + moved(&SupportPoint::acceleration)).norm(), 1e-11);
     }
   }
 }
 
-TEST_P(SupportContract, HoldsAndDampsNeverDrives) {
+TEST_P(SupportContract, TangentsAreSymmetric) {
+  const SupportTraction coded = with(1)->at(point());
+  for (const Mat3& tangent : {coded.stiffness, coded.damping, coded.inertia}) EXPECT_EQ(tangent, tangent.transpose());
+}
+
+class HoldingContract : public SupportContract {};
+
+TEST_P(HoldingContract, HoldsAndDampsNeverDrives) {
   const auto support = with(1);
   for (int sample = 0; sample < 20; ++sample) {
     SupportPoint at = point();
     const SupportTraction coded = support->at(at);
-    EXPECT_EQ(coded.stiffness, coded.stiffness.transpose());
-    EXPECT_EQ(coded.damping, coded.damping.transpose());
     const Vec3 any = vector();
     EXPECT_GE(any.dot(coded.stiffness * any), 0);
     EXPECT_GE(any.dot(coded.damping * any), 0);
+    EXPECT_GE(any.dot(coded.inertia * any), 0);
     at.displacement.setZero();
+    at.acceleration.setZero();
     EXPECT_LE(support->at(at).traction.dot(at.velocity), 0) << "power of the damper";
     std::swap(at.displacement, at.velocity);
     EXPECT_LE(support->at(at).traction.dot(at.displacement), 0);
@@ -73,14 +101,20 @@ TEST_P(SupportContract, HoldsAndDampsNeverDrives) {
 TEST_P(SupportContract, KnowsNoPreferredDirectionButTheNormal) {
   const SupportPoint at = point();
   const Mat3 turn = random_rotation(random_);
-  const SupportPoint turned{turn * at.displacement, turn * at.velocity, turn * at.normal};
+  SupportPoint turned = at;
+  for (Vec3 SupportPoint::*member : {&SupportPoint::displacement, &SupportPoint::velocity, &SupportPoint::normal,
+                                     &SupportPoint::acceleration, &SupportPoint::axial, &SupportPoint::position})
+    turned.*member = turn * at.*member;
   EXPECT_LE((with(1)->at(turned).traction - turn * with(1)->at(at).traction).norm(), 1e-13);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, SupportContract, testing::Range(0, static_cast<int>(supports().size())),
-                         [](const auto& info) {
-                           return supports()[static_cast<std::size_t>(info.param)].declaration.name;
-                         });
+std::string name_of_entry(const testing::TestParamInfo<int>& info) {
+  return surface_effects()[static_cast<std::size_t>(info.param)].declaration.name;
+}
+INSTANTIATE_TEST_SUITE_P(Registry, SupportContract, testing::Range(0, static_cast<int>(surface_effects().size())),
+                         name_of_entry);
+INSTANTIATE_TEST_SUITE_P(Registry, HoldingContract, testing::Range(0, static_cast<int>(supports().size())),
+                         name_of_entry);
 
 constexpr double stiffness = 3.0, damping = 0.4;
 

@@ -27,7 +27,7 @@ Arrays of vectors have the shape (nodes, 3). What the class can do is announced 
              SolidProduct                product(direction)                         vector; `unknowns`
              SolidPrecondition           precondition(residual)                     vector
 
-`parameters`: dicts with name, value and optionally meaning, unit, transform, absent, lower, upper, prior_deviation.
+`parameters`: dicts with name, value and optionally meaning, unit, transform, absent, lower, upper, prior_deviation, scale.
 `observables`: pairs (name, unit). An exception that a method raises is reported by the master. MPI: the library
 starts it, or give the mpi4py communicator of your processes, of which only rank 0 is asked.
 """
@@ -49,7 +49,7 @@ def _fields(text):
 
 
 class _Parameter(ctypes.Structure):
-    _fields_ = _fields("s_name s_meaning s_unit s_transform d_value d_absent d_lower d_upper d_prior_deviation")
+    _fields_ = _fields("s_name s_meaning s_unit s_transform d_value d_absent d_lower d_upper d_prior_deviation d_scale")
 
 
 class _Observable(ctypes.Structure):
@@ -110,7 +110,8 @@ def _vectors(array):
 def _parameter(entry):
     text = [str(entry.get(key, "")).encode() for key in ("name", "meaning", "unit")]
     numbers = [entry["value"], entry.get("absent", math.nan), entry.get("lower", -math.inf),
-               entry.get("upper", math.inf), entry.get("prior_deviation", math.nan)]
+               entry.get("upper", math.inf), entry.get("prior_deviation", math.nan),
+               entry.get("scale", math.nan)]
     return _Parameter(*text, entry.get("transform", "linear").encode(), *map(float, numbers))
 
 

@@ -1,0 +1,119 @@
+#include "solid/effects_case.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+#include "solid/motions/registry.hpp"
+#include "solid/supports/registry.hpp"
+
+namespace tether {
+namespace {
+
+const std::vector<const EffectDeclaration*>& family() {
+  static const std::vector<const EffectDeclaration*> all = [] {
+    std::vector<const EffectDeclaration*> list = declarations(surface_effects());
+    for (const EffectDeclaration* more : declarations(motions())) list.push_back(more);
+    return list;
+  }();
+  return all;
+}
+
+template <class Physics>
+bool is_of(std::span<const Registered<Physics>> registry, const std::string& type) {
+  return std::any_of(registry.begin(), registry.end(),
+                     [&](const auto& entry) { return entry.declaration.name == type; });
+}
+
+const Patch* find_patch(const std::vector<Patch>& patches, const std::string& name) {
+  const auto found = std::find_if(patches.begin(), patches.end(), [&](const Patch& p) { return p.name == name; });
+  return found == patches.end() ? nullptr : &*found;
+}
+
+/// Triangles of a region, of a ring, or of the whole outer wall.
+std::vector<Triangle> triangles_of(const std::string& region, const WallMesh& mesh) {
+  for (const auto* patches : {&mesh.outside, &mesh.rings})
+    if (const Patch* patch = find_patch(*patches, region)) return patch->triangles;
+  std::vector<Triangle> all;
+  for (const Patch& patch : mesh.outside) all.insert(all.end(), patch.triangles.begin(), patch.triangles.end());
+  return all;
+}
+
+std::string parts_of(const WallMesh& mesh) {
+  std::string known;
+  for (const auto* patches : {&mesh.outside, &mesh.rings})
+    for (const Patch& patch : *patches) known += (known.empty() ? "" : ", ") + patch.name;
+  return known;
+}
+
+/// Whether a support is on one of these triangles.
+bool shares(const SurfaceSupport& support, const std::vector<Triangle>& triangles) {
+  const auto& own = support.triangles();
+  return std::any_of(own.begin(), own.end(), [&](const Triangle& t) {
+    return std::find(triangles.begin(), triangles.end(), t) != triangles.end();
+  });
+}
+
+bool holds(const SurfaceSupport& support) {
+  return is_of(supports(), support.effect().declaration().name) || support.effect()->replaces_clamp();
+}
+
+/// Ties what holds the wall at these triangles to moving tissue. A support that holds more of the wall is tied as a
+/// whole.
+void tie(const std::shared_ptr<MovingTissue>& tissue, const std::vector<Triangle>& triangles,
+         std::vector<SurfaceSupport>& supports) {
+  bool tied = false;
+  for (SurfaceSupport& support : supports) {
+    if (!holds(support) || !shares(support, triangles)) continue;
+    support.follow(tissue);
+    tied = true;
+  }
+  if (!tied)
+    throw input_error("{}: nothing holds the wall there: what moves must be tied to it by a support", tissue->path);
+}
+
+}  // namespace
+
+void WallEffectCase::declare(Fields& f) {
+  f.effect(effect, family(), "what acts, or is different");
+  f.text("region", region, "a region of the outer wall, or an end ring; absent: the whole outer wall");
+  f.when("type", effect.type, {"measured_motion"}, [&] {
+    f.group("motion", motion, "the motion over time");
+    f.check(motion.has_value(), "type", "needs a section 'motion'");
+  });
+}
+
+void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file) {
+  for (const auto& [name, block] : effects) {
+    const std::string path = "solid.effects." + name;
+    const bool on_ring = find_patch(mesh.rings, block.region) != nullptr;
+    if (!block.region.empty() && !on_ring && find_patch(mesh.outside, block.region) == nullptr)
+      throw input_error("{}: {}: the wall has no such part; it has: {}", file.where(path + ".region"), block.region,
+                        parts_of(mesh));
+    if (block.effect.type == loose_ring.declaration.name && !on_ring)
+      throw input_error("{}: a loose_ring needs the name of an end ring as its region", file.where(path));
+  }
+}
+
+bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [&](const auto& entry) {
+    return entry.second.effect.type == loose_ring.declaration.name && entry.second.region == ring;
+  });
+}
+
+void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const UnitSystem& units,
+                         std::vector<SurfaceSupport>& supports) {
+  for (const auto& [name, block] : effects)
+    if (is_of(surface_effects(), block.effect.type))
+      supports.emplace_back(Patch{name, triangles_of(block.region, mesh)},
+                            Configured<Support>(surface_effects(), block.effect.type, block.effect.values),
+                            TissueMotion{}, "solid.effects." + name);
+  for (const auto& [name, block] : effects)
+    if (is_of(motions(), block.effect.type)) {
+      Configured<Motion> motion(motions(), block.effect.type, block.effect.values);
+      tie(std::make_shared<MovingTissue>("solid.effects." + name, std::move(motion),
+                                         block.motion ? block.motion->load(units) : TissueMotion{}),
+          triangles_of(block.region, mesh), supports);
+    }
+}
+
+}  // namespace tether

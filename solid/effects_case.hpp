@@ -1,0 +1,30 @@
+#pragma once
+
+#include "common/config/case_file.hpp"
+#include "solid/motion_case.hpp"
+#include "solid/surface_support.hpp"
+
+namespace tether {
+
+/// An effect on a part of the wall, under a name of the user's choice: `solid.effects.NAME`. A case has any number of
+/// them, also several on one region; at their absent values they change nothing.
+struct WallEffectCase {
+  EffectCase effect;
+  std::string region;  ///< of the outer wall, or a ring; empty: the whole outer wall
+  std::optional<MotionCase> motion;
+  void declare(Fields& f);
+};
+
+/// Throws InputError "file:line: ..." for a region or ring that the wall does not have, and for an effect that cannot
+/// act there.
+void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file);
+
+/// Whether an effect stands in place of this ring's clamp.
+bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects);
+
+/// Appends what acts on the wall's surface, and ties what holds it, these and the supports already there, to the tissue
+/// that moves.
+void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const UnitSystem& units,
+                         std::vector<SurfaceSupport>& supports);
+
+}  // namespace tether

@@ -1,0 +1,35 @@
+#include "solid/motions/registry.hpp"
+
+namespace tether {
+namespace {
+
+const EffectDeclaration declaration{
+    .name = "measured_motion",
+    .meaning = "The tissue that holds the wall moves as measured, such as the heart at the inlet ring",
+    .place = Place::ring,
+    .parameters = {{.name = "factor",
+                    .meaning = "of the measured motion",
+                    .dimension = dimension::none,
+                    .range = range::any,
+                    .standard = 1.0,
+                    .absent = 0.0,
+                    .transform = Transform::linear,
+                    .prior_deviation = 0.5}}};
+
+/// y_b = factor (measured(t) - measured(0)) (S.18)
+class MeasuredMotion final : public Motion {
+ public:
+  explicit MeasuredMotion(double factor) : factor_(factor) {}
+  Vec3 at(double time, const TissueMotion& measured) const override { return factor_ * (measured(time) - measured(0)); }
+
+ private:
+  double factor_;
+};
+
+}  // namespace
+
+const Registered<Motion> measured_motion{declaration, [](std::span<const double> v) -> std::unique_ptr<Motion> {
+                                           return std::make_unique<MeasuredMotion>(v[0]);
+                                         }};
+
+}  // namespace tether

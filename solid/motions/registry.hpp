@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+
+#include "common/base/effect.hpp"
+#include "solid/motions/motion.hpp"
+
+namespace tether {
+
+extern const Registered<Motion> breathing, measured_motion;
+
+/// All motions of tissue. A new one: one file, one name above, one name in registry.cpp.
+std::span<const Registered<Motion>> motions();
+
+}  // namespace tether

@@ -1,0 +1,99 @@
+// solid.effects in a case file: blocks that can be appended, and what a wall makes of them.
+#include <gtest/gtest.h>
+
+#include "solid/case.hpp"
+#include "solid/server.hpp"
+#include "tests/config/case_text.hpp"
+#include "tests/solid/tube.hpp"
+
+namespace tether {
+namespace {
+
+constexpr const char* wall_text =
+    "solid:\n"
+    "  density: 1.1\n"
+    "  material: {type: neo_hookean, young: 4e6, poisson: 0.45}\n"
+    "  support: {regions: {wall: {stiffness: 1e5}}}\n"
+    "  rings: {outlet_ring: {type: visco_elastic, stiffness: 1e6}}\n";
+
+PreparedWall wall_with(const std::string& effects) {
+  const auto path = write_file("case.yaml", valid_head + wall_text + effects);
+  CaseFile file(path);
+  SolidCase solid;
+  file.read("solid", solid);
+  file.finish();
+  return prepare_wall(solid, circular_tube(2, 2, 0.2, 8, 3).wall, file);
+}
+
+/// What a Hello says of a parameter.
+protocol::ParameterInfo announced(const std::string& effects, const std::string& name) {
+  const SolidServer server(wall_with(effects), UnitSystem::cgs(), "", test_folder());
+  for (const protocol::ParameterInfo& info : server.hello().parameters)
+    if (info.name == name) return info;
+  ADD_FAILURE() << name << " is not announced";
+  return {};
+}
+
+TEST(EffectsOfACase, AnyNumberActsOnOneRegion) {
+  const PreparedWall wall = wall_with(
+      "  effects:\n"
+      "    spine: {type: contact, region: wall, stiffness: 1e5, gap: 1 mm}\n"
+      "    fat: {type: tissue_mass, region: wall, mass: 0.5}\n"
+      "    chest: {type: external_pressure, constant: 3 mmHg, period: 0.8}\n");
+  ASSERT_EQ(wall.model->supports().size(), 5U);
+  EXPECT_EQ(wall.model->supports()[2].effect().values(), (std::vector{1e5, 0.1, 0.02}));
+  EXPECT_EQ(wall.model->supports()[4].triangles().size(), wall.model->mesh().outside[0].triangles.size());
+}
+
+TEST(EffectsOfACase, AreAnnouncedInTheCasesUnits) {
+  const std::string text =
+      "  effects:\n"
+      "    spine: {type: contact, region: wall}\n"
+      "    chest: {type: external_pressure, period: 0.8}\n";
+  const auto stiffness = announced(text, "solid.effects.spine.stiffness");
+  EXPECT_EQ(stiffness.unit, "g/(cm2 s2)");
+  EXPECT_EQ(stiffness.absent, 0);
+  EXPECT_EQ(stiffness.transform, "log2");
+  EXPECT_EQ(stiffness.prior_deviation, 1);
+  EXPECT_NEAR(stiffness.scale, 1e5, 1e-6) << "1e6 Pa/m";
+  const auto pressure = announced(text, "solid.effects.chest.sine_2");
+  EXPECT_EQ(pressure.transform, "linear");
+  EXPECT_NEAR(pressure.prior_deviation, 5000, 1e-6) << "500 Pa";
+  EXPECT_NEAR(pressure.scale, 5000, 1e-6);
+}
+
+TEST(EffectsOfACase, MotionTiesWhatHoldsTheWallThere) {
+  write_file("heart.csv", "time,x,y,z\n0,0,0,0\n1,0,0,1\n");
+  const PreparedWall wall = wall_with(
+      "  effects:\n"
+      "    breath: {type: breathing, region: wall, amplitude_z: 2 mm, period: 4}\n"
+      "    heart: {type: measured_motion, region: outlet_ring, factor: 0, motion: {file: heart.csv}}\n");
+  EXPECT_EQ(wall.model->supports()[0].tissues().at(0)->path, "solid.effects.breath");
+  EXPECT_EQ(wall.model->supports()[1].tissues().at(0)->path, "solid.effects.heart");
+  wall.model->parameters().set("solid.effects.heart.factor", 0.5);
+}
+
+TEST(EffectsOfACase, ALooseRingIsHeldOnlyByItsCompliance) {
+  const PreparedWall wall = wall_with("  effects: {heart: {type: loose_ring, region: inlet_ring}}\n");
+  EXPECT_FALSE(wall.model->clamped_unknowns().empty());
+  wall.model->parameters().set("solid.effects.heart.compliance", 1e-5);
+  EXPECT_TRUE(wall.model->clamped_unknowns().empty());
+}
+
+TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
+  const auto error = [](const std::string& text) {
+    return input_error_of([&] { wall_with("  effects:\n    e: " + text + "\n"); });
+  };
+  EXPECT_NE(error("{type: contact, region: spin}").find("case.yaml:12: solid.effects.e.region"), std::string::npos)
+      << error("{type: contact, region: spin}");
+  EXPECT_NE(error("{type: loose_ring, region: wall}").find("end ring"), std::string::npos);
+  EXPECT_NE(error("{type: contract}").find("did you mean 'contact'"), std::string::npos);
+  EXPECT_NE(error("{type: measured_motion}").find("needs a section 'motion'"), std::string::npos);
+  EXPECT_NE(error("{type: breathing, region: inlet_ring, period: 4}").find("nothing holds the wall there"),
+            std::string::npos);
+  EXPECT_NE(error("{type: stiffening, cubic: -1}").find("must not be negative"), std::string::npos);
+  EXPECT_NE(error("{type: traction}").find("period"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tether
