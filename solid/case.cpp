@@ -191,7 +191,9 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
   PreparedWall wall;
   if (file.common().observer.is_on()) wall.observer_gain = observer_gain(file.common().observer, mesh);
   if (nothing_holds(held)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
-  wall.model = std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held));
+  std::vector<LocalEffect> local = local_effects(solid.effects, mesh);
+  wall.model =
+      std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local));
   if (image.loads_wall() && image.wall == "prestressed") wall.notices.push_back(prestress(*wall.model, image.pressure));
   return wall;
 }

@@ -5,6 +5,7 @@
 #include "common/base/error.hpp"
 #include "solid/motions/registry.hpp"
 #include "solid/supports/registry.hpp"
+#include "solid/wall_effects/registry.hpp"
 
 namespace tether {
 namespace {
@@ -13,6 +14,7 @@ const std::vector<const EffectDeclaration*>& family() {
   static const std::vector<const EffectDeclaration*> all = [] {
     std::vector<const EffectDeclaration*> list = declarations(surface_effects());
     for (const EffectDeclaration* more : declarations(motions())) list.push_back(more);
+    for (const EffectDeclaration* more : declarations(wall_effects())) list.push_back(more);
     return list;
   }();
   return all;
@@ -91,6 +93,8 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
                         parts_of(mesh));
     if (block.effect.type == loose_ring.declaration.name && !on_ring)
       throw input_error("{}: a loose_ring needs the name of an end ring as its region", file.where(path));
+    if (is_of(wall_effects(), block.effect.type) && on_ring)
+      throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
   }
 }
 
@@ -114,6 +118,20 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
                                          block.motion ? block.motion->load(units) : TissueMotion{}),
           triangles_of(block.region, mesh), supports);
     }
+}
+
+std::vector<LocalEffect> local_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh) {
+  std::vector<LocalEffect> result;
+  for (const auto& [name, block] : effects) {
+    if (!is_of(wall_effects(), block.effect.type)) continue;
+    std::vector<int> regions;
+    for (std::size_t r = 0; r < mesh.outside.size(); ++r)
+      if (block.region.empty() || mesh.outside[r].name == block.region) regions.push_back(static_cast<int>(r));
+    result.push_back({"solid.effects." + name,
+                      Configured<WallEffect>(wall_effects(), block.effect.type, block.effect.values),
+                      std::move(regions)});
+  }
+  return result;
 }
 
 }  // namespace tether

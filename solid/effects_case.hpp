@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/config/case_file.hpp"
+#include "solid/local_effect.hpp"
 #include "solid/motion_case.hpp"
 #include "solid/surface_support.hpp"
 
@@ -26,5 +27,8 @@ bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects);
 /// that moves.
 void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const UnitSystem& units,
                          std::vector<SurfaceSupport>& supports);
+
+/// In what parts of the wall differ.
+std::vector<LocalEffect> local_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh);
 
 }  // namespace tether

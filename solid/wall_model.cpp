@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
+#include "solid/element_places.hpp"
 #include "solid/materials/registry.hpp"
 #include "solid/vessel_direction.hpp"
 
@@ -16,12 +17,14 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
 }
 
 WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free,
-                     std::vector<int> clamped_nodes, std::vector<SurfaceSupport> supports)
+                     std::vector<int> clamped_nodes, std::vector<SurfaceSupport> supports,
+                     std::vector<LocalEffect> effects)
     : mesh_(std::move(mesh)),
       settings_(settings),
       material_(materials(), settings.material, settings.material_values),
       elements_(make_wall_elements(mesh_, stress_free)),
       supports_(std::move(supports)),
+      effects_(std::move(effects)),
       always_clamped_(unknowns_of(clamped_nodes)) {
   if (settings.conserve_energy && settings.theta != 0.5)
     throw input_error("solid.theta: {} with integrator energy_conserving: must be 0.5", settings.theta);
@@ -33,6 +36,23 @@ WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& 
   }
   declare_parameters();
   update_clamps();
+  if (!effects_.empty()) place_effects();
+}
+
+void WallModel::place_effects() {
+  const bool oriented = std::any_of(effects_.begin(), effects_.end(),
+                                    [](const LocalEffect& local) { return local.effect->uses_axial(); });
+  elements_->set_places(element_places(mesh_, oriented ? place_along_vessel(mesh_) : VectorXd()));
+  update_effects();
+}
+
+void WallModel::update_effects() {
+  std::vector<WallLocal> regions(mesh_.outside.size());
+  for (const LocalEffect& local : effects_)
+    for (const int region : local.regions) local.effect->apply(regions[static_cast<std::size_t>(region)]);
+  const bool tense = std::any_of(regions.begin(), regions.end(), [](const WallLocal& l) { return l.tension != 0; });
+  elements_->set_local(std::move(regions));
+  tension_held_ = tense ? elements_->tension_force(mesh_.points) : VectorXd();
 }
 
 void WallModel::orient_supports() {
@@ -77,6 +97,7 @@ void WallModel::declare_parameters() {
                    [this](double v) { settings_.viscosity = v; }});
   parameters_.add_effect("solid.material", material_);
   declare_supports();
+  for (LocalEffect& local : effects_) parameters_.add_effect(local.path, local.effect, [this] { update_effects(); });
 }
 
 void WallModel::declare_supports() {
@@ -115,6 +136,7 @@ VectorXd WallModel::step_forces(const Points& displacement, const Points& start_
   const Points start = mesh_.points + displacement, acceleration = (velocity - start_velocity) / advance;
   VectorXd forces = VectorXd::Zero(unknowns());
   VectorXd holding = held_.size() > 0 ? held_ : VectorXd::Zero(unknowns());
+  if (tension_held_.size() > 0) holding += tension_held_;
   if (tangent != nullptr) std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
   elements_->step_force({start, velocity, acceleration, settings_.theta, dt, settings_.conserve_energy},
                         {&*material_, settings_.viscosity, settings_.density}, forces, tangent);

@@ -7,6 +7,7 @@
 #include "common/base/parameter_table.hpp"
 #include "solid/elements/wall_elements.hpp"
 #include "solid/initial_stress.hpp"
+#include "solid/local_effect.hpp"
 #include "solid/surface_support.hpp"
 
 namespace tether {
@@ -28,7 +29,7 @@ class WallModel {
   /// `stress_free`: positions without stress (the imaged ones, if there is no prestress). `clamped`: nodes that do not
   /// move.
   WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
-            std::vector<SurfaceSupport> supports);
+            std::vector<SurfaceSupport> supports, std::vector<LocalEffect> effects = {});
   WallModel(const WallModel&) = delete;  // the parameter table refers into this object
   WallModel& operator=(const WallModel&) = delete;
 
@@ -60,13 +61,18 @@ class WallModel {
   std::string path_of(const SurfaceSupport& support) const;
   void orient_supports();
   void update_clamps();
+  void place_effects();
+  void update_effects();
 
   WallMesh mesh_;
   WallSettings settings_;
   Configured<Material> material_;
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
-  VectorXd held_;  ///< force of the surroundings beside the supports, a dead load; empty if none
+  std::vector<LocalEffect> effects_;
+  VectorXd
+      tension_held_;  ///< by the surroundings, so that tension along the vessel leaves the image at rest; empty if none
+  VectorXd held_;     ///< force of the surroundings beside the supports, a dead load; empty if none
   std::vector<int> always_clamped_, clamped_;
   ParameterTable parameters_;
 };

@@ -38,6 +38,8 @@ struct PrismElement {
   /// Cartesian strain of the enhanced mode at a quadrature point; its integral over the element is zero (patch test).
   Eigen::Matrix<double, 6, 1> enhanced_mode(int point) const;
   double volume() const;
+  /// Unit normal of the middle surface at the centre: the direction of the enhanced mode.
+  Vec3 thickness_direction() const { return centre_contravariant_.col(2).normalized(); }
   /// Deformation gradient at the centre for nodal positions x.
   Mat3 mean_gradient(const Positions& x) const;
   Eigen::Matrix<double, nodes, nodes> mass() const { return mass_; }

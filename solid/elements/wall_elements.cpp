@@ -1,5 +1,6 @@
 #include "solid/elements/wall_elements.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "common/base/error.hpp"
@@ -51,11 +52,11 @@ class ElementsOf final : public WallElements {
       const auto rates = element.strains().rates(local);
       const Samples s = element.strains().products(local) - reference_[e];
       if (tangent == nullptr) {
-        scatter(rates * (sample_stress(element, s, law) + initial_[e]), e, force);
+        scatter(rates * (stress_of(e, s, law) + initial_stress(e)), e, force);
         continue;
       }
-      auto response = sample_response(element, s, law);
-      response.stress += initial_[e];
+      auto response = response_of(e, s, law);
+      response.stress += initial_stress(e);
       scatter(rates * response.stress, e, force);
       scatter_.add(*tangent, e, block(rates, response.tangent, element.strains().geometric(response.stress)).data());
     }
@@ -74,13 +75,14 @@ class ElementsOf final : public WallElements {
       SampleResponse<samples> response = motion.conserve_energy
                                              ? conserving(e, start, start + motion.dt * velocity, law)
                                              : at_positions(e, middle, law, tangent != nullptr);
-      response.stress += initial_[e];
+      response.stress += initial_stress(e);
+      const double thickness = local_at(e).thickness;
       Eigen::Matrix<double, samples, samples> viscous;
       if (material.viscosity > 0) {
-        viscous = viscous_tangent(element, material.viscosity, law.thickness_variation);
+        viscous = viscous_tangent(element, thickness * material.viscosity, law.thickness_variation);
         response.stress += viscous * (rates.transpose() * velocity.reshaped());
       }
-      const Eigen::Matrix<double, nodes, nodes> mass = material.density * element.mass();
+      const Eigen::Matrix<double, nodes, nodes> mass = thickness * material.density * element.mass();
       const Positions inertia = gather(motion.acceleration, e) * mass;
       scatter(rates * response.stress + inertia.reshaped(), e, force);
       if (tangent == nullptr) continue;
@@ -96,7 +98,7 @@ class ElementsOf final : public WallElements {
     const WallLaw law(material);
     for (std::size_t e = 0; e < cells_.size(); ++e) {
       const Samples s = elements_[e].strains().products(gather(x, e)) - reference_[e];
-      sum += sample_energy(elements_[e], s, law) + initial_[e].dot(s);
+      sum += energy_of(e, s, law) + initial_stress(e).dot(s);
     }
     return sum;
   }
@@ -110,6 +112,9 @@ class ElementsOf final : public WallElements {
   Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const override;
   SparseMatrix zero_matrix() const override { return scatter_.zero_matrix(); }
   void set_initial_stress(const Points& u, const Material& material) override;
+  void set_places(std::vector<ElementPlace> places) override;
+  void set_local(std::vector<WallLocal> regions) override;
+  VectorXd tension_force(const Points& x) const override;
 
  private:
   Positions gather(const Points& x, std::size_t e) const {
@@ -123,11 +128,87 @@ class ElementsOf final : public WallElements {
       force.segment<3>(3 * cells_[e][static_cast<std::size_t>(a)]) += local.template segment<3>(3 * a);
   }
 
+  const WallLocal& local_at(std::size_t e) const {
+    return local_[places_.empty() ? 0 : static_cast<std::size_t>(places_[e].region)];
+  }
+
+  /// Factor of the law's response, and whether there is more than the law (S.19).
+  static double factor_of(const WallLocal& local) { return local.stiffness * local.thickness; }
+
+  double energy_of(std::size_t e, const Samples& s, const WallLaw& law) const {
+    const double plain = sample_energy(elements_[e], s, law);
+    const WallLocal& here = local_at(e);
+    if (here.is_plain()) return plain;
+    double sum = factor_of(here) * plain;
+    for_fibres(e, [&](const Fibres& fibres, const Samples& row, double weight) {
+      sum += weight * fibre_response(fibres, row.dot(s)).energy;
+    });
+    return sum;
+  }
+
+  Samples stress_of(std::size_t e, const Samples& s, const WallLaw& law) const {
+    const Samples plain = sample_stress(elements_[e], s, law);
+    const WallLocal& here = local_at(e);
+    if (here.is_plain()) return plain;
+    Samples sum = factor_of(here) * plain;
+    for_fibres(e, [&](const Fibres& fibres, const Samples& row, double weight) {
+      sum += weight * fibre_response(fibres, row.dot(s)).stress * row;
+    });
+    return sum;
+  }
+
+  SampleResponse<samples> response_of(std::size_t e, const Samples& s, const WallLaw& law) const {
+    SampleResponse<samples> result = sample_response(elements_[e], s, law);
+    const WallLocal& here = local_at(e);
+    if (here.is_plain()) return result;
+    result.stress *= factor_of(here);
+    result.tangent *= factor_of(here);
+    for_fibres(e, [&](const Fibres& fibres, const Samples& row, double weight) {
+      const FibreResponse fibre = fibre_response(fibres, row.dot(s));
+      result.stress += weight * fibre.stress * row;
+      result.tangent += weight * fibre.tangent * row * row.transpose();
+    });
+    return result;
+  }
+
+  /// Calls body(fibres, row, weight) for each family at each point: its strain is row . s. Fibres lie in the element's
+  /// middle surface, across which its enhanced mode strains: the two do not meet (S.20).
+  template <class Body>
+  void for_fibres(std::size_t e, const Body& body) const {
+    const WallLocal& here = local_at(e);
+    std::size_t next = 0;
+    for (const Fibres& fibres : here.fibres)
+      for (int family = 0; family < 2; ++family)
+        for (int q = 0; q < Element::points; ++q)
+          body(fibres, fibre_rows_[e][next++], here.thickness * elements_[e].weight(q));
+  }
+
+  /// What the strain along a direction a, at a point, takes from each sample: a.E a = row . s.
+  Samples strain_along(std::size_t e, int q, const Vec3& a) const {
+    return elements_[e].map(q, 1).transpose() * voigt_dyad(a, a).cwiseProduct(halved_shears());
+  }
+
+  Samples initial_stress(std::size_t e) const {
+    if (local_at(e).tension == 0) return initial_[e];
+    return initial_[e] + local_at(e).tension * tension_[e];
+  }
+
+  /// Unit directions around and along the vessel in the element's middle surface.
+  struct Frame {
+    Vec3 around, along;
+  };
+  Frame frame(std::size_t e) const {
+    Vec3 normal = places_[e].outward;
+    if constexpr (Element::enhanced) normal = elements_[e].thickness_direction();
+    const Vec3 along = (places_[e].axial - normal.dot(places_[e].axial) * normal).normalized();
+    return {along.cross(normal), along};
+  }
+
   SampleResponse<samples> at_positions(std::size_t e, const Positions& x, const WallLaw& law, bool with_tangent) const {
     const Samples s = elements_[e].strains().products(x) - reference_[e];
-    if (with_tangent) return sample_response(elements_[e], s, law);
+    if (with_tangent) return response_of(e, s, law);
     SampleResponse<samples> result;
-    result.stress = sample_stress(elements_[e], s, law);
+    result.stress = stress_of(e, s, law);
     return result;
   }
 
@@ -138,13 +219,12 @@ class ElementsOf final : public WallElements {
     const Element& element = elements_[e];
     const Samples s0 = element.strains().products(x0) - reference_[e],
                   s1 = element.strains().products(x1) - reference_[e];
-    SampleResponse<samples> result = sample_response(element, Samples(0.5 * (s0 + s1)), law);
+    SampleResponse<samples> result = response_of(e, Samples(0.5 * (s0 + s1)), law);
     const Samples change = s1 - s0, scaled = change.cwiseQuotient(unit_[e].cwiseAbs2());
     const double square = change.dot(scaled);
     if (square == 0) return result;
-    const double stored = square > small_change * small_change
-                              ? sample_energy(element, s1, law) - sample_energy(element, s0, law)
-                              : simpson(element, s0, result.stress, s1, law);
+    const double stored = square > small_change * small_change ? energy_of(e, s1, law) - energy_of(e, s0, law)
+                                                               : simpson(e, s0, result.stress, s1, law);
     result.stress += (stored - result.stress.dot(change)) / square * scaled;
     return result;
   }
@@ -153,9 +233,9 @@ class ElementsOf final : public WallElements {
   static constexpr double small_change = 1e-3;
 
   /// Phi(s1) - Phi(s0) from the stresses at both ends and between, error O(change^5).
-  static double simpson(const Element& element, const Samples& s0, const Samples& middle_stress, const Samples& s1,
-                        const WallLaw& law) {
-    const Samples mean = (sample_stress(element, s0, law) + 4 * middle_stress + sample_stress(element, s1, law)) / 6;
+  double simpson(std::size_t e, const Samples& s0, const Samples& middle_stress, const Samples& s1,
+                 const WallLaw& law) const {
+    const Samples mean = (stress_of(e, s0, law) + 4 * middle_stress + stress_of(e, s1, law)) / 6;
     return mean.dot(s1 - s0);
   }
 
@@ -167,11 +247,32 @@ class ElementsOf final : public WallElements {
     return sum;
   }
 
+  /// Of tension and fibres (S.19, S.20).
+  Voigt added_mean_stress(std::size_t e, const std::array<Voigt, Element::points>& strain) const {
+    Voigt sum = Voigt::Zero();
+    if (local_at(e).tension == 0 && local_at(e).fibres.empty()) return sum;
+    const auto [around, along] = frame(e);
+    const auto dyad = [](const Vec3& a) -> Voigt { return voigt_dyad(a, a).cwiseProduct(halved_shears()); };
+    sum += local_at(e).tension * dyad(along);
+    for (const Fibres& fibres : local_at(e).fibres)
+      for (const double sign : {1.0, -1.0}) {
+        const Voigt direction = dyad(std::cos(fibres.angle) * around + sign * std::sin(fibres.angle) * along);
+        for (int q = 0; q < Element::points; ++q)
+          sum += elements_[e].weight(q) / elements_[e].volume() *
+                 fibre_response(fibres, direction.dot(strain[static_cast<std::size_t>(q)])).stress * direction;
+      }
+    return sum;
+  }
+  static Voigt halved_shears() {
+    Voigt halves;
+    halves << 1, 1, 1, 0.5, 0.5, 0.5;
+    return halves;
+  }
+
   static Eigen::Matrix<double, samples, samples> viscous_tangent(const Element& element, double viscosity,
                                                                  double thickness_variation) {
     Eigen::Matrix<double, samples, samples> sum = Eigen::Matrix<double, samples, samples>::Zero();
-    Voigt halves;
-    halves << 1, 1, 1, 0.5, 0.5, 0.5;  // S = eta de/dt: stress components from 2 E12 ...
+    const Voigt halves = halved_shears();  // S = eta de/dt: stress components from 2 E12 ...
     for (int q = 0; q < Element::points; ++q) {
       const auto map = element.map(q, thickness_variation);
       sum += map.transpose() * (viscosity * element.weight(q) * halves).asDiagonal() * map;
@@ -194,10 +295,14 @@ class ElementsOf final : public WallElements {
 
   std::vector<Cell> cells_;
   std::vector<Element> elements_;
-  std::vector<Samples> reference_;   ///< products at the stress-free positions
-  std::vector<Samples> unit_;        ///< samples of unit strain there
-  std::vector<Samples> initial_;     ///< initial stress, dual to the samples
-  std::vector<Voigt> initial_mean_;  ///< its mean over the element
+  std::vector<Samples> reference_;                ///< products at the stress-free positions
+  std::vector<Samples> unit_;                     ///< samples of unit strain there
+  std::vector<Samples> initial_;                  ///< initial stress, dual to the samples
+  std::vector<Voigt> initial_mean_;               ///< its mean over the element
+  std::vector<ElementPlace> places_;              ///< none: all in one region
+  std::vector<WallLocal> local_{WallLocal{}};     ///< of each region
+  std::vector<Samples> tension_;                  ///< dual to the samples, of a unit stress along the vessel
+  std::vector<std::vector<Samples>> fibre_rows_;  ///< in the order of for_fibres
   std::vector<Positions> unstressed_;
   ScatterMap scatter_;
 };
@@ -215,6 +320,43 @@ void ElementsOf<Element>::set_initial_stress(const Points& u, const Material& ma
   }
 }
 
+template <class Element>
+void ElementsOf<Element>::set_places(std::vector<ElementPlace> places) {
+  TETHER_ASSERT(places.size() == cells_.size(), "{} places for {} elements", places.size(), cells_.size());
+  places_ = std::move(places);
+  int last = 0;
+  for (const ElementPlace& place : places_) last = std::max(last, place.region);
+  local_.assign(static_cast<std::size_t>(last) + 1, WallLocal{});
+}
+
+template <class Element>
+void ElementsOf<Element>::set_local(std::vector<WallLocal> regions) {
+  TETHER_ASSERT(regions.size() >= local_.size(), "{} regions of {}", regions.size(), local_.size());
+  local_ = std::move(regions);
+  tension_.resize(cells_.size());
+  fibre_rows_.assign(cells_.size(), {});
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    if (local_at(e).tension == 0 && local_at(e).fibres.empty()) continue;
+    const auto [around, along] = frame(e);
+    tension_[e].setZero();
+    for (int q = 0; q < Element::points; ++q) tension_[e] += elements_[e].weight(q) * strain_along(e, q, along);
+    for (const Fibres& fibres : local_at(e).fibres)
+      for (const double sign : {1.0, -1.0})
+        for (int q = 0; q < Element::points; ++q)
+          fibre_rows_[e].push_back(
+              strain_along(e, q, std::cos(fibres.angle) * around + sign * std::sin(fibres.angle) * along));
+  }
+}
+
+template <class Element>
+VectorXd ElementsOf<Element>::tension_force(const Points& x) const {
+  VectorXd force = VectorXd::Zero(x.size());
+  for (std::size_t e = 0; e < cells_.size(); ++e)
+    if (local_at(e).tension != 0)
+      scatter(elements_[e].strains().rates(gather(x, e)) * (local_at(e).tension * tension_[e]), e, force);
+  return force;
+}
+
 /// sigma = F S F'/J at each quadrature point, averaged; F from U'U = C would lose the rotation, so F comes from the
 /// element's mean gradient. (S.13)
 template <class Element>
@@ -226,7 +368,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(cons
     const Positions local = gather(x, e);
     const PointStrains<Element> at(elements_[e], Samples(elements_[e].strains().products(local) - reference_[e]), law);
     const Mat3 f = elements_[e].mean_gradient(local);
-    const Voigt s = initial_mean_[e] + mean_stress(elements_[e], at.strain, law);
+    const Voigt s = initial_mean_[e] + local_at(e).stiffness * mean_stress(elements_[e], at.strain, law) +
+                    added_mean_stress(e, at.strain);
     Mat3 tensor;
     tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
     const Mat3 sigma = f * tensor * f.transpose() / f.determinant();

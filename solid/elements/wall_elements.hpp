@@ -5,6 +5,7 @@
 #include "common/base/types.hpp"
 #include "common/linalg/sparse.hpp"
 #include "common/mesh/mesh.hpp"
+#include "solid/elements/wall_local.hpp"
 #include "solid/materials/material.hpp"
 
 namespace tether {
@@ -46,6 +47,12 @@ class WallElements {
   /// From now on the elements carry, beside what the material answers to their strain, the stress of a linear elastic
   /// wall of this material displaced by u from its reference (S.14); u: one column a node.
   virtual void set_initial_stress(const Points& u, const Material& material) = 0;
+  /// Where the elements are, one a cell: before `set_local`.
+  virtual void set_places(std::vector<ElementPlace> places) = 0;
+  /// In what the regions of the wall differ, one entry a region (S.19). Takes effect at once.
+  virtual void set_local(std::vector<WallLocal> regions) = 0;
+  /// Force of the tension along the vessel alone, at positions x.
+  virtual VectorXd tension_force(const Points& x) const = 0;
 };
 
 /// Prisms if the mesh has them, otherwise linear tetrahedra. `reference`: stress-free positions. Throws RunError naming

@@ -27,8 +27,9 @@ class NormalViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> normal_visco_elastic{
-    declaration,
-    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<NormalViscoElastic>(values); }};
+const Registered<Support> normal_visco_elastic{declaration,
+                                               [](std::span<const double> values) -> std::unique_ptr<Support> {
+                                                 return std::make_unique<NormalViscoElastic>(values);
+                                               }};
 
 }  // namespace tether

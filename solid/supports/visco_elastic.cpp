@@ -16,7 +16,8 @@ class ViscoElastic final : public Support {
  public:
   explicit ViscoElastic(std::span<const double> values) : stiffness_(values[0]), damping_(values[1]) {}
   SupportTraction at(const SupportPoint& p) const override {
-    return {-stiffness_ * p.displacement - damping_ * p.velocity, stiffness_ * Mat3::Identity(), damping_ * Mat3::Identity()};
+    return {-stiffness_ * p.displacement - damping_ * p.velocity, stiffness_ * Mat3::Identity(),
+            damping_ * Mat3::Identity()};
   }
 
  private:
@@ -25,7 +26,8 @@ class ViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> visco_elastic{
-    declaration, [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<ViscoElastic>(values); }};
+const Registered<Support> visco_elastic{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
+                                          return std::make_unique<ViscoElastic>(values);
+                                        }};
 
 }  // namespace tether

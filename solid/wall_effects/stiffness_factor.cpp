@@ -1,0 +1,37 @@
+#include "solid/wall_effects/registry.hpp"
+
+namespace tether {
+namespace {
+
+const EffectDeclaration declaration{
+    .name = "stiffness_factor",
+    .meaning = "The wall is stiffer or softer here than the case says, such as in a calcified or diseased part",
+    .place = Place::wall,
+    .parameters = {{.name = "factor",
+                    .meaning = "of the stress that the law answers to strain",
+                    .dimension = dimension::none,
+                    .range = range::positive,
+                    .standard = 1.0,
+                    .absent = 1.0,
+                    .transform = Transform::log2,
+                    .prior_deviation = 0.5,
+                    .scale = 0.5}}};
+
+/// S <- factor S; prestress stays as it is. (S.19)
+class StiffnessFactor final : public WallEffect {
+ public:
+  explicit StiffnessFactor(double factor) : factor_(factor) {}
+  void apply(WallLocal& local) const override { local.stiffness *= factor_; }
+
+ private:
+  double factor_;
+};
+
+}  // namespace
+
+const Registered<WallEffect> stiffness_factor{declaration,
+                                              [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
+                                                return std::make_unique<StiffnessFactor>(values[0]);
+                                              }};
+
+}  // namespace tether
