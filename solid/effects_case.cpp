@@ -113,7 +113,7 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
                             TissueMotion{}, "solid.effects." + name);
   for (const auto& [name, block] : effects)
     if (is_of(motions(), block.effect.type)) {
-      Configured<Motion> motion(motions(), block.effect.type, block.effect.values);
+      Configured<MotionLaw> motion(motions(), block.effect.type, block.effect.values);
       tie(std::make_shared<MovingTissue>("solid.effects." + name, std::move(motion),
                                          block.motion ? block.motion->load(units) : TissueMotion{}),
           triangles_of(block.region, mesh), supports);

@@ -26,7 +26,7 @@ struct SupportStep {
 /// Tissue that moves; it is shared by all that holds the wall there.
 struct MovingTissue {
   std::string path;  ///< of its parameters: "solid.effects.breathing"
-  Configured<Motion> motion;
+  Configured<MotionLaw> motion;
   TissueMotion measured;  ///< of laws that ask for it
 };
 

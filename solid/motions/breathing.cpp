@@ -45,7 +45,7 @@ const EffectDeclaration declaration{
                     .prior_deviation = 0.25}}};
 
 /// y_b = A (sin(2 pi (t/T + phase)) - sin(2 pi phase)) (S.18)
-class Breathing final : public Motion {
+class Breathing final : public MotionLaw {
  public:
   explicit Breathing(std::span<const double> v) : amplitude_(v[0], v[1], v[2]), period_(v[3]), phase_(v[4]) {}
   Vec3 at(double time, const TissueMotion&) const override {
@@ -60,7 +60,8 @@ class Breathing final : public Motion {
 
 }  // namespace
 
-const Registered<Motion> breathing{
-    declaration, [](std::span<const double> v) -> std::unique_ptr<Motion> { return std::make_unique<Breathing>(v); }};
+const Registered<MotionLaw> breathing{declaration, [](std::span<const double> v) -> std::unique_ptr<MotionLaw> {
+                                        return std::make_unique<Breathing>(v);
+                                      }};
 
 }  // namespace tether

@@ -17,7 +17,7 @@ const EffectDeclaration declaration{
                     .prior_deviation = 0.5}}};
 
 /// y_b = factor (measured(t) - measured(0)) (S.18)
-class MeasuredMotion final : public Motion {
+class MeasuredMotion final : public MotionLaw {
  public:
   explicit MeasuredMotion(double factor) : factor_(factor) {}
   Vec3 at(double time, const TissueMotion& measured) const override { return factor_ * (measured(time) - measured(0)); }
@@ -28,8 +28,8 @@ class MeasuredMotion final : public Motion {
 
 }  // namespace
 
-const Registered<Motion> measured_motion{declaration, [](std::span<const double> v) -> std::unique_ptr<Motion> {
-                                           return std::make_unique<MeasuredMotion>(v[0]);
-                                         }};
+const Registered<MotionLaw> measured_motion{declaration, [](std::span<const double> v) -> std::unique_ptr<MotionLaw> {
+                                              return std::make_unique<MeasuredMotion>(v[0]);
+                                            }};
 
 }  // namespace tether

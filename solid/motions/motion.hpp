@@ -10,9 +10,9 @@ namespace tether {
 using TissueMotion = std::function<Vec3(double time)>;
 
 /// How the tissue moves that holds a part of the wall: y_b in (S.4). One file each, listed in registry.cpp.
-class Motion {
+class MotionLaw {
  public:
-  virtual ~Motion() = default;
+  virtual ~MotionLaw() = default;
   /// y_b [length], zero at t = 0; `measured`: the motion that the case gives in a file, if the law asks for one.
   virtual Vec3 at(double time, const TissueMotion& measured) const = 0;
 };

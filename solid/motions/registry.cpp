@@ -2,8 +2,8 @@
 
 namespace tether {
 
-std::span<const Registered<Motion>> motions() {
-  static const Registered<Motion> all[] = {breathing, measured_motion};
+std::span<const Registered<MotionLaw>> motions() {
+  static const Registered<MotionLaw> all[] = {breathing, measured_motion};
   return all;
 }
 

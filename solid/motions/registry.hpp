@@ -7,9 +7,9 @@
 
 namespace tether {
 
-extern const Registered<Motion> breathing, measured_motion;
+extern const Registered<MotionLaw> breathing, measured_motion;
 
 /// All motions of tissue. A new one: one file, one name above, one name in registry.cpp.
-std::span<const Registered<Motion>> motions();
+std::span<const Registered<MotionLaw>> motions();
 
 }  // namespace tether

@@ -192,8 +192,8 @@ TEST(LooseRing, AStiffOneIsNearlyAClamp) {
 }
 
 std::shared_ptr<MovingTissue> breathing_tissue(const Values& values) {
-  return std::make_shared<MovingTissue>("solid.effects.breathing", Configured<Motion>(motions(), {"breathing", values}),
-                                        TissueMotion{});
+  return std::make_shared<MovingTissue>("solid.effects.breathing",
+                                        Configured<MotionLaw>(motions(), {"breathing", values}), TissueMotion{});
 }
 
 TEST(Breathing, CarriesAHeldWallAlong) {
@@ -210,7 +210,7 @@ TEST(Breathing, CarriesAHeldWallAlong) {
 
 TEST(Motions, AreAtRestAtTheStartAndWhenAbsent) {
   const TissueMotion measured = [](double t) { return Vec3(1 + t, 2, t * t); };
-  for (const Registered<Motion>& entry : motions()) {
+  for (const Registered<MotionLaw>& entry : motions()) {
     std::vector<double> values, absent;
     for (const Parameter& p : entry.declaration.parameters) {
       values.push_back(0.3);
@@ -219,7 +219,7 @@ TEST(Motions, AreAtRestAtTheStartAndWhenAbsent) {
     EXPECT_EQ(entry.make(values)->at(0, measured), Vec3::Zero()) << entry.declaration.name;
     EXPECT_GT(entry.make(values)->at(0.05, measured).norm(), 0) << entry.declaration.name;
     EXPECT_EQ(entry.make(absent)->at(0.7, measured), Vec3::Zero()) << entry.declaration.name;
-    EXPECT_TRUE(Configured<Motion>(motions(), entry.declaration.name, absent).is_absent());
+    EXPECT_TRUE(Configured<MotionLaw>(motions(), entry.declaration.name, absent).is_absent());
   }
   const std::vector<double> twice{2.0};
   EXPECT_EQ(measured_motion.make(twice)->at(3, measured), Vec3(6, 0, 18));
