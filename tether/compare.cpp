@@ -25,23 +25,6 @@ struct MeasuredCase : ObservedCase {
   Observations data;
 };
 
-/// Simulates the case unless its output folder holds that run. Returns the exit code.
-int provide_run(const CommandLine& command, const CaseFile& file, const fs::path& output) {
-  const auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
-  if (!why) return exit_done;
-  if (!command.quiet) std::cout << *why << ": simulating first\n" << std::flush;
-  return simulate(command);
-}
-
-RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen) {
-  const Points &ours = lumen.points, &its = run.motion.imaged();
-  const double size = (ours.rowwise().maxCoeff() - ours.rowwise().minCoeff()).norm();
-  if (ours.cols() != its.cols() || (ours - its).cwiseAbs().maxCoeff() > 1e-6 * size)
-    throw input_error("lumen.motion: its {} nodes are not the {} of the case's mesh", its.cols(), ours.cols());
-  return {run.motion.times().front(), run.motion.times().back(), its,
-          [&run](double time) { return run.motion.at(time); }};
-}
-
 RunTrace trace_of(const CsvTable& table, const std::string& column) {
   return {table.numbers("time"), table.numbers(column), table.unit(column)};
 }

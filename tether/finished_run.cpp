@@ -99,4 +99,13 @@ FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion
   observer_gain = largest_gain(summary.value("/effective_case/observer"_json_pointer, Json::object()));
 }
 
+RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen) {
+  const Points &ours = lumen.points, &its = run.motion.imaged();
+  const double size = (ours.rowwise().maxCoeff() - ours.rowwise().minCoeff()).norm();
+  if (ours.cols() != its.cols() || (ours - its).cwiseAbs().maxCoeff() > 1e-6 * size)
+    throw input_error("lumen.motion: its {} nodes are not the {} of the case's mesh", its.cols(), ours.cols());
+  return {run.motion.times().front(), run.motion.times().back(), its,
+          [&run](double time) { return run.motion.at(time); }};
+}
+
 }  // namespace tether

@@ -5,6 +5,8 @@
 
 #include "common/config/case_file.hpp"
 #include "common/io/lumen_motion.hpp"
+#include "common/observation/lumen_surface.hpp"
+#include "diagnosis/run_motion.hpp"
 
 namespace tether {
 
@@ -21,5 +23,8 @@ struct FinishedRun {
   int steps = 0;
   double observer_gain = 0;  ///< the largest by which a region was pulled toward the data [1/time]
 };
+
+/// The run's motion, which must outlive it. Throws InputError if it is that of another lumen.
+RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen);
 
 }  // namespace tether

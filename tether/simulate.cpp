@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
+#include "tether/finished_run.hpp"
 #include "tether/pictures.hpp"
 #include "tether/plots.hpp"
 #include "tether/programs.hpp"
@@ -46,6 +47,7 @@ void check_case(const CommandLine& command) {
 int validate(const CommandLine& command) {
   check_case(command);
   check_with("observation_manager", command);
+  check_twin(command);
   if (!command.quiet) std::cout << command.case_file.string() << ": valid\n";
   return exit_done;
 }
@@ -61,6 +63,13 @@ int simulate(const CommandLine& command) {
   plots.insert(plots.begin(), pictures.begin(), pictures.end());
   if (!command.quiet) std::cout << summary_text(output) << where_to_look(output, plots);
   return exit_done;
+}
+
+int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output) {
+  const auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
+  if (!why) return exit_done;
+  if (!command.quiet) std::cout << *why << ": simulating first\n" << std::flush;
+  return simulate(command);
 }
 
 }  // namespace tether

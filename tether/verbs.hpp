@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/config/case_file.hpp"
 #include "common/config/command_line.hpp"
 
 namespace tether {
@@ -7,9 +8,23 @@ namespace tether {
 /// Checks the case, runs it, draws plots and says where to look. Returns the run's exit code.
 int simulate(const CommandLine& command);
 
+/// Simulates the command's case, which is `file`, unless the output folder holds that run. Returns the exit code.
+int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output);
+
 /// Sets a finished run of the case against its measurements: comparison.json and .csv, drawings, a summary. Simulates
 /// first if there is no such run. Returns the run's exit code.
 int compare(const CommandLine& command);
+
+/// Makes data from a run that has what the case lacks, and a case that is to be compared with them (docs/twin.md).
+/// Simulates that run first if need be. Returns its exit code.
+int make_twin(const CommandLine& command);
+/// Throws InputError if the case has a section `twin` that is wrong.
+void check_twin(const CommandLine& command);
+/// The section `twin` for the reference of the case file.
+std::string describe_twin(const std::string& format);
+
+/// Holds the diagnosis of a twin's case, or of that in a twin's folder, against the sealed answer: score.json.
+int score(const CommandLine& command);
 
 /// Checks the case with every program that reads it. Throws InputError with all that they find.
 void check_case(const CommandLine& command);

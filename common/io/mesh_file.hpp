@@ -24,9 +24,9 @@ struct MeshFile {
   std::map<std::string, std::int64_t> group_names;  ///< of Gmsh's physical surfaces
 };
 
-/// Reads .vtu, .vtp, .vtk (unstructured grids and surfaces), .ply (surfaces; polygons of more than three sides become fans), .msh (Gmsh
-/// 2 and 4, text and binary) and .stl (text and binary; equal vertices merged). Throws InputError: cannot be read,
-/// other cells than these, no points.
+/// Reads .vtu, .vtp, .vtk (unstructured grids and surfaces), .ply (surfaces; polygons of more than three sides become
+/// fans), .msh (Gmsh 2 and 4, text and binary) and .stl (text and binary; equal vertices merged). Throws InputError:
+/// cannot be read, other cells than these, no points.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 }  // namespace tether

@@ -31,4 +31,29 @@ void write_vtp(const std::filesystem::path& path, const std::vector<Points>& lin
   if (!file) throw run_error("{} cannot be written", path.string());
 }
 
+void write_vtp(const std::filesystem::path& path, const Points& points, const std::vector<Triangle>& triangles) {
+  std::string coordinates, connectivity, offsets;
+  for (const auto& x : points.colwise())
+    coordinates +=
+        fmt::format("{} {} {}\n", static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2]));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    connectivity += fmt::format("{} {} {}\n", triangles[i][0], triangles[i][1], triangles[i][2]);
+    offsets += fmt::format("{} ", 3 * (i + 1));
+  }
+  std::ofstream file(path);
+  file << fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">
+<PolyData><Piece NumberOfPoints="{}" NumberOfPolys="{}" NumberOfVerts="0" NumberOfStrips="0" NumberOfLines="0">
+<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">
+{}</DataArray></Points>
+<Polys><DataArray type="Int64" Name="connectivity" format="ascii">
+{}</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">{}</DataArray></Polys>
+</Piece></PolyData></VTKFile>
+)",
+                      points.cols(), triangles.size(), coordinates, connectivity, offsets);
+  file.flush();
+  if (!file) throw run_error("{} cannot be written", path.string());
+}
+
 }  // namespace tether

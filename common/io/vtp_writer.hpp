@@ -10,4 +10,7 @@ namespace tether {
 /// Polylines, one column a point, as a .vtp file for viewing. Throws RunError if it cannot be written.
 void write_vtp(const std::filesystem::path& path, const std::vector<Points>& lines);
 
+/// A triangulated surface as a .vtp file; coordinates to seven digits. Throws RunError if it cannot be written.
+void write_vtp(const std::filesystem::path& path, const Points& points, const std::vector<Triangle>& triangles);
+
 }  // namespace tether

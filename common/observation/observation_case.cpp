@@ -59,8 +59,7 @@ void SlicesCase::declare(Fields& f) {
   data.declare(f);
 }
 
-void TraceCase::declare(Fields& f) {
-  f.text("observable", observable, "column of timeseries.csv: fluid.outlet.pressure", Need::required);
+void declare_quantity(Fields& f, std::string& quantity, Dimension& dimension) {
   f.choice("quantity", quantity,
            {{"pressure", "in the blood"},
             {"flow", "through an opening"},
@@ -74,7 +73,13 @@ void TraceCase::declare(Fields& f) {
                                                                        {"volume", dimension::volume},
                                                                        {"force", dimension::force}};
   for (const auto& [word, of_word] : dimensions)
-    if (quantity == word) curve.dimension = noise.dimension = of_word;
+    if (quantity == word) dimension = of_word;
+}
+
+void TraceCase::declare(Fields& f) {
+  f.text("observable", observable, "column of timeseries.csv: fluid.outlet.pressure", Need::required);
+  declare_quantity(f, quantity, noise.dimension);
+  curve.dimension = noise.dimension;
   f.group("curve", curve, "the measured values over time");
   f.check(!curve.constant, "curve", "give a file: a constant is no measurement");
   f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");

@@ -42,6 +42,9 @@ struct SlicesCase {
   void declare(Fields& f);
 };
 
+/// The field `quantity`, and the dimension that follows from it.
+void declare_quantity(Fields& f, std::string& quantity, Dimension& dimension);
+
 /// A measured pressure or flow.
 struct TraceCase {
   std::string observable, quantity;

@@ -1,0 +1,196 @@
+/// Data of a tube that beats with the period 1: radius 12 (1 + 0.1 (1 - cos 2 pi t)), length 40. Lengths in mm.
+#include "twin/twin_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.hpp"
+#include "tests/twin/shapes.hpp"
+
+namespace tether {
+namespace {
+
+using namespace testing;
+
+double radius_at(double time) {
+  return 12 * (1 + 0.1 * (1 - std::cos(2 * std::numbers::pi * time)));
+}
+
+TrueLumen beating() {
+  return {tube(12, 40, 48, 16).triangles, [](double time) { return tube(radius_at(time), 40, 48, 16).points; }, 0, 2};
+}
+
+/// Ten frames a beat without noise or voxels.
+TwinCase plain() {
+  TwinCase given;
+  given.beat = 1;
+  given.image.voxel = {0, 0, 0};
+  return given;
+}
+
+TwinCase with_voxels() {
+  TwinCase given = plain();
+  given.image.voxel = {};
+  given.frames = 2;
+  return given;
+}
+
+TwinFrames made(const TwinCase& given) {
+  return make_frames(given, UnitSystem::named("mm-g-s"), beating(), "case.yaml:9: twin");
+}
+
+double mean_radius(const TriangleSurface& surface) {
+  return surface.points.topRows(2).colwise().norm().mean();
+}
+
+TEST(TwinFrames, ShowTheTruthAtTheStatedTimes) {
+  const TwinFrames frames = made(plain());
+  ASSERT_EQ(frames.frames.size(), 10U);
+  for (int i = 0; i < 10; ++i) {
+    const TwinFrame& frame = frames.frames[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(frame.time, 1.1 + 0.1 * i, 1e-12) << "the last is at the end";
+    EXPECT_NEAR(mean_radius(frame.surface), radius_at(frame.time), 1e-3);
+  }
+  EXPECT_EQ(frames.image_error, 0);
+  TwinCase given = plain();
+  given.first = 0.5;
+  EXPECT_NEAR(times_of_frames(given, beating()).back(), 1.4, 1e-12);
+  given.beat.reset();
+  given.first.reset();
+  EXPECT_NEAR(times_of_frames(given, beating()).front(), 0.2, 1e-12) << "without a beat, over the whole run";
+}
+
+TEST(TwinFrames, OfVoxelsAreUnbiasedWithinATenthOfAVoxel) {
+  const TwinFrames frames = made(with_voxels());
+  for (const TwinFrame& frame : frames.frames) {
+    EXPECT_NEAR(mean_radius(frame.surface), radius_at(frame.time), 0.06);
+    EXPECT_GT(frame.surface.points.row(2).maxCoeff(), 19);
+    EXPECT_LT(frame.surface.points.row(2).maxCoeff(), 20.5) << "open, without what was drawn out";
+  }
+  EXPECT_GT(frames.image_error, 0.01);
+  EXPECT_LT(frames.image_error, 0.2);
+}
+
+TEST(TwinFrames, AreTheSameForTheSameSeed) {
+  TwinCase given = with_voxels();
+  given.noise.deviation = 0.3;
+  given.noise.correlation_length = 5;
+  const TwinFrames one = made(given), again = made(given);
+  given.seed = 2;
+  const TwinFrames other = made(given);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(one.frames[i].surface.points == again.frames[i].surface.points);
+    EXPECT_TRUE(one.frames[i].surface.triangles == again.frames[i].surface.triangles);
+    EXPECT_FALSE(one.frames[i].surface.points.cols() == other.frames[i].surface.points.cols() &&
+                 one.frames[i].surface.points == other.frames[i].surface.points);
+  }
+}
+
+/// Errors of the radius: their size, half the mean square of the difference of neighbours less than 0.8 mm apart, and
+/// the mean product of those about 5 mm apart.
+TEST(TwinFrames, HaveNoiseOfTheStatedSizeAndReach) {
+  TwinCase given = plain();
+  given.frames = 1;
+  given.noise.deviation = 0.3;
+  given.noise.correlation_length = 5;
+  std::vector<double> all, near, expected, far;
+  for (given.seed = 0; given.seed < 30; ++given.seed) {
+    TwinCase exact = given;
+    exact.noise.deviation = 0;
+    const Points x = made(exact).frames[0].surface.points, moved = made(given).frames[0].surface.points;
+    const VectorXd error = (moved.topRows(2).colwise().norm() - x.topRows(2).colwise().norm()).transpose();
+    for (Eigen::Index i = 0; i < x.cols(); i += 97)
+      for (Eigen::Index j = 0; j < x.cols(); ++j) {
+        const double apart = (x.col(i) - x.col(j)).norm();
+        if (i == j) all.push_back(error[i] * error[i]);
+        if (i != j && apart < 0.8) near.push_back(std::pow(error[i] - error[j], 2) / 2);
+        if (i != j && apart < 0.8) expected.push_back(0.09 * (1 - std::exp(-apart / 5)));
+        if (apart > 4.8 && apart < 5.2) far.push_back(error[i] * error[j]);
+      }
+  }
+  const auto mean = [](const std::vector<double>& v) {
+    return VectorXd::Map(v.data(), static_cast<Eigen::Index>(v.size())).mean();
+  };
+  EXPECT_NEAR(std::sqrt(mean(all)), 0.3, 0.02);
+  EXPECT_NEAR(mean(near) / mean(expected), 1, 0.1);
+  EXPECT_NEAR(mean(far) / 0.09, std::exp(-1.0), 0.08);
+}
+
+TEST(TwinFaults, DoWhatTheySay) {
+  const TwinFrames right = made(plain());
+  TwinCase given = plain();
+  given.faults.lost = {3, 7};
+  given.faults.mistimed = TwinFaultsCase::Mistimed{2, 0.05};
+  given.faults.misplaced = TwinFaultsCase::Misplaced{4, Vec3(1, 2, 3)};
+  given.faults.cropped = TwinFaultsCase::Cropped{5, Vec3(0, 0, 10), Vec3(0, 0, 2)};
+  const TwinFrames wrong = made(given);
+  ASSERT_EQ(wrong.frames.size(), 8U);
+  std::vector<int> numbers;
+  for (const TwinFrame& frame : wrong.frames) {
+    numbers.push_back(frame.number);
+    const TwinFrame& as_it_was = right.frames[static_cast<std::size_t>(frame.number)];
+    EXPECT_EQ(frame.time, as_it_was.time) << "what is wrong is not stated";
+    const Points &x = frame.surface.points, &before = as_it_was.surface.points;
+    if (frame.number == 2)
+      EXPECT_NEAR(mean_radius(frame.surface), radius_at(1.35), 1e-3);
+    else if (frame.number == 4)
+      EXPECT_LT((x - before - Vec3(1, 2, 3).replicate(1, x.cols())).cwiseAbs().maxCoeff(), 1e-12);
+    else if (frame.number == 5)
+      EXPECT_TRUE(x.row(2).maxCoeff() <= 10 && x.row(2).maxCoeff() > 8 && x.cols() > before.cols() / 2);
+    else
+      EXPECT_TRUE(x == before) << frame.number;
+  }
+  EXPECT_EQ(numbers, (std::vector{0, 1, 2, 4, 5, 6, 8, 9}));
+}
+
+TEST(TwinFaults, ConcernAllFramesUnlessOneIsNamed) {
+  const TwinFrames right = made(plain());
+  TwinCase given = plain();
+  given.first = 1;
+  given.faults.mistimed = TwinFaultsCase::Mistimed{-1, 0.1};
+  given.faults.bias = 0.5;
+  given.faults.clipped_ends = 6;
+  for (const TwinFrame& frame : made(given).frames) {
+    EXPECT_NEAR(mean_radius(frame.surface), radius_at(frame.time + 0.1) + 0.5, 2e-3);
+    EXPECT_LT(frame.surface.points.row(2).cwiseAbs().maxCoeff(), 20 - std::sqrt(6 * 6 - 0.5 * 0.5) + 1e-3);
+    EXPECT_GT(frame.surface.points.row(2).cwiseAbs().maxCoeff(), 12);
+  }
+}
+
+TEST(TwinFaults, OfFramesThatDoNotExistAreTold) {
+  const auto error_of = [](const TwinCase& given) -> std::string {
+    try {
+      made(given);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  TwinCase given = plain();
+  given.faults.misplaced = TwinFaultsCase::Misplaced{10, Vec3(1, 0, 0)};
+  EXPECT_EQ(error_of(given), "case.yaml:9: twin.faults: frame 10 of 10, counted from 0");
+  given = plain();
+  given.faults.mistimed = TwinFaultsCase::Mistimed{9, 0.2};
+  EXPECT_EQ(error_of(given), "case.yaml:9: twin: frame 9 shows the time 2.2, but the truth's run is from 0 to 2");
+  given = plain();
+  for (double frame = 0; frame < 10; ++frame) given.faults.lost.push_back(frame);
+  EXPECT_EQ(error_of(given), "case.yaml:9: twin.faults.lost: no frame is left");
+}
+
+TEST(TwinTrace, IsTheRunsValuesWithNoise) {
+  std::vector<double> times, values;
+  for (int i = 0; i <= 200; ++i) times.push_back(0.01 * i), values.push_back(5.0 * i);
+  TwinTraceCase given;
+  given.interval = 0.025;
+  const TwinTrace exact = make_trace(given, times, values, 1, 3);
+  ASSERT_EQ(exact.times.size(), 41U);
+  for (std::size_t i = 0; i < exact.times.size(); ++i) EXPECT_NEAR(exact.values[i], 500 * exact.times[i], 1e-9);
+  given.noise.deviation = 2;
+  given.interval = 1e-4;
+  const TwinTrace noisy = make_trace(given, times, values, 0, 3);
+  double squares = 0;
+  for (std::size_t i = 0; i < noisy.times.size(); ++i) squares += std::pow(noisy.values[i] - 500 * noisy.times[i], 2);
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(noisy.times.size())), 2, 0.05);
+}
+
+}  // namespace
+}  // namespace tether

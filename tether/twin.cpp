@@ -1,0 +1,189 @@
+#include <fstream>
+#include <iostream>
+
+#include "common/base/csv.hpp"
+#include "common/base/error.hpp"
+#include "common/config/describe.hpp"
+#include "common/config/output_folder.hpp"
+#include "common/config/overlay.hpp"
+#include "common/io/vtp_writer.hpp"
+#include "common/observation/observed_case.hpp"
+#include "tether/finished_run.hpp"
+#include "tether/verbs.hpp"
+#include "twin/answer.hpp"
+#include "twin/twin_data.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* source_name = "twin";
+
+/// A case with a section `twin`.
+struct CaseWithTwin {
+  explicit CaseWithTwin(const fs::path& path) : file(path) {
+    std::optional<TwinCase> given;
+    file.read("twin", given);
+    file.read("observations", observations);
+    file.finish();
+    if (!given) throw input_error("{}: must be given, to make a twin", file.where("twin"));
+    twin = std::move(*given);
+  }
+  CaseFile file;
+  TwinCase twin;
+  ObservationsCase observations;
+};
+
+/// The run that the data are made from.
+struct Truth {
+  Truth(const fs::path& case_file, const fs::path& run_folder)
+      : own(case_file),
+        surface(own.lumen()),
+        run(run_folder),
+        motion(motion_of(run, surface)),
+        series(run_folder / "timeseries.csv") {}
+  TrueLumen lumen() const { return {surface.triangles, motion.positions, motion.start, motion.end}; }
+
+  ObservedCase own;
+  LumenSurface surface;
+  FinishedRun run;
+  RunMotion motion;
+  CsvTable series;
+};
+
+/// Throws InputError for a folder that holds anything but a twin.
+fs::path claim_folder(const CommandLine& command, const CaseFile& file) {
+  const fs::path folder = command.output.empty() ? fs::path("out") / (file.common().name + "_twin") : command.output;
+  if (fs::exists(folder) && !command.overwrite && !fs::is_empty(folder) && !fs::exists(folder / "sealed"))
+    throw input_error("{}: holds files that are not a twin's; choose another folder with --output, or give --overwrite",
+                      folder.string());
+  fs::remove_all(folder / "data");
+  fs::create_directories(folder / "data");
+  fs::create_directories(folder / "sealed");
+  return folder;
+}
+
+void write_frames(const fs::path& folder, const std::vector<TwinFrame>& frames) {
+  std::ofstream list(folder / "lumen.csv");
+  list << "file, time [s]\n";
+  for (const TwinFrame& frame : frames) {
+    const std::string name = fmt::format("lumen_{:02}.vtp", frame.number);
+    write_vtp(folder / name, frame.surface.points, frame.surface.triangles);
+    list << fmt::format("{}, {}\n", name, frame.time);
+  }
+  if (!list.flush()) throw run_error("{}: cannot be written to", folder.string());
+}
+
+void write_trace(const fs::path& file, const TwinTrace& trace, const std::string& unit) {
+  std::ofstream table(file);
+  table << fmt::format("time [s], value{}\n", unit.empty() ? "" : " [" + unit + "]");
+  for (std::size_t i = 0; i < trace.times.size(); ++i)
+    table << fmt::format("{}, {}\n", trace.times[i], trace.values[i]);
+  if (!table.flush()) throw run_error("{} cannot be written", file.string());
+}
+
+std::string text_of(const NoiseCase& noise, double deviation) {
+  return fmt::format("{{deviation: {}, correlation_length: {}, correlation_time: {}}}", number_text(deviation),
+                     number_text(noise.correlation_length), number_text(noise.correlation_time));
+}
+
+/// The frames as a source; their errors are those of the image and the noise.
+std::string source_of(const CaseWithTwin& given, const TwinFrames& frames) {
+  const TwinCase& twin = given.twin;
+  std::string text = fmt::format("{{file: data/lumen.csv, unit: {}", given.file.units().symbol(dimension::length));
+  if (twin.periodic) text += fmt::format(", period: {}", number_text(*twin.beat));
+  if (!twin.held_out.empty()) text += fmt::format(", held_out: [{}]", fmt::join(twin.held_out, ", "));
+  return text + ", noise: " + text_of(twin.noise, std::hypot(twin.noise.deviation, frames.image_error)) + "}";
+}
+
+std::string source_of(const std::string& name, const TwinTraceCase& trace) {
+  return fmt::format("{{observable: {}, quantity: {},{} curve: {{file: data/{}.csv}}, noise: {}}}", trace.observable,
+                     trace.quantity, trace.quantity == "pressure" ? " absolute: false," : "", name,
+                     text_of(trace.noise, trace.noise.deviation));
+}
+
+/// The case without its section `twin`, with the twin's data in the place of its own measurements.
+void write_case(const fs::path& folder, const CaseWithTwin& given, const TwinFrames& frames) {
+  const CommonCase& common = given.file.common();
+  Overlay overlay{given.file.path(), common.name + "_blind", common.title + ", against data of a twin", {{"twin", ""}}};
+  const auto set = [&](const std::string& kind, const std::string& name, const std::string& text) {
+    overlay.values.push_back({"observations." + kind + "." + name, text});
+  };
+  for (const auto& [name, source] : given.observations.surfaces) set("surfaces", name, "");
+  for (const auto& [name, source] : given.observations.contours) set("contours", name, "");
+  for (const auto& [name, source] : given.observations.traces)
+    if (std::none_of(given.twin.traces.begin(), given.twin.traces.end(),
+                     [&](const auto& t) { return t.first == name; }))
+      set("traces", name, "");
+  set("surfaces", source_name, source_of(given, frames));
+  for (const auto& [name, trace] : given.twin.traces) set("traces", name, source_of(name, trace));
+  write_overlay(folder / "case.yaml", overlay);
+}
+
+void check(const CaseWithTwin& given, const Truth& truth) {
+  const std::string &ours = given.file.units().name(), &its = truth.own.file.units().name();
+  if (ours != its)
+    throw input_error("{}: the truth's units are {}, the case's {}: they must be the same",
+                      given.file.where("twin.truth"), its, ours);
+  if (given.twin.periodic && !given.twin.beat)
+    throw input_error("{}: must be given with periodic", given.file.where("twin.beat"));
+}
+
+TwinFrames write_data(const fs::path& folder, const CaseWithTwin& given, const Truth& truth) {
+  const TrueLumen lumen = truth.lumen();
+  const double first = times_of_frames(given.twin, lumen).front();
+  TwinFrames frames = make_frames(given.twin, given.file.units(), lumen, given.file.where("twin"));
+  write_frames(folder / "data", frames.frames);
+  std::uint64_t seed = static_cast<std::uint64_t>(given.twin.seed) * 16 + 8;
+  for (const auto& [name, trace] : given.twin.traces)
+    write_trace(folder / "data" / (name + ".csv"),
+                make_trace(trace, truth.series.numbers("time"), truth.series.numbers(trace.observable), first, seed++),
+                truth.series.unit(trace.observable));
+  return frames;
+}
+
+std::string where_to_look(const fs::path& folder, const TwinFrames& made, const UnitSystem& units) {
+  const fs::path file = folder / "case.yaml";
+  return fmt::format(
+      "{} surfaces, {:.3g} {} from the truth before noise.\nIn {}:\n  data/       surfaces, their times, traces\n"
+      "  case.yaml   the model with these data: tether compare {}\n  sealed/     the answer, for tether score\n",
+      made.frames.size(), made.image_error, units.symbol(dimension::length), folder.string(), file.string());
+}
+
+}  // namespace
+
+int make_twin(const CommandLine& command) {
+  check_case(command);
+  const CaseWithTwin given(command.case_file);
+  const fs::path folder = claim_folder(command, given.file);
+  CommandLine run = command;
+  run.case_file = given.twin.truth;
+  run.output = folder / "sealed" / "run";
+  if (const int code = provide_run(run, CaseFile(run.case_file), run.output); code != exit_done) return code;
+  const Truth truth(run.case_file, run.output);
+  check(given, truth);
+  const TwinFrames made = write_data(folder, given, truth);
+  write_case(folder, given, made);
+  Answer answer = answer_of(given.twin);
+  answer.image_error = made.image_error;
+  seal(sealed_answer(folder), answer);
+  if (!command.quiet) std::cout << where_to_look(folder, made, given.file.units());
+  return exit_done;
+}
+
+void check_twin(const CommandLine& command) {
+  CaseFile file(command.case_file);
+  std::optional<TwinCase> twin;
+  file.read("twin", twin);
+  file.finish();
+}
+
+std::string describe_twin(const std::string& format) {
+  Describe describe(UnitSystem::cgs());
+  TwinCase twin;
+  describe.group("twin", twin, meaning_of_section("twin"));
+  return format == "markdown" ? describe.markdown() : describe.text();
+}
+
+}  // namespace tether

@@ -1,0 +1,94 @@
+#include "twin/twin_case.hpp"
+
+#include <algorithm>
+
+namespace tether {
+namespace {
+
+constexpr IntegerRange frame_range{-1};
+constexpr const char* frame_meaning = "number of the frame, from 0; -1: all";
+
+}  // namespace
+
+void TwinImageCase::declare(Fields& f) {
+  f.numbers("voxel", voxel, {3, dimension::length, range::not_negative},
+            "size of a voxel in x, y, z; absent: 0.6 x 0.6 x 1 mm; [0, 0, 0]: no image, the truth's surface itself");
+  f.number("blur", blur, dimension::length, range::not_negative,
+           "standard deviation of the image's unsharpness; absent: none");
+  f.flag("mask", mask,
+         "whether voxels are marked as inside or outside, as by hand; false: the level 1/2 of the grey values");
+  f.integer("smoothing", smoothing, {0, 1000}, "passes that smooth the voxels' steps away");
+}
+
+void TwinFaultsCase::Mistimed::declare(Fields& f) {
+  f.integer("frame", frame, frame_range, frame_meaning);
+  f.number("shift", shift, dimension::time, range::any, "the frame shows the vessel that much later than it says");
+}
+
+void TwinFaultsCase::Misplaced::declare(Fields& f) {
+  f.integer("frame", frame, frame_range, frame_meaning);
+  f.point("offset", offset, dimension::length, "added to the frame's coordinates");
+}
+
+void TwinFaultsCase::Cropped::declare(Fields& f) {
+  f.integer("frame", frame, frame_range, frame_meaning);
+  f.point("point", point, dimension::length, "of the plane");
+  f.point("normal", normal, dimension::none, "of the plane: what lies on this side is cut off");
+}
+
+void TwinFaultsCase::declare(Fields& f) {
+  f.numbers("lost", lost, {0, dimension::none, range::not_negative}, "numbers of frames (from 0) that are missing");
+  f.group("mistimed", mistimed, "a frame with a wrong time");
+  f.group("misplaced", misplaced, "a frame that is moved as a whole");
+  f.group("cropped", cropped, "a frame that shows a part only");
+  f.number("bias", bias, dimension::length, range::any, "added along the outward normal, as by a wrong threshold");
+  f.number("clipped_ends", clipped_ends, dimension::length, range::not_negative,
+           "nothing is segmented within this distance of the vessel's ends");
+}
+
+void TwinTraceCase::declare(Fields& f) {
+  f.text("observable", observable, "column of timeseries.csv: fluid.outlet.pressure", Need::required);
+  declare_quantity(f, quantity, noise.dimension);
+  f.number("interval", interval, dimension::time, range::positive, "time between two values");
+  f.group("noise", noise, "errors of the values");
+}
+
+void HiddenEffectCase::declare(Fields& f) {
+  f.text("effect", effect, "its name as diagnosis.json has it; absent: that of this entry");
+  f.text("where", where, "the region, ring or opening that it acts on; absent: any");
+  f.number("amplitude", amplitude, dimension::none, range::any, "its strength");
+  f.text("unit", unit, "of the amplitude, as diagnosis.json has it");
+}
+
+void HiddenCase::declare(Fields& f) {
+  f.choice("verdict", verdict,
+           {{"nothing", "the model lacks nothing"},
+            {"missing", "the model lacks the effects below"},
+            {"either", "these data cannot tell the effects below apart"},
+            {"outside", "the model lacks something that the catalogue does not have"},
+            {"cannot_tell", "these data cannot tell"}},
+           "what a diagnosis should say");
+  f.groups("effects", effects, "effects that the truth has and the model lacks, by name");
+  const bool named = verdict == "missing" || verdict == "either";
+  f.check(named == !effects.empty(), "verdict", "must be 'missing' or 'either' with effects, and another one without");
+}
+
+void TwinCase::declare(Fields& f) {
+  f.path("truth", truth, "case file of the run that the data are made from", Need::required);
+  f.integer("seed", seed, {0}, "of the noise: the same seed gives the same data");
+  f.integer("frames", frames, {1, 10000}, "surfaces in a beat");
+  f.number("beat", beat, dimension::time, range::positive, "duration of a beat; absent: the case's whole run");
+  f.number("first", first, dimension::time, range::any,
+           "time of the first frame; absent: such that the last one is at the end of the run");
+  f.flag("periodic", periodic,
+         "whether the frames stand for every beat; false: for the moments at which they were taken");
+  f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
+            "numbers of frames (from 0, of those that are not lost) that the model never sees: they judge it");
+  f.group("image", image, "how the lumen is imaged and segmented");
+  f.group("noise", noise, "errors along the normal that are added to the surfaces");
+  f.group("faults", faults, "what goes wrong with the data");
+  f.groups("traces", traces, "traces to be measured, by name");
+  f.group("hidden", hidden, "the answer, sealed away from everything but tether score");
+}
+
+}  // namespace tether

@@ -1,0 +1,183 @@
+#include "twin/twin_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/curve.hpp"
+#include "common/base/error.hpp"
+#include "common/mesh/locator.hpp"
+#include "common/mesh/surface.hpp"
+#include "common/mesh/topology.hpp"
+#include "twin/closed_lumen.hpp"
+#include "twin/noise.hpp"
+#include "twin/voxels.hpp"
+
+namespace tether {
+namespace {
+
+enum Purpose : std::uint64_t { of_grid = 1, of_surfaces, of_triangles };
+
+std::uint64_t seed_of(const TwinCase& given, Purpose purpose) {
+  return static_cast<std::uint64_t>(given.seed) * 16 + purpose;
+}
+
+bool concerns(int fault, int frame) {
+  return fault < 0 || fault == frame;
+}
+
+bool is_lost(const TwinFaultsCase& faults, int frame) {
+  return std::find(faults.lost.begin(), faults.lost.end(), frame) != faults.lost.end();
+}
+
+/// The image's voxels, and how far beyond the vessel they reach.
+struct Scanner {
+  Vec3 voxel = Vec3::Zero(), shift = Vec3::Zero();
+  double blur = 0;
+  bool is_on() const { return voxel.minCoeff() > 0; }
+  double reach() const { return 3 * voxel.maxCoeff() + 4 * blur; }
+};
+
+Scanner scanner_of(const TwinCase& given, const UnitSystem& units) {
+  const auto length = [&](const char* text) { return units.quantity(text, dimension::length); };
+  Scanner scanner{{length("0.6 mm"), length("0.6 mm"), length("1 mm")}, Vec3::Zero(), given.image.blur.value_or(0)};
+  if (!given.image.voxel.empty()) scanner.voxel = Vec3(given.image.voxel.data());
+  Random random(seed_of(given, of_grid), 0);
+  for (int axis = 0; axis < 3; ++axis) scanner.shift[axis] = random.uniform() * scanner.voxel[axis];
+  return scanner;
+}
+
+/// What of an imaged surface is the vessel's, and not that of the pieces drawn out behind its ends.
+std::vector<bool> within_vessel(const TriangleSurface& imaged, const SignedSurface& closed, std::size_t own) {
+  const std::vector<Closest> closest = closed.closest(imaged.points);
+  std::vector<bool> keep;
+  for (const Triangle& t : imaged.triangles)
+    keep.push_back(std::all_of(t.begin(), t.end(), [&](int node) {
+      return static_cast<std::size_t>(closest[static_cast<std::size_t>(node)].triangle) < own;
+    }));
+  return keep;
+}
+
+/// The lumen between the nodes of its mesh: two refinements leave facets a sixteenth as deep.
+TriangleSurface round_lumen(const TriangleSurface& lumen, std::uint64_t seed) {
+  return rounded(rounded(lumen, seed), seed + 1);
+}
+
+TriangleSurface imaged(const TriangleSurface& truth, const Scanner& scanner, const TwinImageCase& how) {
+  TriangleSurface closed = closed_lumen(truth, scanner.reach());
+  const VoxelImage image = coverage(closed, scanner.voxel, scanner.shift, scanner.reach());
+  const TriangleSurface surface = segmented(image, {scanner.blur, how.mask, how.smoothing});
+  return part_of(surface, within_vessel(surface, SignedSurface(std::move(closed)), truth.triangles.size()));
+}
+
+/// Squares of the distances from the true nodes to a surface, where it is not open.
+std::vector<double> squared_errors(const Points& truth, const TriangleSurface& surface) {
+  std::vector<double> squares;
+  for (const Closest& closest : SignedSurface(surface).closest(truth))
+    if (!closest.on_rim) squares.push_back(closest.distance * closest.distance);
+  return squares;
+}
+
+TriangleSurface without_ends(const TriangleSurface& surface, const TriangleSurface& truth, double distance) {
+  std::vector<int> ends;
+  for (const auto& rim : rims(truth.triangles)) ends.insert(ends.end(), rim.begin(), rim.end());
+  if (distance == 0 || ends.empty()) return surface;
+  const PointLocator locator(truth.points(Eigen::all, ends));
+  std::vector<bool> keep;
+  for (const Triangle& t : surface.triangles)
+    keep.push_back(std::all_of(
+        t.begin(), t.end(), [&](int node) { return locator.nearest(surface.points.col(node)).distance >= distance; }));
+  return part_of(surface, keep);
+}
+
+TriangleSurface cut_off(const TriangleSurface& surface, const TwinFaultsCase::Cropped& crop) {
+  std::vector<bool> keep;
+  for (const Triangle& t : surface.triangles)
+    keep.push_back(std::all_of(
+        t.begin(), t.end(), [&](int node) { return (surface.points.col(node) - crop.point).dot(crop.normal) <= 0; }));
+  return part_of(surface, keep);
+}
+
+void move_along_normals(TriangleSurface& surface, const VectorXd& distance) {
+  surface.points += nodal_normals(surface.points, surface.triangles) * distance.asDiagonal();
+}
+
+/// The moment that a frame shows.
+double moment(const TwinCase& given, int frame, double stated) {
+  const auto& late = given.faults.mistimed;
+  return late && concerns(late->frame, frame) ? stated + late->shift : stated;
+}
+
+void spoil(TriangleSurface& surface, const TriangleSurface& truth, const TwinFaultsCase& faults, int frame) {
+  surface = without_ends(surface, truth, faults.clipped_ends);
+  if (faults.misplaced && concerns(faults.misplaced->frame, frame))
+    surface.points.colwise() += faults.misplaced->offset;
+  if (faults.cropped && concerns(faults.cropped->frame, frame)) surface = cut_off(surface, *faults.cropped);
+}
+
+void check_frames(const TwinCase& given, const std::vector<double>& times, const TrueLumen& truth,
+                  const std::string& where) {
+  const auto number_of = [](const auto& fault) { return fault ? fault->frame : -1; };
+  const TwinFaultsCase& faults = given.faults;
+  for (const int frame : {number_of(faults.mistimed), number_of(faults.misplaced), number_of(faults.cropped)})
+    if (frame >= given.frames)
+      throw input_error("{}.faults: frame {} of {}, counted from 0", where, frame, given.frames);
+  if (std::all_of(times.begin(), times.end(), [&, frame = 0](double) mutable { return is_lost(faults, frame++); }))
+    throw input_error("{}.faults.lost: no frame is left", where);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double time = moment(given, static_cast<int>(i), times[i]);
+    if (time < truth.start - 1e-9 || time > truth.end + 1e-9)
+      throw input_error("{}: frame {} shows the time {:.6g}, but the truth's run is from {:.6g} to {:.6g}", where, i,
+                        time, truth.start, truth.end);
+  }
+}
+
+}  // namespace
+
+std::vector<double> times_of_frames(const TwinCase& given, const TrueLumen& truth) {
+  const double beat = given.beat.value_or(truth.end - truth.start), apart = beat / given.frames;
+  const double first = given.first.value_or(truth.end - beat + apart);
+  std::vector<double> times;
+  for (int frame = 0; frame < given.frames; ++frame) times.push_back(first + frame * apart);
+  return times;
+}
+
+TwinFrames make_frames(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth,
+                       const std::string& where) {
+  const std::vector<double> times = times_of_frames(given, truth);
+  check_frames(given, times, truth, where);
+  const Scanner scanner = scanner_of(given, units);
+  const NoiseSeries noise({given.noise.deviation, given.noise.correlation_length, given.noise.correlation_time}, times,
+                          seed_of(given, of_surfaces));
+  TwinFrames result;
+  std::vector<double> errors;
+  for (int frame = 0; frame < given.frames; ++frame) {
+    if (is_lost(given.faults, frame)) continue;
+    const auto i = static_cast<std::size_t>(frame);
+    const double shown = std::clamp(moment(given, frame, times[i]), truth.start, truth.end);
+    const TriangleSurface lumen = round_lumen({truth.positions(shown), truth.triangles}, seed_of(given, of_triangles));
+    TriangleSurface surface = scanner.is_on() ? imaged(lumen, scanner, given.image) : lumen;
+    if (scanner.is_on())
+      for (const double square : squared_errors(lumen.points, surface)) errors.push_back(square);
+    move_along_normals(surface, noise(i, surface.points).array() + given.faults.bias);
+    spoil(surface, lumen, given.faults, frame);
+    result.frames.push_back({frame, times[i], std::move(surface)});
+  }
+  double sum = 0;
+  for (const double square : errors) sum += square;
+  if (!errors.empty()) result.image_error = std::sqrt(sum / static_cast<double>(errors.size()));
+  return result;
+}
+
+TwinTrace make_trace(const TwinTraceCase& given, const std::vector<double>& times, const std::vector<double>& values,
+                     double first, std::uint64_t seed) {
+  const Curve curve(times, values);
+  TwinTrace trace;
+  for (int k = 0; first + k * given.interval <= times.back() + 1e-9; ++k)
+    trace.times.push_back(first + k * given.interval);
+  const VectorXd noise = noise_over_time({given.noise.deviation, 0, given.noise.correlation_time}, trace.times, seed);
+  for (std::size_t k = 0; k < trace.times.size(); ++k)
+    trace.values.push_back(curve(trace.times[k]) + noise[static_cast<Eigen::Index>(k)]);
+  return trace;
+}
+
+}  // namespace tether

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+
+#include "common/base/units.hpp"
+#include "common/observation/signed_surface.hpp"
+#include "twin/twin_case.hpp"
+
+namespace tether {
+
+/// The lumen of the run that data are made from.
+struct TrueLumen {
+  std::vector<Triangle> triangles;
+  std::function<Points(double)> positions;  ///< at a time of the run [length]
+  double start = 0, end = 0;                ///< of the run [time]
+};
+
+/// A surface as a segmenter would hand it over.
+struct TwinFrame {
+  int number = 0;   ///< among all frames, lost ones too
+  double time = 0;  ///< as stated; a mistimed frame shows another moment [time]
+  TriangleSurface surface;
+};
+
+struct TwinFrames {
+  std::vector<TwinFrame> frames;  ///< that are not lost
+  double image_error =
+      0;  ///< root mean square distance of the surfaces from the truth before noise and faults [length]
+};
+
+/// The stated times of all frames.
+std::vector<double> times_of_frames(const TwinCase& given, const TrueLumen& truth);
+
+/// Images, segments and spoils the truth. Throws InputError, beginning with `where`, for a frame outside the run or a
+/// fault of a frame that does not exist.
+TwinFrames make_frames(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth,
+                       const std::string& where);
+
+/// A trace of the run as measured: its values at every interval of the last beat, with noise.
+struct TwinTrace {
+  std::vector<double> times, values;
+};
+TwinTrace make_trace(const TwinTraceCase& given, const std::vector<double>& times, const std::vector<double>& values,
+                     double first, std::uint64_t seed);
+
+}  // namespace tether
