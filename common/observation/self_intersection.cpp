@@ -58,11 +58,20 @@ class Finder {
     if (shared >= 2) return false;
     return edges_cross(a, b) || edges_cross(b, a);
   }
-  /// An edge of a that has a node in common with b touches b there; its end is not inside b.
+  /// An edge of a with a node of b meets b's plane there and nowhere else. It is not asked: in one plane with b,
+  /// rounding would decide.
   bool edges_cross(std::size_t a, std::size_t b) const {
-    for (int i = 0; i < 3; ++i)
-      if (passes_through(corners_[a].col(i), corners_[a].col((i + 1) % 3), corners_[b])) return true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int first = surface_.triangles[a][i], last = surface_.triangles[a][(i + 1) % 3];
+      if (!has_node(b, first) && !has_node(b, last) &&
+          passes_through(surface_.points.col(first), surface_.points.col(last), corners_[b]))
+        return true;
+    }
     return false;
+  }
+  bool has_node(std::size_t triangle, int node) const {
+    const Triangle& t = surface_.triangles[triangle];
+    return std::find(t.begin(), t.end(), node) != t.end();
   }
 
   const TriangleSurface& surface_;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "common/base/error.hpp"
 #include "tests/observation/lumens.hpp"
 
@@ -39,6 +41,18 @@ TEST(SurfaceCheck, LeavesAGoodSurfaceAlone) {
   EXPECT_EQ(checked.notes, Notes{});
   EXPECT_TRUE(checked.flawed.empty());
   EXPECT_EQ(checked.surface.triangles.size(), 2U * 24 * 12);
+}
+
+/// Triangles of one plane that share a node: rounding must not make them pass through each other.
+TEST(SurfaceCheck, LeavesAStraightObliqueTubeAlone) {
+  TriangleSurface surface = tube(28, 20, 4, [](double) { return 0.8; });
+  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).matrix();
+  surface.points = (turn * surface.points).colwise() + Vec3(-0.4, 6, -9);
+  for (const bool rounded : {false, true}) {
+    if (rounded) surface.points = surface.points.cast<float>().cast<double>().eval();
+    EXPECT_EQ(message_of(surface), "") << rounded;
+    EXPECT_TRUE(checked_surface("a.stl", surface).flawed.empty()) << rounded;
+  }
 }
 
 TEST(SurfaceCheck, RefusesASurfaceWithoutTriangles) {
