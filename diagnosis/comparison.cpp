@@ -4,11 +4,15 @@
 
 namespace tether {
 
-Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunMotion& motion,
-                   const std::function<RunTrace(const std::string&)>& trace) {
+Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunResults& run) {
   Comparison comparison;
-  for (const auto& source : data.lumen) comparison.sources.push_back(compare(*source, region_names, motion));
-  for (const Trace& measured : data.traces) comparison.traces.push_back(compare(measured, trace(measured.observable)));
+  for (const auto& source : data.lumen) comparison.sources.push_back(compare(*source, region_names, run.motion));
+  for (const Trace& trace : data.traces) comparison.traces.push_back(compare(trace, run.trace(trace.observable)));
+  Eigen::Index first = 0;
+  for (const VelocitySeries& series : data.velocities) {
+    comparison.velocities.push_back(compare(series, run.velocity, first));
+    first += series.points().cols();
+  }
   return comparison;
 }
 
@@ -27,6 +31,8 @@ std::vector<std::string> sentences_of(const Comparison& comparison) {
           fmt::format("{}: {} of {} frames are outside the run", source.name, source.outside.size(), source.frames()));
   }
   for (const TraceDiscrepancy& trace : comparison.traces) all.push_back(sentence_of(trace, comparison.units));
+  for (const VelocityDiscrepancy& velocity : comparison.velocities)
+    for (std::string& sentence : sentences_of(velocity, comparison.units)) all.push_back(std::move(sentence));
   return all;
 }
 

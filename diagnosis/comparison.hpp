@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnosis/trace_discrepancy.hpp"
+#include "diagnosis/velocity_discrepancy.hpp"
 #include "diagnosis/verdict.hpp"
 
 namespace tether {
@@ -20,11 +21,18 @@ struct Comparison {
   UnitSystem units = UnitSystem::cgs();
   std::vector<SourceDiscrepancy> sources;
   std::vector<TraceDiscrepancy> traces;
+  std::vector<VelocityDiscrepancy> velocities;
 };
 
-/// Compares everything. `trace`: the column of the run's table with that name.
-Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunMotion& motion,
-                   const std::function<RunTrace(const std::string&)>& trace);
+/// What is compared of a run.
+struct RunResults {
+  RunMotion motion;
+  std::function<RunTrace(const std::string&)> trace;  ///< the column of its table with that name
+  RunVelocity velocity;
+};
+
+/// Compares everything.
+Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunResults& run);
 
 /// What a person should know first, one sentence each: that the run is no evidence, where and when it fails.
 std::vector<std::string> sentences_of(const Comparison& comparison);

@@ -109,17 +109,46 @@ Json source_json(const SourceDiscrepancy& source, const UnitSystem& units) {
 }
 
 Json trace_json(const TraceDiscrepancy& trace) {
-  Json json{{"name", trace.name},
-            {"observable", trace.observable},
-            {"unit", trace.unit},
-            {"values", trace.times.size()},
-            {"values_outside_the_run", trace.outside}};
+  Json json{{"name", trace.name},         {"observable", trace.observable}, {"unit", trace.unit},
+            {"held_out", trace.held_out}, {"values", trace.times.size()},   {"values_outside_the_run", trace.outside}};
   if (trace.times.empty()) return json;
   json.update(Json{{"l2", trace.rms}, {"linf", trace.largest}, {"bias", trace.bias}});
   json["effective_observations"] = trace.effective;
   if (const double unit = trace.noise.deviation; unit > 0)
     json["in_noise"] = {{"l2", trace.rms / unit}, {"linf", trace.largest / unit}, {"bias", trace.bias / unit}};
   if (trace.z()) json["z"] = *trace.z();
+  return json;
+}
+
+Json statistics_json(const VelocityStatistics& s, const VelocityDiscrepancy& velocity) {
+  Json json{{"points", s.used}};
+  if (s.used == 0) return json;
+  json.update(Json{{"l2", s.rms}, {"linf", s.largest}, {"l2_measured", s.measured}});
+  if (velocity.components == 1) json["bias"] = s.bias;
+  if (const double unit = velocity.noise.deviation; unit > 0)
+    json["in_noise"] = {{"l2", s.rms / unit}, {"linf", s.largest / unit}};
+  return json;
+}
+
+Json moment_json(const VelocityMoment& moment, const VelocityDiscrepancy& velocity) {
+  Json json{{"time", moment.time}, {"data_time", moment.data_time}, {"held_out", moment.held_out}};
+  json.update(statistics_json(moment.found, velocity));
+  json["points_outside_the_lumen"] = moment.missed;
+  json["effective_points"] = moment.found.effective;
+  if (const auto z = velocity.z(moment)) json["z"] = *z;
+  return json;
+}
+
+Json velocity_json(const VelocityDiscrepancy& velocity) {
+  Json json{{"name", velocity.name},
+            {"unit", velocity.unit},
+            {"components", velocity.components},
+            {"points", velocity.points},
+            {"frames_outside_the_run", velocity.outside},
+            {"training", statistics_json(velocity.training, velocity)},
+            {"held_out", statistics_json(velocity.held_out, velocity)},
+            {"moments", Json::array()}};
+  for (const VelocityMoment& moment : velocity.moments) json["moments"].push_back(moment_json(moment, velocity));
   return json;
 }
 
@@ -142,6 +171,9 @@ void write_json(const std::filesystem::path& path, const Comparison& comparison)
     json["sources"].push_back(source_json(source, comparison.units));
   json["traces"] = Json::array();
   for (const TraceDiscrepancy& trace : comparison.traces) json["traces"].push_back(trace_json(trace));
+  json["velocities"] = Json::array();
+  for (const VelocityDiscrepancy& velocity : comparison.velocities)
+    json["velocities"].push_back(velocity_json(velocity));
   std::ofstream file(path);
   file << json.dump(1) << std::endl;
   if (!file) throw run_error("{} cannot be written", path.string());

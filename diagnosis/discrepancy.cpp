@@ -53,6 +53,25 @@ void set_effective_numbers(std::vector<Group>& groups, int dimension, double cor
     if (group.series < 0 && of_contours.count(group.region) > 0) group.effective = of_contours[group.region];
 }
 
+/// Frames within a correlation time are alike: over all moments of a kind a group has the mean number of one of them,
+/// times the effective number of moments (D.2).
+void set_pooled_numbers(std::vector<Group>& pooled, const std::vector<Moment>& moments, bool held_out,
+                        double correlation_time) {
+  if (correlation_time <= 0) return;
+  for (std::size_t g = 0; g < pooled.size(); ++g) {
+    std::vector<double> times;
+    double sum = 0;
+    for (const Moment& moment : moments)
+      if (moment.held_out == held_out && moment.groups[g].model.used() > 0) {
+        times.push_back(moment.time);
+        sum += moment.groups[g].effective;
+      }
+    if (times.empty()) continue;
+    const auto count = static_cast<int>(times.size());
+    pooled[g].effective = sum / count * effective_number(times.back() - times.front(), 1, correlation_time, count);
+  }
+}
+
 /// Frames of equal time and kind become one moment; those that the run does not reach are returned apart.
 std::vector<Moment> moments_of(const LumenSeries& data, const RunMotion& run, std::vector<Frame>& outside) {
   const SourceSettings& settings = data.settings();
@@ -99,6 +118,8 @@ SourceDiscrepancy compare(const LumenSeries& data, const std::vector<std::string
   }
   result.training = training.groups();
   result.held_out = held_out.groups();
+  for (auto* groups : {&result.training, &result.held_out})
+    set_pooled_numbers(*groups, result.moments, groups == &result.held_out, result.noise.correlation_time);
   return result;
 }
 

@@ -30,11 +30,12 @@ struct SourceDiscrepancy {
   int dimension = 2;  ///< 2: surfaces, statistics over areas; 1: contours, over lengths
   Noise noise;
   std::vector<std::string> series, regions;
-  std::vector<Moment> moments;            ///< in the order of the run's times
-  std::vector<Group> training, held_out;  ///< over all moments of the kind; without an effective number
-  std::vector<std::string> notes;         ///< what was found and done on loading the data
-  std::vector<Frame> outside;             ///< that the run does not reach
-  std::size_t frames() const;             ///< in and outside the run
+  std::vector<Moment> moments;  ///< in the order of the run's times
+  std::vector<Group> training,
+      held_out;                    ///< over all moments of the kind; an effective number with a correlation time only
+  std::vector<std::string> notes;  ///< what was found and done on loading the data
+  std::vector<Frame> outside;      ///< that the run does not reach
+  std::size_t frames() const;      ///< in and outside the run
 };
 
 /// Compares the lumen of a run with every frame of a source, held-out ones too.

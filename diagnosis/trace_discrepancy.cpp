@@ -17,6 +17,7 @@ std::optional<double> TraceDiscrepancy::z() const {
 
 TraceDiscrepancy compare(const Trace& data, const RunTrace& run) {
   TraceDiscrepancy result{data.name, data.observable, run.unit, data.noise, {}, {}, {}};
+  result.held_out = data.held_out;
   std::vector<std::pair<double, double>> found;
   const double tolerance = 1e-9 * (run.times.back() - run.times.front());
   for (std::size_t i = 0; i < data.times.size(); ++i)
@@ -51,12 +52,12 @@ ShownUnit shown_in(const std::string& unit, const UnitSystem& units) {
 }
 
 std::string sentence_of(const TraceDiscrepancy& trace, const UnitSystem& units) {
-  if (trace.times.empty()) return fmt::format("{}: the run reaches none of its times", trace.name);
+  const std::string name = trace.name + (trace.held_out ? ", held out" : "");
+  if (trace.times.empty()) return fmt::format("{}: the run reaches none of its times", name);
   const auto [factor, unit] = shown_in(trace.unit, units);
   const std::string sigma = trace.z() ? fmt::format(" ({:.1f} sigma)", std::abs(*trace.z())) : "";
-  return fmt::format("{}: {} is {:.3g} {} too {} on average{}, {:.3g} off in root mean square", trace.name,
-                     trace.observable, factor * std::abs(trace.bias), unit, trace.bias > 0 ? "low" : "high", sigma,
-                     factor * trace.rms);
+  return fmt::format("{}: {} is {:.3g} {} too {} on average{}, {:.3g} off in root mean square", name, trace.observable,
+                     factor * std::abs(trace.bias), unit, trace.bias > 0 ? "low" : "high", sigma, factor * trace.rms);
 }
 
 }  // namespace tether

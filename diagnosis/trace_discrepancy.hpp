@@ -15,6 +15,7 @@ struct TraceDiscrepancy {
   int outside = 0;                             ///< measured values at times that the run does not reach
   double rms = 0, largest = 0, bias = 0;       ///< bias: mean of measured minus model
   double effective = 0;                        ///< number of independent values (D.2)
+  bool held_out = false;                       ///< not used to make the model
   std::optional<double> z() const;             ///< of the bias (D.3); nothing without a noise
 };
 

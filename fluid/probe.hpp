@@ -19,4 +19,8 @@ struct Probe {
 /// Throws InputError with the distance from the lumen's surface if no tetrahedron of the mesh holds the position.
 Probe place_probe(const std::string& name, const Vec3& position, const FluidMesh& mesh);
 
+/// A nodal vector field at places of space (3 x n), in the mesh whose nodes stand at `points`; NaN outside of it.
+Points vectors_in_space(const Points& places, const Points& points, const std::vector<Tetrahedron>& tetrahedra,
+                        const Points& field);
+
 }  // namespace tether::fluid

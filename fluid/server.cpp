@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/protocol/announce.hpp"
+#include "fluid/probe.hpp"
 
 namespace tether::fluid {
 namespace {
@@ -88,6 +89,13 @@ protocol::Load FluidServer::operator()(const protocol::FluidTangent& m) {
 protocol::Ready FluidServer::operator()(const protocol::MoveInterface& m) {
   solver_->move_interface(interface_points(m.displacement, "change of the displacement"));
   return {};
+}
+
+protocol::Velocity FluidServer::operator()(const protocol::GetVelocity& m) {
+  if (m.points.size() % 3 != 0) throw run_error("points have {} numbers, not three each", m.points.size());
+  const Points now = solver_->domain().mesh().points + solver_->mesh_displacement(),
+               places = Eigen::Map<const Points>(m.points.data(), 3, static_cast<Eigen::Index>(m.points.size() / 3));
+  return {as_list(vectors_in_space(places, now, solver_->domain().tetrahedra(), solver_->velocity()))};
 }
 
 Points FluidServer::interface_points(const std::vector<double>& values, const char* what) const {

@@ -29,6 +29,7 @@ class FluidServer {
   protocol::Load operator()(const protocol::FluidEvaluate& m);
   protocol::Load operator()(const protocol::FluidTangent& m);
   protocol::Ready operator()(const protocol::MoveInterface& m);
+  protocol::Velocity operator()(const protocol::GetVelocity& m);
 
  private:
   Points interface_points(const std::vector<double>& values, const char* what) const;

@@ -11,6 +11,7 @@
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/observation/flow_observations.hpp"
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupling_case.hpp"
 #include "fsi_master/message_partners.hpp"
@@ -29,10 +30,14 @@ constexpr const char* program_name = "fsi_master " TETHER_VERSION;
 struct MasterCase {
   explicit MasterCase(const fs::path& path) : file(path) {
     file.read("coupling", coupling);
+    ObservationsCase observations;
+    file.read("observations", observations);
     file.finish();
+    flow = load_flow_observations(observations, file);
   }
   CaseFile file;
   CouplingCase coupling;
+  FlowObservations flow;  ///< to record the velocity where it was measured
 };
 
 protocol::Program partner_program(const char* role, const std::string& executable, const CaseFile& file) {
@@ -50,6 +55,7 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
   plan.write_every = common.output.write_every;
   plan.checkpoint_every = common.output.checkpoint_every;
   plan.points = common.output.points;
+  plan.velocity_points = master.flow.points();
   plan.resume = command.resume;
   plan.quiet = command.quiet;
   return plan;
@@ -57,8 +63,8 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
 
 /// Without --resume nothing of an earlier run may be taken for this one's.
 void remove_old_results(const fs::path& output) {
-  for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd", "vtk",
-                           "checkpoint", "checkpoint.new", "checkpoint.previous"})
+  for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "blood.velocity", "fluid.pvd", "solid.pvd",
+                           "vtk", "checkpoint", "checkpoint.new", "checkpoint.previous"})
     fs::remove_all(output / name);
 }
 
@@ -124,6 +130,21 @@ std::unique_ptr<Observer> make_observer(const ObserverCase& observer, Observatio
   return std::make_unique<Observer>(data, fluid, solid, form, interface.reshaped());
 }
 
+/// Throws InputError if a measured velocity has no place in the blood, or the fluid cannot tell its velocity.
+void check_velocities(const FlowObservations& data, FluidPartner& fluid, const CaseFile& file) {
+  for (const VelocitySeries& series : data.velocities) {
+    const std::string where = file.where("observations.velocities." + series.settings().name);
+    Points found;
+    try {
+      found = fluid.velocity_at(series.points()).get();
+    } catch (const StepFailure& failure) {
+      throw input_error("{}: the fluid cannot tell its velocity: {}", where, failure.what());
+    }
+    if (found.array().isNaN().all())
+      throw input_error("{}: none of its {} points lies in the imaged blood", where, found.cols());
+  }
+}
+
 void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   Partner &fluid_process = processes[0], &solid_process = processes[1];
   const InterfaceSurface solid_surface = ask_interface(solid_process), fluid_surface = ask_interface(fluid_process);
@@ -150,6 +171,7 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
     observer = make_observer(master.file.common().observer, *measurements, fluid, solid, solid_surface.points);
     crew.observer = observer.get();
   }
+  check_velocities(master.flow, fluid, master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, options.size);
   const auto before = costs(crew, processes);
@@ -218,10 +240,15 @@ void validate_by(const protocol::Program& partner) {
 void validate(const CommandLine& command) {
   CaseFile file(command.case_file);
   CouplingCase coupling;
+  ObservationsCase observations;
   file.read("coupling", coupling);
+  file.read("observations", observations);
   const std::vector<std::string> arguments{command.case_file.string()};
   Findings findings;
-  findings.of([&] { file.finish(); });
+  findings.of([&] {
+    file.finish();
+    load_flow_observations(observations, file);
+  });
   findings.of([&] { validate_by({"fluid", coupling.programs.fluid, arguments}); });
   findings.of([&] { validate_by({"solid", coupling.programs.solid, arguments}); });
   if (file.common().observer.is_on())

@@ -174,6 +174,14 @@ VectorXd MessageFluid::received(const protocol::Load& load) const {
   return map_.to_solid(load.forces);
 }
 
+Later<Points> MessageFluid::velocity_at(const Points& points) {
+  return ask_later(partner_, protocol::GetVelocity{{points.data(), points.data() + points.size()}},
+                   [this, count = points.cols()](const protocol::Velocity& reply) -> Points {
+                     check_size(reply.values, 3 * count, partner_);
+                     return Eigen::Map<const Points>(reply.values.data(), 3, count);
+                   });
+}
+
 // ---- solid ----------------------------------------------------------------------------------------------------------
 
 std::string MessageSolid::name() const {

@@ -30,6 +30,7 @@ class MessageFluid : public FluidPartner {
   Later<VectorXd> load_change(const VectorXd& velocity_change) override;
   bool has_observer() const override;
   Later<Done> move_interface(const VectorXd& change) override;
+  Later<Points> velocity_at(const Points& points) override;
 
  private:
   VectorXd received(const protocol::Load& load) const;

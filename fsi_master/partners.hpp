@@ -84,6 +84,10 @@ class FluidPartner : public StepPartner {
   /// Between two steps: the interface and the mesh move, nothing flows. Throws StepFailure if the mesh would break;
   /// nothing has changed then.
   virtual Later<Done> move_interface(const VectorXd&) { throw InternalError("no observer"); }
+
+  /// After the last accepted step, at points of space (3 x n); NaN outside the lumen. Throws StepFailure if the code
+  /// cannot tell.
+  virtual Later<Points> velocity_at(const Points&) { throw StepFailure(name() + " does not tell its velocity"); }
 };
 
 /// S: nodal forces -> interface motion; and, from a code that announces operators, its equations themselves.

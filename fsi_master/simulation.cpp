@@ -35,6 +35,7 @@ Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
       series_(plan_.output / "timeseries.csv", columns(), plan_.units),
       motion_(plan_.output / "lumen.motion", crew_.interface) {
   if (crew_.observer != nullptr) loop_.observe(*crew_.observer);
+  if (plan_.velocity_points.cols() > 0) velocity_.emplace(plan_.output / "blood.velocity", plan_.velocity_points);
 }
 
 void Simulation::run() {
@@ -61,7 +62,8 @@ void Simulation::begin() {
   if (!plan_.resume) {
     series_.start();
     motion_.start();
-    motion_.append(plan_.start, displacement());
+    if (velocity_) velocity_->start();
+    record_fields(plan_.start);
     return write_files(0);
   }
   const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
@@ -71,6 +73,7 @@ void Simulation::begin() {
   plan_.last_step = std::max(plan_.last_step, first_step_);
   series_.resume(checkpoint.step);
   motion_.resume(checkpoint.step + 1);
+  if (velocity_) velocity_->resume(checkpoint.step + 1);
 }
 
 void Simulation::advance(std::int64_t step) {
@@ -91,11 +94,16 @@ void Simulation::record(std::int64_t step, const StepRecord& record, double seco
   statistics_.wall_seconds += seconds;
   note_fluid(record.fluid);
   series_.append(row(step, record));
-  motion_.append(plan_.time_at(step), displacement());
+  record_fields(plan_.time_at(step));
   Extent shown;  // absolute, as a person thinks of it
   for (const double relative : {pressure_now_.min, pressure_now_.max})
     if (!pressure_now_.empty()) shown.add(plan_.image_pressure + relative);
   progress_->show({step, plan_.time_at(step), record.evaluations, shown, largest_displacement()});
+}
+
+void Simulation::record_fields(double time) {
+  motion_.append(time, displacement());
+  if (velocity_) velocity_->append(time, crew_.fluid.velocity_at(velocity_->points()).get());
 }
 
 /// Takes the mass balance and the pressures out of the fluid's observables, which it names as docs/protocol.md says.

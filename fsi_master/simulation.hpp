@@ -21,8 +21,9 @@ struct RunPlan {
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
   bool resume = false, quiet = false;
-  double image_pressure = 0;  ///< to which the run's pressures are relative
-  Named<Vec3> points;         ///< their displacement is recorded
+  double image_pressure = 0;              ///< to which the run's pressures are relative
+  Named<Vec3> points;                     ///< their displacement is recorded
+  Points velocity_points = Points(3, 0);  ///< of space, where the velocity is recorded [length]
 
   double time_at(std::int64_t step) const { return start + static_cast<double>(step) * dt; }
 };
@@ -63,6 +64,7 @@ class Simulation {
   void begin();
   void advance(std::int64_t step);
   void record(std::int64_t step, const StepRecord& record, double seconds);
+  void record_fields(double time);
   std::vector<double> row(std::int64_t step, const StepRecord& record) const;
   std::vector<Column> columns() const;
   void note_fluid(const std::vector<double>& observables);
@@ -80,6 +82,7 @@ class Simulation {
   std::vector<FollowedNode> followed_;
   TimeSeries series_;
   LumenMotionWriter motion_;
+  std::optional<BloodVelocityWriter> velocity_;
   RunStatistics statistics_;
   Extent pressure_now_;
   std::int64_t first_step_ = 0;

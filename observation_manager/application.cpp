@@ -12,20 +12,37 @@
 namespace tether {
 namespace {
 
+const std::string lumen_role = "solid_observation", flow_role = "fluid_observation";
+
 std::string effective_section(ObservedCase& observed) {
   return echo_json("observations", observed.observations);
 }
 
+ObservationServer lumen_server(const CommandLine& command) {
+  ObservedCase observed(command.case_file);
+  if (!observed.observations.has_lumen_data())
+    throw input_error("{}: names no surfaces or contours to compare the lumen with",
+                      observed.file.where("observations"));
+  const LumenSurface lumen = observed.lumen();
+  return {load_observations(observed.observations, lumen, observed.file), lumen.points.cols(),
+          effective_section(observed)};
+}
+
+FlowObservationServer flow_server(const CommandLine& command) {
+  ObservedCase observed(command.case_file);
+  FlowObservations data = load_flow_observations(observed.observations, observed.file);
+  if (data.empty())
+    throw input_error("{}: names no traces or velocities to compare the blood with",
+                      observed.file.where("observations"));
+  return {std::move(data), observed.file.units(), effective_section(observed)};
+}
+
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToObservation>("solid_observation", [&command](const protocol::Welcome&) {
-    ObservedCase observed(command.case_file);
-    if (!observed.observations.has_lumen_data())
-      throw input_error("{}: names no surfaces or contours to compare the lumen with",
-                        observed.file.where("observations"));
-    const LumenSurface lumen = observed.lumen();
-    return ObservationServer(load_observations(observed.observations, lumen, observed.file), lumen.points.cols(),
-                             effective_section(observed));
-  });
+  if (command.role == flow_role)
+    return protocol::run_partner<protocol::ToFlowObservation>(
+        flow_role, [&command](const protocol::Welcome&) { return flow_server(command); });
+  return protocol::run_partner<protocol::ToObservation>(
+      lumen_role, [&command](const protocol::Welcome&) { return lumen_server(command); });
 }
 
 void validate(const CommandLine& command) {
@@ -42,8 +59,8 @@ Program observation_program() {
   return {
       .name = "observation_manager",
       .purpose =
-          "The measurements of a case: how far the moving lumen is from segmented surfaces and contours. Started by "
-          "a master.",
+          "The measurements of a case: how far the moving lumen is from segmented surfaces and contours, or the blood "
+          "from measured pressures, flows and velocities. Started by a master.",
       .declare =
           [](Fields& fields) {
             MeshCase mesh;
@@ -52,7 +69,8 @@ Program observation_program() {
             fields.group("observations", observations, meaning_of_section("observations"));
           },
       .validate = validate,
-      .run = run};
+      .run = run,
+      .roles = {lumen_role, flow_role}};
 }
 
 }  // namespace tether

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct MeasuredCase : ObservedCase {
   explicit MeasuredCase(const fs::path& path)
       : ObservedCase(path), surface(lumen()), data(load_observations(observations, surface, file)) {
-    if (data.lumen.empty() && data.traces.empty())
+    if (data.lumen.empty() && data.empty())
       throw input_error("{}: names nothing that was measured", file.where("observations"));
   }
   LumenSurface surface;
@@ -29,11 +29,20 @@ RunTrace trace_of(const CsvTable& table, const std::string& column) {
   return {table.numbers("time"), table.numbers(column), table.unit(column)};
 }
 
+/// The velocity that the run recorded, if any was measured.
+RunVelocity velocity_of(const FinishedRun& run, const MeasuredCase& measured) {
+  if (!run.velocity) return {};
+  return {run.velocity->times().front(), run.velocity->times().back(),
+          [&run](double time) { return run.velocity->vectors_at(time); },
+          measured.file.units().symbol(dimension::velocity)};
+}
+
 Comparison comparison_of(const MeasuredCase& measured, const FinishedRun& run, const RunMotion& motion,
                          const fs::path& output) {
   const CsvTable table(output / "timeseries.csv");
-  Comparison comparison = compare(measured.data, measured.surface.region_names, motion,
-                                  [&table](const std::string& column) { return trace_of(table, column); });
+  Comparison comparison = compare(
+      measured.data, measured.surface.region_names,
+      {motion, [&table](const std::string& column) { return trace_of(table, column); }, velocity_of(run, measured)});
   const CommonCase& common = measured.file.common();
   comparison.units = measured.file.units();
   comparison.run = {common.name, common.title, output.string(), run.steps, motion.start, motion.end, run.observer_gain};
@@ -63,7 +72,7 @@ int compare(const CommandLine& command) {
   check_case(command);
   const MeasuredCase measured(command.case_file);
   const fs::path output = output_of(command, measured.file);
-  if (const int code = provide_run(command, measured.file, output); code != exit_done) return code;
+  if (const int code = provide_run(command, measured.file, output, measured.data.points()); code != exit_done) return code;
   const FinishedRun run(output);
   const RunMotion motion = motion_of(run, measured.surface);
   const Comparison comparison = comparison_of(measured, run, motion, output);

@@ -15,7 +15,7 @@ struct DrawnComparison {
 };
 
 /// Per source the distances of each region over time, beside the data's own motion, and each trace:
-/// comparison_SOURCE.png, trace_NAME.png. Returns the names; none without gnuplot.
+/// comparison_SOURCE.png, trace_NAME.png, velocity_NAME.png. Returns the names; none without gnuplot.
 std::vector<std::string> draw_distances(const DrawnComparison& drawn);
 
 /// Model and data over each other in every slice, at the worst moment and at that of the largest lumen:

@@ -89,6 +89,29 @@ std::string script(const TraceDiscrepancy& trace, const std::string& png, const 
              png, trace.observable, unit, trace.name);
 }
 
+/// Rows of one kind: time, rms of the difference, of the measured velocity [m/s].
+std::string rows(const VelocityDiscrepancy& velocity, bool held_out, double metres) {
+  std::string text;
+  for (const VelocityMoment& moment : velocity.moments)
+    if (moment.held_out == held_out && moment.found.used > 0)
+      text += fmt::format("{} {} {}\n", moment.time, metres * moment.found.rms, metres * moment.found.measured);
+  return text;
+}
+
+std::string script(const VelocityDiscrepancy& velocity, const std::string& png, const UnitSystem& units) {
+  const double metres = units.in_si(dimension::velocity);
+  const std::string held_out = rows(velocity, true, metres);
+  std::string text = gnuplot_head(1000, 600) + block("training", rows(velocity, false, metres));
+  if (!held_out.empty()) text += block("held_out", held_out);
+  text += fmt::format(
+      "set output 'plots/{}'\nset xlabel 'time [s]'\nset ylabel 'velocity, root mean square [m/s]'\nset title '{}'\n"
+      "set yrange [0:*]\nplot $training using 1:3 with linespoints dashtype 2 title 'measured', "
+      "$training using 1:2 with linespoints linewidth 2 pointtype 7 title 'measured minus model'",
+      png, velocity.name);
+  if (!held_out.empty()) text += ", $held_out using 1:2 with points pointtype 4 pointsize 1.4 title 'held out'";
+  return text + "\n";
+}
+
 }  // namespace
 
 std::vector<std::string> draw_distances(const DrawnComparison& drawn) {
@@ -104,6 +127,12 @@ std::vector<std::string> draw_distances(const DrawnComparison& drawn) {
     if (trace.times.empty()) continue;
     const std::string name = "trace_" + file_name(trace.name);
     run_gnuplot(drawn.output, name + ".gp", script(trace, name + ".png", drawn.comparison.units));
+    pictures.push_back(name + ".png");
+  }
+  for (const VelocityDiscrepancy& velocity : drawn.comparison.velocities) {
+    if (velocity.training.used == 0) continue;
+    const std::string name = "velocity_" + file_name(velocity.name);
+    run_gnuplot(drawn.output, name + ".gp", script(velocity, name + ".png", drawn.comparison.units));
     pictures.push_back(name + ".png");
   }
   return pictures;

@@ -93,7 +93,15 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
   return std::nullopt;
 }
 
+std::optional<std::string> why_no_velocity(const fs::path& output, const Points& points) {
+  if (points.cols() == 0) return std::nullopt;
+  const fs::path file = output / "blood.velocity";
+  if (fs::exists(file) && BloodVelocity(file).points() == points) return std::nullopt;
+  return fmt::format("the run in {} did not record the velocity at the points of these measurements", output.string());
+}
+
 FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion") {
+  if (fs::exists(output / "blood.velocity")) velocity.emplace(output / "blood.velocity");
   const Json summary = summary_of(output);
   steps = summary.value("steps", 0);
   observer_gain = largest_gain(summary.value("/effective_case/observer"_json_pointer, Json::object()));

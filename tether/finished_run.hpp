@@ -15,11 +15,15 @@ namespace tether {
 /// observer, of observations.
 std::optional<std::string> why_not_run(const std::filesystem::path& output, const CaseFile& file, int steps);
 
+/// Why such a run cannot be compared with velocities measured at these points; nothing if it can.
+std::optional<std::string> why_no_velocity(const std::filesystem::path& output, const Points& points);
+
 /// What a finished run left of its lumen, and the facts of its summary.
 struct FinishedRun {
   /// Throws InputError if the folder holds none.
   explicit FinishedRun(const std::filesystem::path& output);
   LumenMotion motion;
+  std::optional<BloodVelocity> velocity;  ///< if the case had measurements of it
   int steps = 0;
   double observer_gain = 0;  ///< the largest by which a region was pulled toward the data [1/time]
 };

@@ -65,8 +65,10 @@ int simulate(const CommandLine& command) {
   return exit_done;
 }
 
-int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output) {
-  const auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
+int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
+                const Points& measured_at) {
+  auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
+  if (!why) why = why_no_velocity(output, measured_at);
   if (!why) return exit_done;
   if (!command.quiet) std::cout << *why << ": simulating first\n" << std::flush;
   return simulate(command);

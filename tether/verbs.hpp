@@ -8,8 +8,10 @@ namespace tether {
 /// Checks the case, runs it, draws plots and says where to look. Returns the run's exit code.
 int simulate(const CommandLine& command);
 
-/// Simulates the command's case, which is `file`, unless the output folder holds that run. Returns the exit code.
-int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output);
+/// Simulates the command's case, which is `file`, unless the output folder holds that run, with the blood's velocity at
+/// `measured_at`. Returns the exit code.
+int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
+                const Points& measured_at = Points(3, 0));
 
 /// Sets a finished run of the case against its measurements: comparison.json and .csv, drawings, a summary. Simulates
 /// first if there is no such run. Returns the run's exit code.

@@ -26,7 +26,7 @@ struct Typed {
   std::string describe_format;
 };
 
-void add_options(CLI::App& app, Typed& typed) {
+void add_options(CLI::App& app, const Program& program, Typed& typed) {
   CommandLine& c = typed.command;
   app.add_option("case", c.case_file, "the case file")->type_name("CASE.yaml");
   app.add_flag("--validate", c.validate, "check the case and all it refers to, then end");
@@ -41,6 +41,11 @@ void add_options(CLI::App& app, Typed& typed) {
   app.add_option("--processes", c.processes, "processes to share the work between")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
+  if (!program.roles.empty()) {
+    c.role = program.roles.front();
+    app.add_option("--role", c.role, "what it is to its master (default " + c.role + ")")
+        ->check(CLI::IsMember(program.roles));
+  }
   app.add_flag("--resume", c.resume, "continue from the last checkpoint in the output folder");
   app.add_flag("--overwrite", c.overwrite, "replace another case's results in the output folder");
   app.add_flag("--quiet", c.quiet, "print errors only");
@@ -77,7 +82,7 @@ int run_main(int argc, char** argv, const Program& program) {
   prepare_process();
   Typed typed;
   CLI::App app(program.purpose, program.name);
-  add_options(app, typed);
+  add_options(app, program, typed);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

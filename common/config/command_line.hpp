@@ -14,6 +14,7 @@ struct CommandLine {
   std::filesystem::path case_file;
   std::filesystem::path output;  ///< empty: out/NAME of the case
   std::optional<int> steps;      ///< stop after that many, whatever the case says
+  std::string role;              ///< one of the program's roles; empty if it has but one
   int processes = 0;             ///< to share the work between; 0: the program decides
   bool validate = false, resume = false, overwrite = false, quiet = false;
 };
@@ -29,6 +30,8 @@ struct Program {
   std::function<void(const CommandLine&)> validate = {};
   /// Returns the exit code.
   std::function<int(const CommandLine&)> run = {};
+  /// What it may be, the first by default, if there is a choice: --role.
+  std::vector<std::string> roles = {};
   bool needs_case = true;
 };
 

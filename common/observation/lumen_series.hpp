@@ -6,16 +6,10 @@
 
 #include "common/observation/frame_times.hpp"
 #include "common/observation/lumen_surface.hpp"
+#include "common/observation/noise.hpp"
 #include "common/observation/sample.hpp"
 
 namespace tether {
-
-/// What is known of the errors of a source.
-struct Noise {
-  double deviation = 0;           ///< of a distance [length]; 0: not stated
-  double correlation_length = 0;  ///< along the wall [length]
-  double correlation_time = 0;    ///< [time]
-};
 
 /// What all sources of lumen data have in common.
 struct SourceSettings {

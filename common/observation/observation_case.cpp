@@ -86,13 +86,36 @@ void TraceCase::declare(Fields& f) {
   f.when("quantity", quantity, {"pressure"}, [&] {
     f.flag("absolute", absolute, "the pressure of the image is subtracted, to which the run's pressures are relative");
   });
+  f.flag("held_out", held_out, "the model never sees it: it judges");
   f.group("noise", noise, "errors of the values");
+}
+
+void VelocitiesCase::declare(Fields& f) {
+  f.path("file", file, "CSV file with the columns time, x, y, z and vx, vy, vz, or v, units in the headings",
+         Need::required);
+  f.choice("components", components,
+           {{"vector", "all three: columns vx, vy, vz"},
+            {"along", "the one along `direction`, as through a plane of phase-contrast MR: column v"}},
+           "what of the velocity was measured");
+  f.when("components", components, {"along"},
+         [&] { f.point("direction", direction, dimension::none, "in which v is positive; of any length"); });
+  f.number("beat", beat, dimension::time, range::positive,
+           "duration of a beat, if the file's times are fractions of it; the series then repeats after it");
+  f.number("period", period, dimension::time, range::positive, "the series repeats after this time");
+  f.check(!(beat && period), "period", "give either beat or period");
+  f.check(components != "along" || !direction.allFinite() || direction.norm() > 0, "direction", "must not be zero");
+  f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");
+  f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
+            "numbers of frames (from 0) that the model never sees: they judge it");
+  f.group("noise", noise, "errors of a component");
 }
 
 void ObservationsCase::declare(Fields& f) {
   f.groups("surfaces", surfaces, "segmented surfaces of the lumen, by name");
   f.groups("contours", contours, "contours of the lumen in slices, by name");
   f.groups("traces", traces, "measured pressures and flows, by name");
+  f.groups("velocities", velocities,
+           "velocities of the blood measured at points of space, on planes as a rule, by name");
 }
 
 }  // namespace tether

@@ -50,8 +50,20 @@ struct TraceCase {
   std::string observable, quantity;
   CurveCase curve = CurveCase(Dimension{});
   double time_shift = 0;
-  bool absolute = true;
+  bool absolute = true, held_out = false;
   NoiseCase noise;
+  void declare(Fields& f);
+};
+
+/// Velocities at points of space, as phase-contrast MR measures them on planes.
+struct VelocitiesCase {
+  std::filesystem::path file;
+  std::string components = "vector";
+  Vec3 direction = Vec3::Constant(undefined);
+  std::optional<double> beat, period;
+  double time_shift = 0;
+  std::vector<double> held_out;
+  NoiseCase noise{dimension::velocity};
   void declare(Fields& f);
 };
 
@@ -59,6 +71,7 @@ struct ObservationsCase {
   Named<SurfacesCase> surfaces;
   Named<SlicesCase> contours;
   Named<TraceCase> traces;
+  Named<VelocitiesCase> velocities;
   void declare(Fields& f);
   bool has_lumen_data() const { return !surfaces.empty() || !contours.empty(); }
 };

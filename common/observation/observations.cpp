@@ -44,10 +44,6 @@ std::vector<Exclusion> excluded_nodes(const LumenDataCase& data, const LumenSurf
   return excluded;
 }
 
-Noise noise_of(const NoiseCase& given) {
-  return {given.deviation, given.correlation_length, given.correlation_time};
-}
-
 SourceSettings settings_of(const LumenDataCase& data, double period, const LumenSurface& lumen, const Place& place) {
   SourceSettings settings;
   settings.name = place.field.substr(place.field.rfind('.') + 1);
@@ -144,16 +140,14 @@ std::unique_ptr<LumenSeries> load(const SlicesCase& given, const LumenSurface& l
   return series;
 }
 
-Trace load(const std::string& name, const TraceCase& given, const CaseFile& file) {
-  CurveCase::Table table = given.curve.table(file.units());
-  const bool shifted = given.quantity == "pressure" && given.absolute;
-  for (double& time : table.times) time += given.time_shift;
-  for (double& value : table.values) value = given.curve.scale * value - (shifted ? file.common().image.pressure : 0);
-  const double period = given.curve.period.value_or(0);
-  Curve curve(table.times, table.values, {.period = period});
-  return {
-      name,  given.observable, std::move(table.times), std::move(table.values), std::move(curve), noise_of(given.noise),
-      period};
+/// Some place where a velocity was measured must lie in the box of the lumen.
+void check_overlap(const VelocitySeries& series, const LumenSurface& lumen, const CaseFile& file) {
+  const Vec3 low = lumen.points.rowwise().minCoeff(), high = lumen.points.rowwise().maxCoeff();
+  for (const auto& x : series.points().colwise())
+    if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all()) return;
+  throw input_error("{}: does not overlap the model: {}",
+                    file.where("observations.velocities." + series.settings().name),
+                    placement(series.points(), lumen.points));
 }
 
 }  // namespace
@@ -176,12 +170,12 @@ std::vector<std::string> Observations::notes() const {
 }
 
 Observations load_observations(const ObservationsCase& given, const LumenSurface& lumen, const CaseFile& file) {
-  Observations result;
+  Observations result{load_flow_observations(given, file), {}};
   for (const auto& [name, source] : given.surfaces)
     result.lumen.push_back(load(source, lumen, {file, "observations.surfaces." + name}));
   for (const auto& [name, source] : given.contours)
     result.lumen.push_back(load(source, lumen, {file, "observations.contours." + name}));
-  for (const auto& [name, trace] : given.traces) result.traces.push_back(load(name, trace, file));
+  for (const VelocitySeries& series : result.velocities) check_overlap(series, lumen, file);
   return result;
 }
 

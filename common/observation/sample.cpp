@@ -5,7 +5,8 @@ namespace tether {
 std::string_view meaning_of(Exclusion exclusion) {
   constexpr std::array<std::string_view, exclusion_count> meanings{
       "observed",    "beside an open rim",        "farther than the trust distance", "in a masked region",
-      "near an end", "where the data are flawed", "at a time without frames",        "missed by the model"};
+      "near an end", "where the data are flawed", "at a time without frames",        "missed by the model",
+      "held out"};
   return meanings[static_cast<std::size_t>(exclusion)];
 }
 

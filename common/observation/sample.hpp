@@ -9,8 +9,8 @@
 namespace tether {
 
 /// Why a place of the model has no observation.
-enum class Exclusion { none, rim, too_far, masked, near_end, flawed, no_frame, missed };
-inline constexpr std::size_t exclusion_count = 8;
+enum class Exclusion { none, rim, too_far, masked, near_end, flawed, no_frame, missed, held_out };
+inline constexpr std::size_t exclusion_count = 9;
 /// "beside the rim", ... for reports.
 std::string_view meaning_of(Exclusion exclusion);
 

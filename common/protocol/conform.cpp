@@ -57,6 +57,7 @@ class Examiner {
   std::string reject();
   std::string accept();
   std::string tangent();
+  std::string velocity();
   std::string operators();
   std::string operator_derivative();
   std::string state();
@@ -98,6 +99,7 @@ std::vector<Check> Examiner::run() {
       {"a rejected step leaves no trace", &Examiner::reject},
       {"an accepted step reports its observables", &Examiner::accept},
       {"tangent is the derivative of the evaluation", &Examiner::tangent},
+      {"tells its velocity inside, and none outside", &Examiner::velocity},
       {"operators are symmetric", &Examiner::operators},
       {"product is the derivative of the residual", &Examiner::operator_derivative},
       {"a state set again continues bit for bit", &Examiner::state},
@@ -265,6 +267,24 @@ Numbers Examiner::unknowns(double phase) const {
   Numbers values(static_cast<std::size_t>(partner_.hello().unknowns));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(phase + 0.37 * static_cast<double>(i * i % 101));
   return values;
+}
+
+/// At a place beneath each triangle of the interface, a twentieth of its size deep; and far away.
+std::string Examiner::velocity() {
+  if (partner_.role() != "fluid") throw Skipped("is no fluid");
+  Numbers places = beneath(surface_);
+  const std::size_t inside = places.size();
+  for (const double far : {1e6, 1e6, 1e6}) places.push_back(far);
+  Numbers found;
+  try {
+    found = partner_.ask(GetVelocity{places}).values;
+  } catch (const PartnerFailed&) {
+    throw Skipped("does not tell its velocity");
+  }
+  require(found.size() == places.size(), "{} numbers instead of {}", found.size(), places.size());
+  require(all_finite({found.begin(), found.begin() + static_cast<std::ptrdiff_t>(inside)}), "none in the lumen");
+  for (std::size_t i = inside; i < found.size(); ++i) require(std::isnan(found[i]), "one outside the lumen");
+  return fmt::format("{} places", inside / 3);
 }
 
 std::string Examiner::operators() {

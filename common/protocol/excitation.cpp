@@ -77,6 +77,17 @@ Shape::Shape(const Interface& surface) : area_vectors(surface.points.size()) {
   outwardness /= size * area;
 }
 
+Numbers beneath(const Interface& surface) {
+  Numbers places;
+  for (std::size_t t = 0; t + 2 < surface.triangles.size(); t += 3) {
+    const auto corner = [&](std::size_t i) { return node(surface.points, surface.triangles[t + i]); };
+    const Vector a = corner(0), b = corner(1), c = corner(2), normal = cross(b - a, c - a);
+    const double depth = 0.05 / std::pow(inner(normal, normal), 0.25);  // over the normal's length, twice the area
+    for (std::size_t d = 0; d < 3; ++d) places.push_back((a[d] + b[d] + c[d]) / 3 - depth * normal[d]);
+  }
+  return places;
+}
+
 Excitation::Excitation(Partner& partner, const Interface& surface, double dt)
     : partner_(partner), dt_(dt), displacement_(surface.points.size()), last_motion_(displacement_) {
   const Shape shape(surface);

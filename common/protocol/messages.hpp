@@ -130,6 +130,19 @@ struct Correction {
   std::vector<double> displacement;  ///< or its rate, for a drift
   TETHER_MESSAGE(Correction, displacement)
 };
+/// The blood's velocity at points of space.
+struct Velocity {
+  std::vector<double> values;  ///< three a point; NaN outside the lumen
+  TETHER_MESSAGE(Velocity, values)
+};
+/// How far measured pressures, flows and velocities are from the run's, always as many and in the same order.
+struct FlowDiscrepancy {
+  std::vector<double> differences;       ///< measured minus the run's, in the unit of the source; 0: no observation
+  std::vector<double> deviations;        ///< standard deviation of the measurement's errors; 0: not known
+  std::vector<std::int64_t> sources;     ///< which data: number in Hello's list of observables
+  std::vector<std::int64_t> exclusions;  ///< why there is no observation; 0: there is one
+  TETHER_MESSAGE(FlowDiscrepancy, differences, deviations, sources, exclusions)
+};
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
   TETHER_MESSAGE(Usage, cpu_seconds, peak_memory_mb)
@@ -219,6 +232,14 @@ struct FluidTangent {
   TETHER_MESSAGE(FluidTangent, velocity_change)
 };
 
+/// The velocity at points of space, where the mesh stands after the last accepted step. A fluid that cannot tell
+/// answers Failure.
+struct GetVelocity {
+  using Reply = Velocity;
+  std::vector<double> points;
+  TETHER_MESSAGE(GetVelocity, points)
+};
+
 // ---- master -> solid ------------------------------------------------------------------------------------------------
 
 /// Nodal forces on the interface: solve the step.
@@ -291,15 +312,26 @@ struct Observe {
   TETHER_MESSAGE(Observe, time, points)
 };
 
+/// What a run says at a time: its numbers by the names of timeseries.csv, and the velocity at the points that the
+/// manager named as its Interface.
+struct ObserveFlow {
+  using Reply = FlowDiscrepancy;
+  double time = 0;
+  std::vector<std::string> names;
+  std::vector<double> values, velocities;  ///< velocities: three a point, NaN outside the lumen
+  TETHER_MESSAGE(ObserveFlow, time, names, values, velocities)
+};
+
 #undef TETHER_MESSAGE
 #undef TETHER_FIELDS
 
 /// Any message in one direction. Its index here is its MPI tag.
-using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write,
-                               Stop, FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual,
-                               SolidProduct, SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface>;
+using ToPartner =
+    std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
+                 FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual, SolidProduct,
+                 SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface, GetVelocity, ObserveFlow>;
 using ToMaster = std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion,
-                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction>;
+                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction, Velocity, FlowDiscrepancy>;
 
 /// What each role must be able to answer: a handler for each is asked for at compile time (serve.hpp, which answers
 /// GetUsage itself).
@@ -307,12 +339,14 @@ using ToFluid = std::variant<GetInterface, SetParameters, GetState, SetState, Be
                              FluidEvaluate, FluidTangent>;
 using ToSolid = std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
                              SolidEvaluate, SolidTangent, SolidResidual, SolidProduct, SolidPrecondition>;
-/// The same with a state observer.
+/// The same with a state observer, and of a fluid that tells its velocity.
 using ToObservedFluid = std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
-                                     FluidEvaluate, FluidTangent, MoveInterface>;
+                                     FluidEvaluate, FluidTangent, MoveInterface, GetVelocity>;
 using ToObservedSolid =
     std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop, SolidEvaluate,
                  SolidTangent, SolidResidual, SolidProduct, SolidPrecondition, Correct, Withdraw>;
+/// A manager of measurements of the lumen; of the blood.
 using ToObservation = std::variant<SetParameters, Write, Stop, Observe>;
+using ToFlowObservation = std::variant<GetInterface, SetParameters, Write, Stop, ObserveFlow>;
 
 }  // namespace tether::protocol

@@ -74,6 +74,21 @@ TEST(Discrepancy, KeepsHeldOutFramesApart) {
   EXPECT_EQ(std::count_if(found.moments.begin(), found.moments.end(), [](const Moment& m) { return m.held_out; }), 2);
 }
 
+/// Six of eight frames, from 0 to 0.875, are training data; errors are alike for 0.125: 3.5 frames.
+TEST(Discrepancy, CountsFramesWithinACorrelationTimeOnce) {
+  const SourceDiscrepancy without = compare(beating_surfaces({0.02, 0.25, 0}), regions, beating_run(1)),
+                          with = compare(beating_surfaces({0.02, 0.25, 0.125}), regions, beating_run(1));
+  EXPECT_EQ(without.training[0].effective, 0);
+  double sum = 0;
+  int count = 0;
+  for (const Moment& moment : with.moments)
+    if (!moment.held_out) sum += moment.groups[0].effective, ++count;
+  ASSERT_EQ(count, 6);
+  const double covered = with.moments.back().time - with.moments.front().time;
+  EXPECT_NEAR(with.training[0].effective, sum / 6 * covered / 0.25, 1e-9);
+  EXPECT_LT(with.training[0].effective, sum);
+}
+
 TEST(Discrepancy, AddsUpTheEffectiveNumbersOfSlices) {
   const Noise noise{0.02, 0.25, 0};
   const SourceDiscrepancy found = compare(beating_contours(noise, {0, 0}), regions, beating_run(1));

@@ -108,6 +108,28 @@ TEST(FluidServer, SpeaksTheProtocol) {
   EXPECT_TRUE(std::filesystem::exists(test_folder() / "fluid.pvd"));
 }
 
+TEST(FluidServer, TellsTheVelocityWhereItsMeshStands) {
+  auto handler = std::make_shared<FluidServer>(make_server());
+  protocol::Partner fluid = protocol::in_process_partner<protocol::ToObservedFluid>("fluid", handler);
+  const auto surface = fluid.ask(protocol::GetInterface{});
+  std::vector<double> wider = surface.points;
+  for (std::size_t i = 0; i < wider.size(); ++i) wider[i] *= i % 3 == 2 ? 0 : 0.1;
+  std::vector<double> velocity = wider;
+  for (double& v : velocity) v /= 0.01;
+  fluid.ask(protocol::BeginStep{1, 0, 0.01, wider});
+  fluid.ask(protocol::FluidEvaluate{wider, velocity});
+  fluid.ask(protocol::EndStep{true});
+  const Vec3 beyond(surface.points[0], surface.points[1], 1);  // of the imaged wall: the lumen is wider now
+  const double out = 1.05 / beyond.head<2>().norm();
+  const auto answer =
+      fluid.ask(protocol::GetVelocity{{0, 0, 1, out * beyond[0], out * beyond[1], 1, 2 * beyond[0], 2 * beyond[1], 1}});
+  ASSERT_EQ(answer.values.size(), 9U);
+  EXPECT_TRUE(std::isfinite(answer.values[2]));
+  EXPECT_GT(answer.values[3] * beyond[0] + answer.values[4] * beyond[1], 0) << "the wall moves outward";
+  EXPECT_TRUE(std::isnan(answer.values[6]));
+  EXPECT_THROW(handler->operator()(protocol::GetVelocity{{0, 0}}), RunError);
+}
+
 TEST(FluidServer, AnswersMistakesWithTheirReason) {
   FluidServer server = make_server();
   EXPECT_THROW(server(protocol::BeginStep{1, 0, 0.01, {0, 0}}), RunError);

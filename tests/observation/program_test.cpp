@@ -6,6 +6,7 @@
 
 #include "common/base/child_process.hpp"
 #include "common/observation/observed_case.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/protocol/run_job.hpp"
 
 namespace tether {
@@ -60,6 +61,34 @@ TEST(ObservationManager, RefusesAnotherLumen) {
   const tests::JobResult job = ask({"0.2", "5"});
   EXPECT_EQ(job.exit_code, 1);
   EXPECT_NE(job.errors.find("the lumen has 15 numbers; its "), std::string::npos) << job.errors;
+}
+
+/// The other role: pressures, flows and velocities of a run.
+TEST(ObservationManager, AnswersWhatTheBloodIsOff) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "time [s], value [dyn/cm2]\n0, 100\n1, 200\n");
+  folder.file(
+      "v.csv",
+      "time [s], x [cm], y [cm], z [cm], vx [cm/s], vy [cm/s], vz [cm/s]\n0, 0, 0, 1, 1, 2, 3\n1, 0, 0, 1, 3, 4, 5\n");
+  folder.file(
+      "case.yaml",
+      "name: blood\nunits: cgs\ntime: {step: 1e-2, end: 1}\nmesh: {source: swept, swept: {radius: 1, length: "
+      "3, wall_thickness: 0.1, around: 12, along: 6}}\nobservations:\n"
+      "  traces: {cuff: {observable: fluid.outlet.pressure, quantity: pressure, curve: {file: p.csv}}}\n"
+      "  velocities: {pc_mr: {file: v.csv, noise: {deviation: 2}}}\n");
+  const tests::JobResult job =
+      tests::run_job({tests::test_program("ask_flow_observation"), tests::product_program("observation_manager"),
+                      (folder / "case.yaml").string()});
+  ASSERT_EQ(job.exit_code, 0) << job.errors;
+  EXPECT_EQ(job.output,
+            "cuff [g/(cm s2)]\npc_mr [cm/s]\nplace 0 0 1\n"
+            "50 0 0 0\n-8 2 1 0\n3 2 1 0\n4 2 1 0\n");
+  const tests::JobResult none =
+      tests::run_job({tests::test_program("ask_flow_observation"), tests::product_program("observation_manager"),
+                      "configs/tube/case.yaml"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.errors.find("names no traces or velocities to compare the blood with"), std::string::npos)
+      << none.errors;
 }
 
 /// Root mean square of the distances at a time [mm].

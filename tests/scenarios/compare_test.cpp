@@ -139,6 +139,48 @@ TEST_F(Compare, FindsWhatWasDoneToTheDataAndKeepsTheRun) {
     EXPECT_GT(fs::file_size(output / "plots" / name), 5000U) << name;
 }
 
+/// Velocities that no run has recorded yet, then others at the same points: 10 cm/s more than the run's, along the
+/// tube.
+TEST_F(Compare, RecordsVelocitiesWhereTheyAreMeasured) {
+  const std::string heading = "time [s], x [cm], y [cm], z [cm], v [cm/s]\n";
+  const Points places{{0, 0.3, 5}, {0, 0.2, 0}, {2, 2, 2}};
+  const auto write = [&](const std::function<double(double, Eigen::Index)>& velocity) {
+    std::ofstream file(folder / "plane.csv");
+    file << heading;
+    for (const double time : {0.004, 0.010, 0.016})
+      for (Eigen::Index i = 0; i < places.cols(); ++i)
+        file << fmt::format("{}, {}, {}, {}, {:.12g}\n", time, places(0, i), places(1, i), places(2, i),
+                            velocity(time, i));
+  };
+  write([](double, Eigen::Index) { return 0.0; });
+  std::string text = content_of(run / "case" / "case.yaml");
+  text.replace(text.find("output:"), 7,
+               "observations:\n  velocities: {pc_mr: {file: " + (folder / "plane.csv").string() +
+                   ", components: along, direction: [0, 0, 1], held_out: [1]}}\n\noutput:");
+  std::ofstream(compared) << text;
+  fs::remove_all(output);
+  ChildEnd end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  const BloodVelocity recorded(output / "blood.velocity");
+  EXPECT_EQ(recorded.times().size(), 9U) << "the start and eight steps";
+  EXPECT_TRUE(recorded.vectors_at(0.016).col(2).array().isNaN().all()) << "outside the lumen";
+  EXPECT_GT(recorded.vectors_at(0.016)(2, 0), 1) << "[cm/s]";
+
+  const auto written = fs::last_write_time(output / "summary.json");
+  write([&](double time, Eigen::Index i) { return i == 2 ? 0.0 : recorded.vectors_at(time)(2, i) + 10; });
+  end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(fs::last_write_time(output / "summary.json"), written) << "the points are those recorded";
+  const Json pc_mr = comparison()["velocities"][0];
+  EXPECT_NEAR(pc_mr["training"]["l2"], 10, 1e-6);
+  EXPECT_NEAR(pc_mr["held_out"]["bias"], 10, 1e-6);
+  EXPECT_EQ(pc_mr["training"]["points"], 4);
+  EXPECT_EQ(pc_mr["moments"].size(), 3U);
+  EXPECT_EQ(pc_mr["moments"][0]["points_outside_the_lumen"], 1);
+  EXPECT_NE(end.output.find("pc_mr: velocities are 0.1 m/s off in root mean square"), std::string::npos) << end.output;
+  EXPECT_GT(fs::file_size(output / "plots" / "velocity_pc_mr.png"), 5000U);
+}
+
 TEST_F(Compare, SaysThatAPulledRunIsNoEvidence) {
   Json summary = Json::parse(content_of(output / "summary.json"));
   summary["effective_case"]["observer"] = {{"gain", 0.0}, {"regions", {{"spine", {{"gain", 3.0}}}}}};

@@ -1,0 +1,99 @@
+#include "common/io/point_series.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+template <class Number>
+void put(std::ostream& file, const Number* first, std::size_t count) {
+  file.write(reinterpret_cast<const char*>(first), static_cast<std::streamsize>(count * sizeof(Number)));
+}
+
+template <class Number>
+bool get(std::istream& file, Number* first, std::size_t count) {
+  return static_cast<bool>(
+      file.read(reinterpret_cast<char*>(first), static_cast<std::streamsize>(count * sizeof(Number))));
+}
+
+std::string first_line(const PointSeriesKind& kind) {
+  return kind.title + "\n";
+}
+
+std::uintmax_t header_size(const PointSeriesKind& kind, Eigen::Index points) {
+  return first_line(kind).size() + sizeof(std::int64_t) + 3 * static_cast<std::uintmax_t>(points) * sizeof(double);
+}
+
+std::uintmax_t record_size(Eigen::Index points) {
+  return sizeof(double) + 3 * static_cast<std::uintmax_t>(points) * sizeof(float);
+}
+
+}  // namespace
+
+PointSeriesWriter::PointSeriesWriter(PointSeriesKind kind, std::filesystem::path path, Points points)
+    : kind_(std::move(kind)), path_(std::move(path)), points_(std::move(points)) {}
+
+void PointSeriesWriter::start() {
+  file_.open(path_, std::ios::binary | std::ios::trunc);
+  file_ << first_line(kind_);
+  const std::int64_t count = points_.cols();
+  put(file_, &count, 1);
+  put(file_, points_.data(), static_cast<std::size_t>(points_.size()));
+}
+
+void PointSeriesWriter::resume(std::int64_t records) {
+  const PointSeries found(kind_, path_);
+  if (found.points() != points_) throw input_error("{}: is the {} of another case", path_.string(), kind_.what);
+  if (static_cast<std::int64_t>(found.times().size()) < records)
+    throw input_error("{}: has {} records; the run to resume made {}", path_.string(), found.times().size(), records);
+  std::filesystem::resize_file(
+      path_, header_size(kind_, points_.cols()) + static_cast<std::uintmax_t>(records) * record_size(points_.cols()));
+  file_.open(path_, std::ios::binary | std::ios::app);
+}
+
+void PointSeriesWriter::append(double time, const Points& vectors) {
+  const Eigen::Matrix<float, 3, Eigen::Dynamic> rounded = vectors.cast<float>();
+  put(file_, &time, 1);
+  put(file_, rounded.data(), static_cast<std::size_t>(rounded.size()));
+  file_.flush();
+  if (!file_) throw run_error("{} cannot be written", path_.string());
+}
+
+PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path) : path_(path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw input_error("{}: no such file", path.string());
+  std::string found(first_line(kind).size(), ' ');
+  std::int64_t count = 0;
+  if (!get(file, found.data(), found.size()) || found != first_line(kind) || !get(file, &count, 1) || count <= 0 ||
+      header_size(kind, count) > std::filesystem::file_size(path))
+    throw input_error("{}: is not the {}", path.string(), kind.what);
+  points_.resize(3, count);
+  get(file, points_.data(), static_cast<std::size_t>(points_.size()));
+  std::vector<float> record(static_cast<std::size_t>(points_.size()));
+  double time = 0;
+  while (get(file, &time, 1) && get(file, record.data(), record.size())) {
+    times_.push_back(time);
+    vectors_.insert(vectors_.end(), record.begin(), record.end());
+  }
+}
+
+Points PointSeries::vectors(std::size_t record) const {
+  const float* first = vectors_.data() + record * static_cast<std::size_t>(points_.size());
+  return Eigen::Map<const Eigen::Matrix<float, 3, Eigen::Dynamic>>(first, 3, points_.cols()).cast<double>();
+}
+
+Points PointSeries::vectors_at(double time) const {
+  const double tolerance = times_.size() > 1 ? 1e-6 * (times_.back() - times_.front()) : 0;
+  if (times_.empty() || time < times_.front() - tolerance || time > times_.back() + tolerance)
+    throw input_error("{}: the run does not reach the time {} s", path_.string(), time);
+  const auto after = std::lower_bound(times_.begin(), times_.end(), time);
+  const std::size_t b = std::min(static_cast<std::size_t>(after - times_.begin()), times_.size() - 1),
+                    a = b > 0 ? b - 1 : 0;
+  if (a == b || times_[b] <= time) return vectors(b);
+  const double share = std::clamp((time - times_[a]) / (times_[b] - times_[a]), 0.0, 1.0);
+  return (1 - share) * vectors(a) + share * vectors(b);
+}
+
+}  // namespace tether

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "common/base/types.hpp"
+
+/// A vector at each of some points over a run: after a line of text that says what it is, the number of points and
+/// their positions (int64, doubles), then for each step its time (double) and the vectors (floats: to 1e-7 of
+/// themselves), x y z of point after point, little-endian.
+namespace tether {
+
+/// What a file holds.
+struct PointSeriesKind {
+  std::string title;  ///< its first line: "Tether lumen motion 1"
+  std::string what;   ///< "motion of a lumen"
+};
+
+class PointSeriesWriter {
+ public:
+  PointSeriesWriter(PointSeriesKind kind, std::filesystem::path path, Points points);
+
+  /// A new file.
+  void start();
+  /// Goes on behind the first `records` records of the file; later ones are dropped. Throws InputError if the file is
+  /// of other points or has fewer.
+  void resume(std::int64_t records);
+  /// On the disk when this returns. Throws RunError if it cannot be written.
+  void append(double time, const Points& vectors);
+  const Points& points() const { return points_; }
+
+ private:
+  PointSeriesKind kind_;
+  std::filesystem::path path_;
+  Points points_;
+  std::ofstream file_;
+};
+
+/// Such a file, read back.
+class PointSeries {
+ public:
+  /// Throws InputError for a file that is none.
+  PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path);
+
+  const Points& points() const { return points_; }
+  const std::vector<double>& times() const { return times_; }
+  /// Linear between steps. Throws InputError for a time outside the run.
+  Points vectors_at(double time) const;
+
+ private:
+  Points vectors(std::size_t record) const;
+
+  std::filesystem::path path_;
+  Points points_;
+  std::vector<double> times_;
+  std::vector<float> vectors_;
+};
+
+}  // namespace tether
