@@ -70,12 +70,11 @@ TEST(ObservationManager, AnswersWhatTheBloodIsOff) {
   folder.file(
       "v.csv",
       "time [s], x [cm], y [cm], z [cm], vx [cm/s], vy [cm/s], vz [cm/s]\n0, 0, 0, 1, 1, 2, 3\n1, 0, 0, 1, 3, 4, 5\n");
-  folder.file(
-      "case.yaml",
-      "name: blood\nunits: cgs\ntime: {step: 1e-2, end: 1}\nmesh: {source: swept, swept: {radius: 1, length: "
-      "3, wall_thickness: 0.1, around: 12, along: 6}}\nobservations:\n"
-      "  traces: {cuff: {observable: fluid.outlet.pressure, quantity: pressure, curve: {file: p.csv}}}\n"
-      "  velocities: {pc_mr: {file: v.csv, noise: {deviation: 2}}}\n");
+  folder.file("case.yaml",
+              "name: blood\nunits: cgs\ntime: {step: 1e-2, end: 1}\nmesh: {source: swept, swept: {radius: 1, length: "
+              "3, wall_thickness: 0.1, around: 12, along: 6}}\nobservations:\n"
+              "  traces: {cuff: {observable: fluid.outlet.pressure, quantity: pressure, curve: {file: p.csv}}}\n"
+              "  velocities: {pc_mr: {file: v.csv, noise: {deviation: 2}}}\n");
   const tests::JobResult job =
       tests::run_job({tests::test_program("ask_flow_observation"), tests::product_program("observation_manager"),
                       (folder / "case.yaml").string()});
