@@ -72,7 +72,8 @@ int compare(const CommandLine& command) {
   check_case(command);
   const MeasuredCase measured(command.case_file);
   const fs::path output = output_of(command, measured.file);
-  if (const int code = provide_run(command, measured.file, output, measured.data.points()); code != exit_done) return code;
+  if (const int code = provide_run(command, measured.file, output, measured.data.points()); code != exit_done)
+    return code;
   const FinishedRun run(output);
   const RunMotion motion = motion_of(run, measured.surface);
   const Comparison comparison = comparison_of(measured, run, motion, output);
