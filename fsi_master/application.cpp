@@ -13,8 +13,8 @@
 #include "common/config/output_folder.hpp"
 #include "common/observation/flow_observations.hpp"
 #include "common/protocol/run.hpp"
-#include "fsi_master/coupling_case.hpp"
-#include "fsi_master/message_partners.hpp"
+#include "fsi_master/coupled_codes.hpp"
+#include "fsi_master/group_server.hpp"
 #include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
 
@@ -25,24 +25,6 @@ namespace fs = std::filesystem;
 using protocol::Partner;
 
 constexpr const char* program_name = "fsi_master " TETHER_VERSION;
-
-/// A case file and the section of it that the master reads.
-struct MasterCase {
-  explicit MasterCase(const fs::path& path) : file(path) {
-    file.read("coupling", coupling);
-    ObservationsCase observations;
-    file.read("observations", observations);
-    file.finish();
-    flow = load_flow_observations(observations, file);
-  }
-  CaseFile file;
-  CouplingCase coupling;
-  FlowObservations flow;  ///< to record the velocity where it was measured
-};
-
-protocol::Program partner_program(const char* role, const std::string& executable, const CaseFile& file) {
-  return {role, executable, {fs::absolute(file.path()).string()}};
-}
 
 RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
   const CommonCase& common = master.file.common();
@@ -66,13 +48,6 @@ void remove_old_results(const fs::path& output) {
   for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "blood.velocity", "fluid.pvd", "solid.pvd",
                            "vtk", "checkpoint", "checkpoint.new", "checkpoint.previous"})
     fs::remove_all(output / name);
-}
-
-InterfaceMap map_of(const CouplingCase& coupling, const InterfaceSurface& fluid, const InterfaceSurface& solid) {
-  const double size = diagonal(solid.points);
-  if (coupling.mapping == "match")
-    return InterfaceMap::match(fluid, solid, coupling.mapping_distance.value_or(1e-5 * size));
-  return InterfaceMap::nearest_triangle(fluid, solid, coupling.mapping_distance.value_or(0.02 * size));
 }
 
 std::string own_sections(MasterCase& master) {
@@ -121,15 +96,6 @@ std::vector<ProcessCost> costs(Crew& crew, std::span<Partner> partners) {
   return all;
 }
 
-/// Throws InputError if the case asks for a state observer, and a code has none.
-std::unique_ptr<Observer> make_observer(const ObserverCase& observer, ObservationPartner& data, FluidPartner& fluid,
-                                        SolidPartner& solid, const Points& interface) {
-  for (const auto& [name, has] : {std::pair{fluid.name(), fluid.has_observer()}, {solid.name(), solid.has_observer()}})
-    if (!has) throw input_error("observer.gain: {} cannot be moved by a state observer", name);
-  const auto form = observer.form == "split" ? Observer::Form::split : Observer::Form::monolithic;
-  return std::make_unique<Observer>(data, fluid, solid, form, interface.reshaped());
-}
-
 /// Throws InputError if a measured velocity has no place in the blood, or the fluid cannot tell its velocity.
 void check_velocities(const FlowObservations& data, FluidPartner& fluid, const CaseFile& file) {
   for (const VelocitySeries& series : data.velocities) {
@@ -145,41 +111,22 @@ void check_velocities(const FlowObservations& data, FluidPartner& fluid, const C
   }
 }
 
+/// A direct run.
 void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
-  Partner &fluid_process = processes[0], &solid_process = processes[1];
-  const InterfaceSurface solid_surface = ask_interface(solid_process), fluid_surface = ask_interface(fluid_process);
-  MessageSolid solid(solid_process);
-  MessageFluid fluid(fluid_process, map_of(master.coupling, fluid_surface, solid_surface));
-  const CouplingOptions options{master.coupling.tolerance, master.coupling.max_iterations, master.coupling.reuse,
-                                diagonal(solid_surface.points)};
-  const auto coupling = make_coupling(master.coupling.method, fluid, solid, options);
+  CoupledCodes codes(master, processes);
   const std::vector<std::string> notices = notices_of(processes, plan);
-  const std::string fluid_case = fluid_process.hello().effective_case,
-                    solid_case = solid_process.hello().effective_case;
-  plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, solid_surface.points);
-
-  Crew crew{fluid,
-            solid,
-            *coupling,
-            solid_surface.points,
-            fluid_process.hello().observables,
-            solid_process.hello().observables};
-  std::optional<MessageObservation> measurements;
-  std::unique_ptr<Observer> observer;
-  if (processes.size() > 2) {
-    measurements.emplace(processes[2]);
-    observer = make_observer(master.file.common().observer, *measurements, fluid, solid, solid_surface.points);
-    crew.observer = observer.get();
-  }
-  check_velocities(master.flow, fluid, master.file);
+  const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
+  plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, codes.interface().points);
+  Crew crew = codes.crew();
+  check_velocities(master.flow, codes.fluid(), master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
-  check_points(simulation, master.file, options.size);
+  check_points(simulation, master.file, codes.size());
   const auto before = costs(crew, processes);
   simulation.run();
   RunFacts facts{master.file.common().name,
                  master.file.common().title,
                  fs::absolute(master.file.path()).string(),
-                 coupling->name(),
+                 codes.coupling().name(),
                  costs(crew, processes),
                  merged_json({own_sections(master), fluid_case, solid_case}),
                  notices};
@@ -188,22 +135,37 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   write_summary(simulation, facts);
 }
 
+/// The master's own life.
+void run_direct(const CommandLine& command, protocol::Session& session) {
+  MasterCase master(command.case_file);
+  RunPlan plan = plan_of(master, command);
+  plan.output = fs::absolute(claim_output(command, master.file));
+  if (!plan.resume) remove_old_results(plan.output);
+  const bool observed = master.file.common().observer.is_on();
+  const std::span<Partner> partners = session.launch(programs_of(master, observed), plan.output.string());
+  for (Partner& partner : partners) partner.hello();
+  simulate(master, plan, partners);
+  for (Partner& partner : partners) partner.stop("the run is done");
+}
+
+/// Its life as a group of an identification_master.
+GroupServer serve_as_group(const CommandLine& command, const protocol::Welcome& welcome, protocol::Session& session) {
+  auto master = std::make_unique<MasterCase>(command.case_file);
+  RunPlan plan = plan_of(*master, command);
+  plan.quiet = true;
+  plan.write_every = plan.checkpoint_every = std::numeric_limits<int>::max();
+  const bool has_data = master->file.has("observations.surfaces") || master->file.has("observations.contours");
+  const std::span<Partner> partners = session.launch(programs_of(*master, has_data), welcome.output);
+  for (Partner& partner : partners) partner.hello();
+  return GroupServer(std::move(master), std::move(plan), partners);
+}
+
 int run(const CommandLine& command) {
-  return protocol::run_master("fsi_master", [&command](protocol::Session& session) {
-    MasterCase master(command.case_file);
-    RunPlan plan = plan_of(master, command);
-    plan.output = fs::absolute(claim_output(command, master.file));
-    if (!plan.resume) remove_old_results(plan.output);
-    const auto& programs = master.coupling.programs;
-    std::vector<protocol::Program> crew{partner_program("fluid", programs.fluid, master.file),
-                                        partner_program("solid", programs.solid, master.file)};
-    if (master.file.common().observer.is_on())
-      crew.push_back(partner_program("solid_observation", programs.observation, master.file));
-    const std::span<Partner> partners = session.launch(crew, plan.output.string());
-    for (Partner& partner : partners) partner.hello();
-    simulate(master, plan, partners);
-    for (Partner& partner : partners) partner.stop("the run is done");
-  });
+  return protocol::run_either<protocol::ToGroup>(
+      "fsi_master", [&command](protocol::Session& session) { run_direct(command, session); },
+      [&command](const protocol::Welcome& welcome, protocol::Session& session) {
+        return serve_as_group(command, welcome, session);
+      });
 }
 
 /// What several checks find wrong: the lines of their messages, each once.

@@ -26,9 +26,6 @@ void write_checkpoint(const std::filesystem::path& output, const Checkpoint& che
 /// or without a code's state.
 Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
 
-/// FNV-1a over bytes, in words of eight.
-std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed = 14695981039346656037ull);
-
 /// Names a case and its mesh: the codes' effective cases (JSON) and the interface. What may change between a run and
 /// its continuation does not count: folders of files, the end of the run, output, coupling.
 std::uint64_t fingerprint(const std::vector<std::string>& effective_cases, double dt, const Points& interface);

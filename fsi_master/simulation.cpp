@@ -21,10 +21,6 @@ VectorXd flat(const Points& points) {
   return Eigen::Map<const VectorXd>(points.data(), points.size());
 }
 
-double seconds_since(std::chrono::steady_clock::time_point moment) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
-}
-
 }  // namespace
 
 Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
@@ -40,7 +36,7 @@ Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
 
 void Simulation::run() {
   begin();
-  progress_.emplace(first_step_, plan_.last_step, plan_.units, plan_.quiet);
+  progress_.emplace(first_step_, plan_.last_step, plan_.quiet);
   std::int64_t step = first_step_;
   try {
     for (; step < plan_.last_step; ++step) advance(step);
@@ -98,7 +94,7 @@ void Simulation::record(std::int64_t step, const StepRecord& record, double seco
   Extent shown;  // absolute, as a person thinks of it
   for (const double relative : {pressure_now_.min, pressure_now_.max})
     if (!pressure_now_.empty()) shown.add(plan_.image_pressure + relative);
-  progress_->show({step, plan_.time_at(step), record.evaluations, shown, largest_displacement()});
+  progress_->show(step, text_of({plan_.time_at(step), record.evaluations, shown, largest_displacement()}, plan_.units));
 }
 
 void Simulation::record_fields(double time) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "common/base/progress_line.hpp"
 #include "common/base/units.hpp"
 #include "common/config/fields.hpp"
 #include "common/io/lumen_motion.hpp"
@@ -87,7 +88,7 @@ class Simulation {
   Extent pressure_now_;
   std::int64_t first_step_ = 0;
   std::optional<std::int64_t> saved_step_;
-  std::optional<Progress> progress_;
+  std::optional<ProgressLine> progress_;
 };
 
 }  // namespace tether

@@ -10,6 +10,7 @@ namespace tether {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using VectorXd = Eigen::VectorXd;
+using MatrixXd = Eigen::MatrixXd;
 
 /// One column a node: coordinates, displacements, velocities, forces.
 using Points = Eigen::Matrix3Xd;

@@ -86,6 +86,11 @@ std::string CaseFile::given(std::string_view field) const {
   return found.back() ? found.back()->text : "";
 }
 
+bool CaseFile::has(std::string_view field) const {
+  const auto found = chain(contents_->tree, field);
+  return found.back() && found.back()->kind != YamlNode::Kind::empty;
+}
+
 std::string CaseFile::where(std::string_view field) const {
   const YamlNode* nearest = &contents_->tree;
   for (const YamlNode* node : chain(contents_->tree, field))

@@ -32,6 +32,9 @@ class CaseFile {
   /// What the file says in a section that another program owns: "solid.element". Empty if it says nothing.
   std::string given(std::string_view field) const;
 
+  /// Whether the file gives a field or section, with anything in it.
+  bool has(std::string_view field) const;
+
   /// Throws InputError with a line "file:line: field: value: rule (meaning)" per problem, unknown sections included.
   void finish();
 

@@ -42,6 +42,8 @@ class Channel {
   virtual void send(Packet packet) = 0;
   /// Waits at most `limit` seconds. Throws PeerSilent, PeerDied.
   virtual Packet receive(double limit = infinite) = 0;
+  /// Whether `receive` would not wait.
+  virtual bool has_packet() = 0;
   /// Waits until what was sent has left this process.
   virtual void flush() = 0;
   /// The orderly end: both ends call it after the last packet. Without it the channel is abandoned.

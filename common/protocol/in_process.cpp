@@ -25,6 +25,10 @@ class Queue {
     packets_.pop_front();
     return packet;
   }
+  bool has_packet() {
+    const std::lock_guard lock(mutex_);
+    return !packets_.empty();
+  }
 
  private:
   std::mutex mutex_;
@@ -38,6 +42,7 @@ class ThreadChannel final : public Channel {
       : Channel(peer), out_(std::move(out)), in_(std::move(in)) {}
   void send(Packet packet) override { out_->push(std::move(packet)); }
   Packet receive(double limit) override { return in_->pop(peer(), limit); }
+  bool has_packet() override { return in_->has_packet(); }
   void flush() override {}
   void close() override {}
 

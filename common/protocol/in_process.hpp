@@ -17,6 +17,7 @@ class DirectChannel final : public Channel {
       : Channel({role}), answer_(std::move(answer)), reply_(std::move(hello)) {}
   void send(Packet packet) override { reply_ = answer_(packet); }
   Packet receive(double) override { return std::move(reply_); }
+  bool has_packet() override { return true; }
   void flush() override {}
   void close() override {}
 

@@ -189,6 +189,13 @@ Session::Link Session::connect() {
   return {std::move(channel), greeting};
 }
 
+std::optional<std::size_t> Session::offered(const std::string& role) const {
+  if (parts_->roles.size() <= 1) return std::nullopt;
+  const std::vector<int> partners = partners_of(parts_->roles, parts_->rank);
+  return std::count_if(partners.begin(), partners.end(),
+                       [&](int rank) { return parts_->roles[static_cast<std::size_t>(rank)] == role; });
+}
+
 std::span<Partner> Session::launch(const std::vector<Program>& programs, const std::string& output) {
   report_signals();
   std::vector<int> candidates;
@@ -200,6 +207,18 @@ std::span<Partner> Session::launch(const std::vector<Program>& programs, const s
     group.emplace_back(std::move(channel));
   }
   return group;
+}
+
+Partner& Session::first_to_reply(std::span<Partner* const> asked) {
+  Partner* first = nullptr;
+  wait_until(
+      [&] {
+        const auto found = std::find_if(asked.begin(), asked.end(), [](const Partner* p) { return p->has_replied(); });
+        if (found != asked.end()) first = *found;
+        return first != nullptr;
+      },
+      [this] { parts_->watch.check_partners(); });
+  return *first;
 }
 
 int Session::end(int exit_code) {

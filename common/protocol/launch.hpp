@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,11 +50,18 @@ class Session {
   /// Throws RunError if there is no master.
   Link connect();
 
+  /// How many programs of a role the mpirun line holds for this master; nothing if it spawns its partners.
+  std::optional<std::size_t> offered(const std::string& role) const;
+
   /// Spawns the programs, or takes those of the same roles from the mpirun line, and welcomes them; they read their
   /// case at the same time until each is asked for its hello. The session keeps the partners, in the programs' order.
   /// Waits at most TETHER_START_LIMIT seconds (60 if unset) for each to appear.
   /// Throws InputError (no such executable, another role or version), PeerDied, PeerSilent.
   std::span<Partner> launch(const std::vector<Program>& programs, const std::string& output);
+
+  /// The first of some partners, each with a request under way, whose reply is there. Waits for it. Throws PeerDied,
+  /// Interrupted.
+  Partner& first_to_reply(std::span<Partner* const> asked);
 
   /// Ends the job, the last thing in main. Partners that wait for a request are stopped. If all ended in good order:
   /// MPI_Finalize, and returns `exit_code`. Otherwise (a partner is dead, busy or lost) does not return: ends this

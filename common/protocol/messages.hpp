@@ -143,6 +143,14 @@ struct FlowDiscrepancy {
   std::vector<std::int64_t> exclusions;  ///< why there is no observation; 0: there is one
   TETHER_MESSAGE(FlowDiscrepancy, differences, deviations, sources, exclusions)
 };
+/// Where a particle is after a step, and what it would have measured.
+struct Advanced {
+  std::vector<double> state, memory;       ///< as Advance has them
+  std::vector<double> observables;         ///< as announced in Hello
+  std::vector<double> distances, weights;  ///< of Discrepancy, sample by sample; empty if not asked for
+  std::int64_t evaluations = 0, krylov_iterations = 0, parts = 0;
+  TETHER_MESSAGE(Advanced, state, memory, observables, distances, weights, evaluations, krylov_iterations, parts)
+};
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
   TETHER_MESSAGE(Usage, cpu_seconds, peak_memory_mb)
@@ -322,6 +330,31 @@ struct ObserveFlow {
   TETHER_MESSAGE(ObserveFlow, time, names, values, velocities)
 };
 
+// ---- identification_master -> fsi_master ----------------------------------------------------------------------------
+
+/// One step of one particle, from `time` to `time + dt`, with these parameters. A group holds nothing of a particle
+/// between two steps: any group may take any particle.
+struct Advance {
+  using Reply = Advanced;
+  std::int64_t step = 0;  ///< its number, for messages to people
+  double time = 0, dt = 0;
+  bool observe = false;            ///< take distances at the end
+  std::vector<std::string> names;  ///< of parameters,
+  std::vector<double> values;
+  std::vector<double> state;   ///< as State or Advanced had it; states may be averaged
+  std::vector<double> memory;  ///< what the coupling method remembers: for its speed only; may be empty
+  TETHER_MESSAGE(Advance, step, time, dt, observe, names, values, state, memory)
+};
+/// A whole run from the initial state with these parameters: timeseries.csv and lumen.motion in `output`.
+struct Simulate {
+  using Reply = Ready;
+  std::vector<std::string> names;
+  std::vector<double> values;
+  std::int64_t steps = 0;
+  std::string output;
+  TETHER_MESSAGE(Simulate, names, values, steps, output)
+};
+
 #undef TETHER_MESSAGE
 #undef TETHER_FIELDS
 
@@ -329,9 +362,11 @@ struct ObserveFlow {
 using ToPartner =
     std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
                  FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual, SolidProduct,
-                 SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface, GetVelocity, ObserveFlow>;
+                 SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface, GetVelocity, ObserveFlow, Advance,
+                 Simulate>;
 using ToMaster = std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion,
-                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction, Velocity, FlowDiscrepancy>;
+                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction, Velocity, FlowDiscrepancy,
+                              Advanced>;
 
 /// What each role must be able to answer: a handler for each is asked for at compile time (serve.hpp, which answers
 /// GetUsage itself).
@@ -345,6 +380,8 @@ using ToObservedFluid = std::variant<GetInterface, SetParameters, GetState, SetS
 using ToObservedSolid =
     std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop, SolidEvaluate,
                  SolidTangent, SolidResidual, SolidProduct, SolidPrecondition, Correct, Withdraw>;
+/// To an fsi_master that is a partner itself. It answers GetUsage for its whole group.
+using ToGroup = std::variant<GetInterface, SetParameters, GetState, Write, Stop, Advance, Simulate, GetUsage>;
 /// A manager of measurements of the lumen; of the blood.
 using ToObservation = std::variant<SetParameters, Write, Stop, Observe>;
 using ToFlowObservation = std::variant<GetInterface, SetParameters, Write, Stop, ObserveFlow>;

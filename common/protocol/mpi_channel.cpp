@@ -9,7 +9,7 @@ namespace {
 constexpr double close_limit = 3;  // seconds that the other end may take for the same call
 /// MPI sees what lies in a socket at the second probe. Not many more: on a busy machine each gives the core away.
 constexpr int rounds_of_progress = 4;
-}
+}  // namespace
 
 MpiChannel::MpiChannel(To to, Peer peer, MPI_Comm communicator, Watch& watch)
     : Channel(std::move(peer)), to_(to), communicator_(communicator), watch_(watch) {
@@ -42,6 +42,12 @@ Packet MpiChannel::receive(double limit) {
 bool MpiChannel::probe(int tag, MPI_Message& message, MPI_Status& status) const {
   int flag = 0;
   check_mpi(MPI_Improbe(0, tag, communicator_, &flag, &message, &status), "MPI_Improbe");
+  return flag != 0;
+}
+
+bool MpiChannel::has_packet() {
+  int flag = 0;
+  check_mpi(MPI_Iprobe(0, MPI_ANY_TAG, communicator_, &flag, MPI_STATUS_IGNORE), "MPI_Iprobe");
   return flag != 0;
 }
 

@@ -19,6 +19,7 @@ class MpiChannel final : public Channel {
   ~MpiChannel() override;
   void send(Packet packet) override;
   Packet receive(double limit) override;
+  bool has_packet() override;
   void flush() override;
   void close() override;
 

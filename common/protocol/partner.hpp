@@ -46,6 +46,8 @@ class Partner {
     if (!holds<Reply>(packet)) reject(packet, Reply::message_name);
     return unpack<Reply>(packet);
   }
+  /// Whether `receive` would not wait.
+  bool has_replied() const { return stage_ == Stage::busy && channel_->has_packet(); }
   /// The last request: lets the partner write what is open, at most `limit` seconds long.
   void finish(const Stop& stop, double limit = infinite);
   /// After `finish`: both ends of the channel close.

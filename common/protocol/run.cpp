@@ -38,14 +38,13 @@ int run_master(const std::string& role, const std::function<void(Session&)>& bod
 
 namespace detail {
 
-int run_partner(const std::string& role, const std::function<void(const Session::Link&, Session&)>& life) {
-  std::unique_ptr<Session> session;
-  const int code = guarded(role, [&] {
-    session = std::make_unique<Session>(role);
-    const auto link = session->connect();
-    life(link, *session);
+int run_either(const std::string& role, const std::function<void(Session&)>& as_master,
+               const std::function<void(const Session::Link&, Session&)>& as_partner) {
+  return run_master(role, [&](Session& session) {
+    if (as_master && !session.has_master()) return as_master(session);
+    const Session::Link link = session.connect();
+    as_partner(link, session);
   });
-  return session ? session->end(code) : code;
 }
 
 void refuse(Channel& master) {

@@ -14,16 +14,15 @@ namespace tether::protocol {
 int run_master(const std::string& role, const std::function<void(Session&)>& body);
 
 namespace detail {
-int run_partner(const std::string& role, const std::function<void(const Session::Link&, Session&)>& life);
+int run_either(const std::string& role, const std::function<void(Session&)>& as_master,
+               const std::function<void(const Session::Link&, Session&)>& as_partner);
 void refuse(Channel& master);
 }  // namespace detail
 
-/// A partner's main. `build(welcome)` reads the case and returns the handler: `Hello hello()` and one call operator for
-/// each message of `Requests` (serve.hpp). A partner that is a master itself takes `build(welcome, session)`. What
-/// `build` throws is reported by the master.
+/// The main of a program that is a partner if it has a master, and else a master: the one or the other of the above.
 template <class Requests, class Build>
-int run_partner(const std::string& role, Build build) {
-  return detail::run_partner(role, [&build](const Session::Link& link, Session& session) {
+int run_either(const std::string& role, const std::function<void(Session&)>& as_master, Build build) {
+  return detail::run_either(role, as_master, [&build](const Session::Link& link, Session& session) {
     const auto built = [&] {
       if constexpr (std::is_invocable_v<Build, const Welcome&, Session&>)
         return build(link.welcome, session);
@@ -39,6 +38,14 @@ int run_partner(const std::string& role, Build build) {
     }
     serve<Requests>(*link.channel, handler->hello(), *handler);
   });
+}
+
+/// A partner's main. `build(welcome)` reads the case and returns the handler: `Hello hello()` and one call operator for
+/// each message of `Requests` (serve.hpp). A partner that is a master itself takes `build(welcome, session)`. What
+/// `build` throws is reported by the master.
+template <class Requests, class Build>
+int run_partner(const std::string& role, Build build) {
+  return run_either<Requests>(role, nullptr, std::move(build));
 }
 
 }  // namespace tether::protocol

@@ -23,7 +23,7 @@ Failure current_failure();
 template <class Handler, class... Requests>
 Packet answer(std::variant<Requests...>*, const Packet& request, Handler& handler) {
   static_assert((Answers<Handler, Requests> && ...), "a request has no handler, or one with another reply");
-  if (holds<GetUsage>(request)) return pack(Usage{cpu_seconds(), peak_memory_mb()});
+  if (!Answers<Handler, GetUsage> && holds<GetUsage>(request)) return pack(Usage{cpu_seconds(), peak_memory_mb()});
   Packet reply;
   const bool known = ((holds<Requests>(request) && (reply = pack(handler(unpack<Requests>(request))), true)) || ...);
   return known ? std::move(reply) : pack(Failure{"does not know " + kind_name<ToPartner>(request.kind)});
@@ -31,7 +31,7 @@ Packet answer(std::variant<Requests...>*, const Packet& request, Handler& handle
 
 }  // namespace detail
 
-/// The reply to one request. `Requests`: ToFluid, ToSolid, ToObservation: each must have a handler, a function
+/// The reply to one request. `Requests`: ToFluid, ToSolid, ToObservation, ToGroup: each must have a handler, a function
 /// `Request::Reply operator()(const Request&)`. What a handler throws becomes Failure.
 template <class Requests, class Handler>
 Packet answer(const Packet& request, Handler& handler) {

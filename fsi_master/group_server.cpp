@@ -1,0 +1,167 @@
+#include "fsi_master/group_server.hpp"
+
+#include "common/base/error.hpp"
+#include "common/base/process.hpp"
+#include "fsi_master/summary.hpp"
+
+namespace tether {
+namespace {
+
+using protocol::Partner;
+
+VectorXd flat(const Points& points) {
+  return points.reshaped();
+}
+
+/// A partner's parameter or observable among those of both: "solid.density".
+std::string full_name(const Partner& partner, const std::string& name) {
+  const std::string prefix = partner.role() + ".";
+  return name.starts_with(prefix) ? name : prefix + name;
+}
+
+std::unique_ptr<TimeLoop> make_loop(CoupledCodes& codes, int halvings) {
+  const Crew crew = codes.crew();
+  auto loop = std::make_unique<TimeLoop>(crew.fluid, crew.solid, crew.coupling, flat(crew.interface), halvings);
+  if (crew.observer != nullptr) loop->observe(*crew.observer);
+  return loop;
+}
+
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+GroupServer::GroupServer(std::unique_ptr<MasterCase> master, RunPlan plan, std::span<Partner> processes)
+    : master_(std::move(master)),
+      plan_(std::move(plan)),
+      codes_(std::make_unique<CoupledCodes>(*master_, processes)),
+      loop_(make_loop(*codes_, master_->coupling.halvings)),
+      initial_(loop_->snapshot()) {}
+
+protocol::Hello GroupServer::hello() const {
+  protocol::Hello hello;
+  hello.program = "fsi_master " TETHER_VERSION;
+  hello.has_state = codes_->fluid().has_state() && codes_->solid().has_state();
+  hello.state_size = static_cast<std::int64_t>(packed(initial_).size());
+  std::vector<std::string> cases;
+  for (Partner& partner : codes_->processes()) {
+    const protocol::Hello& of_partner = partner.hello();
+    hello.unknowns += of_partner.unknowns;
+    hello.notices.insert(hello.notices.end(), of_partner.notices.begin(), of_partner.notices.end());
+    if (&partner == codes_->measurements()) continue;
+    cases.push_back(of_partner.effective_case);
+    for (protocol::ParameterInfo info : of_partner.parameters) {
+      info.name = full_name(partner, info.name);
+      hello.parameters.push_back(std::move(info));
+    }
+    for (const protocol::ObservableInfo& info : of_partner.observables)
+      hello.observables.push_back({partner.role() + "." + info.name, info.unit});
+  }
+  hello.effective_case = merged_json(cases);
+  return hello;
+}
+
+protocol::Interface GroupServer::operator()(const protocol::GetInterface& m) {
+  return codes_->processes()[1].ask(m);
+}
+
+protocol::Ready GroupServer::operator()(const protocol::SetParameters& m) {
+  if (m.names.size() != m.values.size())
+    throw input_error("{} names of parameters, but {} values", m.names.size(), m.values.size());
+  std::vector<protocol::SetParameters> parts(2);
+  for (std::size_t i = 0; i < m.names.size(); ++i) {
+    bool known = false;
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const auto& info : codes_->processes()[k].hello().parameters)
+        if (full_name(codes_->processes()[k], info.name) == m.names[i]) {
+          parts[k].names.push_back(info.name);
+          parts[k].values.push_back(m.values[i]);
+          known = true;
+        }
+    if (!known) throw input_error("neither fluid nor solid has a parameter {}", m.names[i]);
+  }
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!parts[k].names.empty()) codes_->processes()[k].ask(parts[k]);
+  return {};
+}
+
+protocol::State GroupServer::operator()(const protocol::GetState&) {
+  return {packed(loop_->snapshot())};
+}
+
+std::vector<double> GroupServer::packed(const Snapshot& snapshot) const {
+  std::vector<double> all = snapshot.fluid;
+  append(all, snapshot.solid);
+  append(all, snapshot.displacement);
+  append(all, snapshot.velocity);
+  return all;
+}
+
+void GroupServer::restore(const std::vector<double>& state, const std::vector<double>& memory) {
+  Snapshot snapshot = initial_;
+  auto from = state.begin();
+  for (std::vector<double>* part : {&snapshot.fluid, &snapshot.solid, &snapshot.displacement, &snapshot.velocity}) {
+    if (state.end() - from < static_cast<std::ptrdiff_t>(part->size()))
+      throw run_error("a state of {} numbers is too short for this vessel", state.size());
+    std::copy_n(from, part->size(), part->begin());
+    from += static_cast<std::ptrdiff_t>(part->size());
+  }
+  if (from != state.end()) throw run_error("a state of {} numbers is too long for this vessel", state.size());
+  if (!memory.empty()) snapshot.coupling = memory;
+  loop_->restore(snapshot);
+}
+
+protocol::Advanced GroupServer::operator()(const protocol::Advance& m) {
+  if (!m.state.empty()) restore(m.state, m.memory);
+  (*this)(protocol::SetParameters{m.names, m.values});
+  const StepRecord record = loop_->advance(m.step, m.time, m.dt);
+  const Snapshot after = loop_->snapshot();
+  protocol::Advanced reply;
+  reply.state = packed(after);
+  reply.memory = after.coupling;
+  reply.observables = record.fluid;
+  append(reply.observables, record.solid);
+  reply.evaluations = record.evaluations;
+  reply.krylov_iterations = record.krylov_iterations;
+  reply.parts = record.parts;
+  if (m.observe) observe(m.time + m.dt, reply);
+  return reply;
+}
+
+void GroupServer::observe(double time, protocol::Advanced& reply) {
+  if (codes_->measurements() == nullptr) return;
+  const VectorXd x = flat(codes_->interface().points) + loop_->displacement();
+  protocol::Discrepancy seen = codes_->measurements()->ask(protocol::Observe{time, {x.begin(), x.end()}});
+  reply.distances = std::move(seen.distances);
+  reply.weights = std::move(seen.weights);
+}
+
+protocol::Ready GroupServer::operator()(const protocol::Simulate& m) {
+  loop_->restore(initial_);
+  (*this)(protocol::SetParameters{m.names, m.values});
+  RunPlan plan = plan_;
+  plan.output = m.output;
+  plan.last_step = m.steps;
+  std::filesystem::create_directories(plan.output);
+  Simulation(plan, codes_->crew(), master_->coupling.halvings).run();
+  loop_->restore(initial_);
+  return {};
+}
+
+protocol::Ready GroupServer::operator()(const protocol::Write& m) {
+  for (Partner& partner : codes_->processes().first(2)) partner.ask(m);
+  return {};
+}
+
+protocol::Usage GroupServer::operator()(const protocol::GetUsage& m) {
+  protocol::Usage all{cpu_seconds(), peak_memory_mb()};
+  for (Partner& partner : codes_->processes()) {
+    const auto usage = partner.ask(m);
+    all.cpu_seconds += usage.cpu_seconds;
+    all.peak_memory_mb += usage.peak_memory_mb;
+  }
+  return all;
+}
+
+}  // namespace tether

@@ -1,0 +1,157 @@
+#include "identification_master/estimate_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.hpp"
+#include "common/base/parameter_table.hpp"
+#include "identification_master/identifiability.hpp"
+
+namespace tether {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double two_sided_95 = 1.959963984540054;
+
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path part = path.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text << std::flush;
+  if (!file) throw run_error("{}: cannot be written", part.string());
+  file.close();
+  std::filesystem::rename(part, path);
+}
+
+std::string headings(const IdentifiedParameters& parameters) {
+  std::string line = "time [s]";
+  for (const IdentifiedParameter& p : parameters.list())
+    for (const char* part : {"", ".lower", ".upper"}) line += fmt::format(", {}{} [{}]", p.name, part, p.unit);
+  for (const IdentifiedParameter& p : parameters.list())
+    line += fmt::format(", {0}.theta, {0}.theta_deviation", p.name);
+  const auto& list = parameters.list();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) line += fmt::format(", correlation.{}.{}", list[j].name, list[i].name);
+  return line + ", data, chi_square, rejected, tempering, evaluations\n";
+}
+
+std::string row(const IdentifiedParameters& parameters, const EstimateRecord& record) {
+  std::string line = fmt::format("{}", record.time);
+  const auto& list = parameters.list();
+  const VectorXd deviations = record.covariance.diagonal().cwiseSqrt();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const ValueEstimate value = estimate_of(list[i], record.mean(k), deviations(k));
+    line += fmt::format(", {}, {}, {}", value.median, value.lower, value.upper);
+  }
+  for (Eigen::Index k = 0; k < deviations.size(); ++k) line += fmt::format(", {}, {}", record.mean(k), deviations(k));
+  const MatrixXd correlation = correlations(record.covariance);
+  for (Eigen::Index i = 0; i < correlation.rows(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j) line += fmt::format(", {}", correlation(j, i));
+  return line + fmt::format(", {}, {}, {}, {}, {}\n", record.data, record.chi_square, record.rejected, record.tempering,
+                            record.evaluations);
+}
+
+Json range_of(const IdentifiedParameter& parameter, double mean, double deviation) {
+  const ValueEstimate value = estimate_of(parameter, mean, deviation);
+  return {{"value", value.median},
+          {"lower_95", value.lower},
+          {"upper_95", value.upper},
+          {"theta", mean},
+          {"theta_deviation", deviation}};
+}
+
+Json list_of(const auto& values) {
+  return std::vector<double>(values.begin(), values.end());
+}
+
+Json rows_of(const MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(list_of(VectorXd(matrix.row(i))));
+  return rows;
+}
+
+Json parameters_json(const IdentifiedParameters& parameters, const Identification& done, const Identifiability& what) {
+  Json all = Json::array();
+  const EstimateRecord& last = done.last();
+  for (std::size_t i = 0; i < parameters.list().size(); ++i) {
+    const IdentifiedParameter& p = parameters.list()[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    Json targets = Json::array();
+    for (const auto& target : p.targets)
+      targets.push_back({{"name", target.name}, {"value", target.scale * p.value(last.mean(k))}});
+    all.push_back({{"name", p.name},
+                   {"sets", targets},
+                   {"unit", p.unit},
+                   {"transform", name_of(p.transform)},
+                   {"prior", range_of(p, p.prior_mean, p.prior_deviation)},
+                   {"estimate", range_of(p, last.mean(k), std::sqrt(last.covariance(k, k)))},
+                   {"retained_information", what.retained(k)}});
+  }
+  return all;
+}
+
+Json innovations_json(const Identification& done) {
+  double data = 0, chi_square = 0, rejected = 0;
+  int tempered = 0;
+  for (const EstimateRecord& record : done.state().records) {
+    data += record.data;
+    chi_square += record.chi_square;
+    rejected += record.rejected;
+    tempered += record.tempering < 1 ? 1 : 0;
+  }
+  return {{"effective_data", data},
+          {"chi_square", chi_square},
+          {"chi_square_per_datum", data > 0 ? chi_square / data : 0.0},
+          {"autocorrelation_between_frames", done.state().innovations.autocorrelation()},
+          {"rejected_share", rejected / static_cast<double>(done.state().records.size())},
+          {"tempered_steps", tempered}};
+}
+
+}  // namespace
+
+ValueEstimate estimate_of(const IdentifiedParameter& parameter, double mean, double deviation) {
+  const double low = parameter.value(mean - two_sided_95 * deviation),
+               high = parameter.value(mean + two_sided_95 * deviation);
+  return {parameter.value(mean), std::min(low, high), std::max(low, high)};
+}
+
+void write_estimates(const std::filesystem::path& path, const IdentifiedParameters& parameters,
+                     const std::vector<EstimateRecord>& records) {
+  std::string text = headings(parameters);
+  for (const EstimateRecord& record : records) text += row(parameters, record);
+  write_whole(path, text);
+}
+
+void write_estimate(const std::filesystem::path& path, const IdentifiedParameters& parameters,
+                    const Identification& done, const IdentificationFacts& facts) {
+  const EstimateRecord& last = done.last();
+  const MatrixXd prior = parameters.prior_variances().asDiagonal();
+  const Identifiability what = identifiability(prior, last.covariance);
+  const Json json{{"case", facts.case_name},
+                  {"title", facts.title},
+                  {"case_file", facts.case_file},
+                  {"time", last.time},
+                  {"steps", done.state().step},
+                  {"parameters", parameters_json(parameters, done, what)},
+                  {"correlations", rows_of(correlations(last.covariance))},
+                  {"covariance_of_theta", rows_of(last.covariance)},
+                  {"identifiability",
+                   {{"information", list_of(what.information)}, {"directions", rows_of(what.directions.transpose())}}},
+                  {"innovations", innovations_json(done)},
+                  {"values_moved_into_their_range", parameters.moved()},
+                  {"notices", facts.notices},
+                  {"cost",
+                   {{"particles", last.mean.size() + 1},
+                    {"groups", facts.groups},
+                    {"wall_seconds", facts.wall_seconds},
+                    {"cpu_seconds", facts.cpu_seconds},
+                    {"master_cpu_seconds", facts.master_cpu_seconds},
+                    {"mixing_seconds", facts.mixing_seconds},
+                    {"peak_memory_mb", facts.peak_memory_mb}}}};
+  write_whole(path, json.dump(2) + "\n");
+}
+
+}  // namespace tether

@@ -1,0 +1,113 @@
+#include "identification_master/group_pool.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+using protocol::Partner;
+
+std::string described(const NamedValues& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.names.size(); ++i)
+    text += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", values.names[i], values.values[i]);
+  return text;
+}
+
+}  // namespace
+
+GroupPool::GroupPool(protocol::Session& session, std::vector<Partner*> groups)
+    : session_(session), groups_(std::move(groups)) {
+  for (Partner* group : groups_)
+    if (!group->hello().has_state)
+      throw input_error(
+          "identification needs codes that announce states; fluid or solid of this case does not (docs/protocol.md)");
+}
+
+VectorXd GroupPool::initial_state() {
+  const auto state = groups_.front()->ask(protocol::GetState{});
+  return Eigen::Map<const VectorXd>(state.values.data(), static_cast<Eigen::Index>(state.values.size()));
+}
+
+Points GroupPool::lumen() {
+  const auto interface = groups_.front()->ask(protocol::GetInterface{});
+  return Eigen::Map<const Points>(interface.points.data(), 3, static_cast<Eigen::Index>(interface.points.size() / 3));
+}
+
+protocol::Usage GroupPool::usage() {
+  protocol::Usage all;
+  for (Partner* group : groups_) {
+    const auto usage = group->ask(protocol::GetUsage{});
+    all.cpu_seconds += usage.cpu_seconds;
+    all.peak_memory_mb += usage.peak_memory_mb;
+  }
+  return all;
+}
+
+template <class Request>
+void GroupPool::deal(std::size_t count, const std::function<Request(std::size_t)>& request,
+                     const std::function<void(std::size_t, typename Request::Reply)>& take) {
+  std::vector<Partner*> idle = groups_, busy;
+  std::vector<std::size_t> work;  // of each busy group
+  std::size_t next = 0;
+  while (next < count || !busy.empty()) {
+    while (next < count && !idle.empty()) {
+      idle.back()->send(request(next));
+      busy.push_back(idle.back());
+      work.push_back(next++);
+      idle.pop_back();
+    }
+    Partner& done = session_.first_to_reply(busy);
+    const auto place = std::find(busy.begin(), busy.end(), &done) - busy.begin();
+    const std::size_t which = work[static_cast<std::size_t>(place)];
+    try {
+      take(which, done.receive<typename Request::Reply>());
+    } catch (const protocol::PartnerFailed& failure) {
+      const Request failed = request(which);
+      throw run_error("sigma point {} of {} ({}): {}", which + 1, count, described({failed.names, failed.values}),
+                      failure.what());
+    }
+    idle.push_back(&done);
+    busy.erase(busy.begin() + place);
+    work.erase(work.begin() + place);
+  }
+}
+
+std::vector<ParticleReport> GroupPool::advance(const EnsembleStep& step, const std::vector<NamedValues>& values,
+                                               MatrixXd& states, std::vector<std::vector<double>>& memories) {
+  std::vector<ParticleReport> reports(values.size());
+  const auto request = [&](std::size_t i) {
+    const auto state = states.col(static_cast<Eigen::Index>(i));
+    return protocol::Advance{
+        step.number, step.time, step.dt, step.observe, values[i].names, values[i].values, {state.begin(), state.end()},
+        memories[i]};
+  };
+  const auto take = [&](std::size_t i, protocol::Advanced reply) {
+    if (static_cast<Eigen::Index>(reply.state.size()) != states.rows())
+      throw run_error("sigma point {} came back with {} numbers instead of {}", i, reply.state.size(), states.rows());
+    states.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const VectorXd>(reply.state.data(), states.rows());
+    memories[i] = std::move(reply.memory);
+    reports[i] = {std::move(reply.observables), std::move(reply.distances),
+                  std::move(reply.weights),     reply.evaluations,
+                  reply.krylov_iterations,      reply.parts};
+  };
+  deal<protocol::Advance>(values.size(), request,
+                          [&](std::size_t i, protocol::Advanced reply) { take(i, std::move(reply)); });
+  return reports;
+}
+
+void GroupPool::simulate(const std::vector<NamedValues>& values, const std::vector<std::string>& folders,
+                         std::int64_t steps) {
+  deal<protocol::Simulate>(
+      values.size(),
+      [&](std::size_t i) {
+        return protocol::Simulate{values[i].names, values[i].values, steps, folders[i]};
+      },
+      [](std::size_t, protocol::Ready) {});
+}
+
+}  // namespace tether

@@ -1,0 +1,27 @@
+#include "identification_master/identifiability.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace tether {
+
+Identifiability identifiability(const MatrixXd& prior, const MatrixXd& posterior) {
+  const auto p = prior.rows();
+  const MatrixXd root = Eigen::SelfAdjointEigenSolver<MatrixXd>(prior).operatorSqrt();
+  const MatrixXd gramian = root * posterior.llt().solve(root) - MatrixXd::Identity(p, p);  // (K.7)
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum((gramian + gramian.transpose()) / 2);
+  Identifiability result{spectrum.eigenvalues().reverse(), spectrum.eigenvectors().rowwise().reverse(), VectorXd(p)};
+  const MatrixXd inverse = (gramian + MatrixXd::Identity(p, p)).inverse();
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const double alone = gramian(i, i), with_others = 1 / inverse(i, i) - 1;
+    result.retained(i) = alone > 0 ? std::max(0.0, with_others) / alone : 0;
+  }
+  return result;
+}
+
+MatrixXd correlations(const MatrixXd& covariance) {
+  const VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  return scale.asDiagonal() * covariance * scale.asDiagonal();
+}
+
+}  // namespace tether

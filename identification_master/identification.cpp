@@ -1,0 +1,133 @@
+#include "identification_master/identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/config/rules.hpp"
+
+namespace tether {
+namespace {
+
+std::size_t observable_of(const Trace& trace, const protocol::Hello& model) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < model.observables.size(); ++i) {
+    if (model.observables[i].name == trace.observable) return i;
+    known.push_back(model.observables[i].name);
+  }
+  const std::string near = nearest(trace.observable, known);
+  throw input_error("observations.traces.{}: the model has no observable {}; {}", trace.name, trace.observable,
+                    near.empty() ? "it has " + listed(known) : fmt::format("did you mean {}?", near));
+}
+
+MatrixXd diagonal(const VectorXd& variances) {
+  return variances.asDiagonal();
+}
+
+}  // namespace
+
+Identification::Identification(IdentificationPlan plan, const IdentifiedParameters& parameters,
+                               const DataPrecision& precision, const std::vector<Trace>& traces, Ensemble& ensemble)
+    : plan_(plan),
+      parameters_(parameters),
+      precision_(precision),
+      traces_(traces),
+      ensemble_(ensemble),
+      filter_(parameters.prior_mean(), diagonal(parameters.prior_variances())) {
+  for (const Trace& trace : traces) observable_.push_back(observable_of(trace, ensemble.model()));
+  const Eigen::Index particles = filter_.particles().cols();
+  state_.theta = filter_.particles();
+  state_.states = ensemble.initial_state().replicate(1, particles);  // L_x = 0
+  state_.memories.resize(static_cast<std::size_t>(particles));
+  state_.records.push_back({plan.start, filter_.mean(), filter_.covariance()});
+}
+
+void Identification::restore(IdentificationState state) {
+  if (state.theta.rows() != state_.theta.rows() || state.states.rows() != state_.states.rows())
+    throw input_error("the checkpoint is of {} parameters and a state of {} numbers; this case has {} and {}",
+                      state.theta.rows(), state.states.rows(), state_.theta.rows(), state_.states.rows());
+  state_ = std::move(state);
+  filter_ = ReducedOrderFilter(state_.theta);
+}
+
+void Identification::advance() {
+  const std::int64_t step = state_.step;
+  const double end = plan_.time_at(step + 1);
+  std::vector<NamedValues> values;
+  for (const auto& theta : filter_.particles().colwise()) values.push_back(parameters_.values(theta));
+  const auto reports = ensemble_.advance({step + 1, plan_.time_at(step), plan_.dt, is_observed(step)}, values,
+                                         state_.states, state_.memories);
+  EstimateRecord record;
+  record.time = end;
+  for (const ParticleReport& report : reports)
+    record.evaluations += static_cast<double>(report.evaluations) / static_cast<double>(reports.size());
+  if (is_observed(step)) correct(reports, end, record);
+  filter_.diffuse(parameters_.walked(plan_.dt));
+  if (plan_.memory_time > 0) state_.states *= filter_.forget(std::exp(-plan_.dt / plan_.memory_time)).transpose();
+  record.mean = filter_.mean();
+  record.covariance = filter_.covariance();
+  state_.theta = filter_.particles();
+  state_.records.push_back(std::move(record));
+  ++state_.step;
+}
+
+bool Identification::is_observed(std::int64_t step) const {
+  return plan_.every_step || precision_.has_frame(plan_.time_at(step), plan_.time_at(step + 1));
+}
+
+/// A sample that is no observation for one particle is none for all.
+Identification::Data Identification::gather(const std::vector<ParticleReport>& reports, double time) const {
+  const auto samples = static_cast<Eigen::Index>(reports.front().distances.size()),
+             traces = static_cast<Eigen::Index>(traces_.size());
+  Data data{MatrixXd(samples + traces, static_cast<Eigen::Index>(reports.size())), VectorXd(samples + traces)};
+  VectorXd weights = VectorXd::Constant(samples, infinite);
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const ParticleReport& report = reports[i];
+    auto column = data.discrepancies.col(static_cast<Eigen::Index>(i));
+    column.head(samples) = Eigen::Map<const VectorXd>(report.distances.data(), samples);
+    weights = weights.cwiseMin(Eigen::Map<const VectorXd>(report.weights.data(), samples));
+    for (Eigen::Index k = 0; k < traces; ++k) {
+      const auto trace = static_cast<std::size_t>(k);
+      column(samples + k) = traces_[trace].curve(time) - report.observables[observable_[trace]];
+    }
+  }
+  data.precision << precision_.of_samples(weights, time), precision_.of_traces(time);
+  for (Eigen::Index row = 0; row < data.precision.size(); ++row)
+    if (data.precision(row) == 0) data.discrepancies.row(row).setZero();  // it may be anything, NaN too
+  return data;
+}
+
+/// Leaves out data farther from the mean than the stated noise and the particles' spread explain. Returns their share.
+double Identification::reject_outliers(Data& data) const {
+  if (plan_.reject_beyond <= 0) return 0;
+  const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies);
+  const VectorXd spread = ReducedOrderFilter::spread_of(data.discrepancies).rowwise().squaredNorm();
+  const double before = data.precision.sum();
+  for (Eigen::Index row = 0; row < mean.size(); ++row) {
+    const double variance = std::pow(precision_.deviations()(row), 2) + spread(row);
+    if (mean(row) * mean(row) > plan_.reject_beyond * plan_.reject_beyond * variance) data.precision(row) = 0;
+  }
+  return before > 0 ? 1 - data.precision.sum() / before : 0;
+}
+
+void Identification::correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record) {
+  Data data = gather(reports, time);
+  record.rejected = reject_outliers(data);
+  record.data = data.precision.dot(precision_.deviations().cwiseAbs2());
+  const FilterCorrection done = filter_.correct(data.discrepancies, data.precision, plan_.largest_shift);
+  record.chi_square = done.chi_square;
+  record.tempering = done.tempering;
+  state_.states *= done.mix.transpose();  // (K.4)
+  if (precision_.has_frame(time - plan_.dt, time))
+    note_innovation(ReducedOrderFilter::mean_of(data.discrepancies), data.precision);
+}
+
+void Identification::note_innovation(const VectorXd& mean, const VectorXd& precision) {
+  if (state_.last_mean.size() == mean.size()) {
+    state_.innovations.products += mean.dot(precision.asDiagonal() * state_.last_mean);
+    state_.innovations.squares += mean.dot(precision.asDiagonal() * mean);
+  }
+  state_.last_mean = mean;
+}
+
+}  // namespace tether

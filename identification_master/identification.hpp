@@ -1,0 +1,88 @@
+#pragma once
+
+#include "common/observation/observations.hpp"
+#include "identification_master/data_precision.hpp"
+#include "identification_master/ensemble.hpp"
+#include "identification_master/reduced_order_filter.hpp"
+
+namespace tether {
+
+/// When and how an identification corrects.
+struct IdentificationPlan {
+  double start = 0, dt = 0;  ///< [time]
+  std::int64_t steps = 0;
+  bool every_step = true;    ///< else only steps with frames
+  double reject_beyond = 0;  ///< predicted standard deviations; 0: nothing is rejected
+  double memory_time = 0;    ///< 0: nothing is forgotten
+  double largest_shift = 2;  ///< of a correction, in deviations
+
+  double time_at(std::int64_t step) const { return start + static_cast<double>(step) * dt; }
+};
+
+/// What is known after a step.
+struct EstimateRecord {
+  double time = 0;
+  VectorXd mean;        ///< of theta
+  MatrixXd covariance;  ///< of theta
+  double data = 0;      ///< effective number of independent data in this step
+  double chi_square = 0;
+  double rejected = 0;     ///< share of the data's precision that was left out as outliers
+  double tempering = 1;    ///< share of the rest that was used
+  double evaluations = 0;  ///< of the coupled model, mean over the particles
+};
+
+/// How the discrepancies of the mean behave from frame to frame: about zero if model and noise are right.
+struct InnovationStatistics {
+  double products = 0, squares = 0;
+  double autocorrelation() const { return squares > 0 ? products / squares : 0; }
+};
+
+/// Everything that an identification needs to continue.
+struct IdentificationState {
+  std::int64_t step = 0;
+  MatrixXd theta, states;  ///< one particle a column
+  std::vector<std::vector<double>> memories;
+  std::vector<EstimateRecord> records;
+  InnovationStatistics innovations;
+  VectorXd last_mean;  ///< discrepancy of the mean at the last frame
+};
+
+/// The filter's cycle: sample, predict, correct (K.3, K.4), once a time step.
+class Identification {
+ public:
+  /// All must outlive it. `traces`: the column among the model's observables that each is compared with.
+  Identification(IdentificationPlan plan, const IdentifiedParameters& parameters, const DataPrecision& precision,
+                 const std::vector<Trace>& traces, Ensemble& ensemble);
+
+  /// One step of all particles, and its correction.
+  void advance();
+  bool is_done() const { return state_.step >= plan_.steps; }
+
+  const IdentificationPlan& plan() const { return plan_; }
+  const IdentificationState& state() const { return state_; }
+  /// Continues from such a state. Throws InputError if it does not fit.
+  void restore(IdentificationState state);
+  const EstimateRecord& last() const { return state_.records.back(); }
+
+ private:
+  struct Data {
+    MatrixXd discrepancies;  ///< data minus model, one particle a column
+    VectorXd precision;
+  };
+  bool is_observed(std::int64_t step) const;
+  Data gather(const std::vector<ParticleReport>& reports, double time) const;
+  double reject_outliers(Data& data) const;
+  void correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
+  void note_innovation(const VectorXd& mean, const VectorXd& precision);
+
+  IdentificationPlan plan_;
+  const IdentifiedParameters& parameters_;
+  const DataPrecision& precision_;
+  const std::vector<Trace>& traces_;
+  std::vector<std::size_t> observable_;  ///< of each trace
+  Ensemble& ensemble_;
+  ReducedOrderFilter filter_;
+  IdentificationState state_;
+};
+
+}  // namespace tether

@@ -1,0 +1,47 @@
+#include "identification_master/identification_case.hpp"
+
+namespace tether {
+
+void ParameterCase::declare(Fields& f) {
+  f.texts(
+      "of", of,
+      "the model's numbers that this parameter sets, by their place in the case: solid.support.regions.spine.stiffness",
+      Need::required);
+  f.choice("transform", transform,
+           {{"announced", "as the model announces for the first of them"},
+            {"linear", "theta is the value"},
+            {"log", "theta is its natural logarithm: always positive"},
+            {"log2", "theta is its logarithm to base 2: a step of 1 is a factor of two"},
+            {"bounded", "theta is the logit of its place between lower and upper"}},
+           "what is assumed to be normally distributed");
+  f.number("mean", mean, dimension::none, range::any,
+           "value before the data, in the case's units; absent: that of the case");
+  f.number("deviation", deviation, dimension::none, range::positive,
+           "standard deviation before the data, of theta; absent: as the model announces");
+  f.number("lower", lower, dimension::none, range::any,
+           "smallest admissible value, in the case's units; absent: that of the model");
+  f.number("upper", upper, dimension::none, range::any, "largest admissible value");
+  f.number("walk", walk, dimension::none, range::not_negative,
+           "the parameter changes in time: standard deviation of theta after one unit of time without data");
+  f.flag("factor", factor, "the parameter is a factor: each number keeps its value of the case, times it");
+  f.check(!lower || !upper || *lower < *upper, "upper", "must be above lower");
+}
+
+void IdentificationCase::declare(Fields& f) {
+  f.groups("parameters", parameters, "what is to be found, by names of your choice");
+  f.choice("observe", observe,
+           {{"every_step", "data are interpolated between frames, each frame counting once in all"},
+            {"frames", "only the steps in which a frame lies are corrected"}},
+           "when the model is corrected");
+  f.number("reject_beyond", reject_beyond, dimension::none, range::not_negative,
+           "data whose distance exceeds its predicted standard deviation by this factor are left out; 0: none are");
+  f.number("memory_time", memory_time, dimension::time, range::not_negative,
+           "what was learned loses weight as exp(-t/memory_time); 0: it does not");
+  f.number(
+      "largest_shift", largest_shift, dimension::none, range::positive,
+      "of the parameters in one correction, in their standard deviations; what the data say beyond waits for the next");
+  f.integer("groups", groups, {0, 10000},
+            "groups of processes that share the particles; 0: as many as cores and memory allow");
+}
+
+}  // namespace tether

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/config/fields.hpp"
+
+namespace tether {
+
+/// One parameter to be found, as a case states it.
+struct ParameterCase {
+  std::vector<std::string> of;  ///< names that the codes announce; all get the same value
+  std::string transform = "announced";
+  std::optional<double> mean, deviation;  ///< prior: value in the case's units; of theta
+  std::optional<double> lower, upper;     ///< of the value
+  double walk = 0;                        ///< of theta [1/sqrt(time)]
+  bool factor = false;                    ///< it multiplies the values of the case
+  void declare(Fields& f);
+};
+
+/// The section `identification` of a case.
+struct IdentificationCase {
+  Named<ParameterCase> parameters;
+  std::string observe = "every_step";
+  double reject_beyond = 0, memory_time = 0, largest_shift = 2;
+  int groups = 0;
+  void declare(Fields& f);
+};
+
+}  // namespace tether

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/base/transform.hpp"
+#include "common/base/types.hpp"
+#include "common/config/case_file.hpp"
+#include "common/protocol/messages.hpp"
+#include "identification_master/identification_case.hpp"
+
+namespace tether {
+
+/// Values of the model's numbers, by name.
+struct NamedValues {
+  std::vector<std::string> names;
+  std::vector<double> values;
+};
+
+/// One parameter to be found: its prior, and the model's numbers that it sets.
+struct IdentifiedParameter {
+  struct Target {
+    std::string name;
+    double scale;  ///< of the parameter: the case's value if the parameter is a factor, else 1
+    Range range;   ///< that the model admits
+  };
+  std::string name, unit;  ///< unit "1" for a factor
+  std::vector<Target> targets;
+  Transform transform = Transform::linear;
+  Range range;                                 ///< of the value
+  double prior_mean = 0, prior_deviation = 0;  ///< of theta
+  double walk = 0;                             ///< of theta [1/sqrt(time)]
+
+  double value(double theta) const;
+};
+
+/// The parameters of an identification, in the order of the case.
+class IdentifiedParameters {
+ public:
+  /// announced: what the codes say that can be set. Throws InputError that names the field: unknown number (with the
+  /// nearest known one), no prior, a mean that the transform does not admit, one number in two parameters.
+  IdentifiedParameters(const IdentificationCase& given, const std::vector<protocol::ParameterInfo>& announced,
+                       const CaseFile& file);
+
+  const std::vector<IdentifiedParameter>& list() const { return list_; }
+  VectorXd prior_mean() const;
+  VectorXd prior_variances() const;
+  /// Added to the variances of theta in a step of dt.
+  VectorXd walked(double dt) const;
+  /// What the model is told for a theta [p]. What the model does not admit is moved to the nearest admissible value,
+  /// and counted.
+  NamedValues values(const VectorXd& theta) const;
+  /// Values that were moved into their range so far.
+  int moved() const { return moved_; }
+
+ private:
+  std::vector<IdentifiedParameter> list_;
+  mutable int moved_ = 0;
+};
+
+}  // namespace tether

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <limits>
+
+#include "common/base/types.hpp"
+
+namespace tether {
+
+/// What a step of data did to the particles.
+struct FilterCorrection {
+  MatrixXd mix;  ///< [(p+1) x (p+1)] new particle i = sum_j mix(i, j) particle j, of parameters and states alike; rows
+                 ///< sum to 1
+  VectorXd shift;  ///< [p] of the mean, in deviations before the data
+  double chi_square =
+      0;  ///< of the mean discrepancy under its predicted covariance: about `observations` if model and noise are right
+  double tempering = 1;  ///< share of the data's weight that was used
+};
+
+/// The reduced-order unscented Kalman filter (Moireau and Chapelle 2011; Moireau et al. 2012): p parameters carried by
+/// p + 1 particles. Between two corrections the particles ARE the distribution (U = 1): nothing else is kept, and a
+/// step without data changes nothing. States are the caller's; they follow by `mix`. Discrepancies are data minus
+/// model.
+class ReducedOrderFilter {
+ public:
+  /// A normal distribution of theta: mean [p], covariance [p x p], positive definite.
+  ReducedOrderFilter(const VectorXd& mean, const MatrixXd& covariance);
+  /// From particles, one a column [p x (p+1)].
+  explicit ReducedOrderFilter(MatrixXd particles);
+
+  Eigen::Index parameters() const { return particles_.rows(); }
+  const MatrixXd& particles() const { return particles_; }
+  VectorXd mean() const;
+  MatrixXd covariance() const;
+
+  /// discrepancies: one particle a column [m x (p+1)]; precision: inverse variances [m], zero for no observation.
+  /// If the mean would move by more than `largest_shift` deviations the data get less weight. (K.3)
+  FilterCorrection correct(const MatrixXd& discrepancies, const VectorXd& precision,
+                           double largest_shift = std::numeric_limits<double>::infinity());
+
+  /// The parameters have walked at random: adds variances [p] to their covariance; states do not follow. (K.6)
+  void diffuse(const VectorXd& variances);
+  /// Older data lose weight: the covariance of parameters and states grows by 1/share. Returns the mix. (K.6)
+  MatrixXd forget(double share);
+
+  /// The columns' mean [m], and their derivative by the unit points, L of (K.3) [m x p].
+  static VectorXd mean_of(const MatrixXd& columns);
+  static MatrixXd spread_of(const MatrixXd& columns);
+
+ private:
+  MatrixXd particles_;
+};
+
+}  // namespace tether
