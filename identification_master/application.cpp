@@ -17,6 +17,7 @@
 #include "identification_master/estimate_files.hpp"
 #include "identification_master/group_pool.hpp"
 #include "identification_master/identification_case.hpp"
+#include "identification_master/identified_case.hpp"
 
 namespace tether {
 namespace {
@@ -106,9 +107,10 @@ class Job {
         data_(load_observations(given.observations, given.lumen(), given.file)),
         parameters_(given.identification, pool.model().parameters, given.file),
         precision_(data_, pool.lumen(), given.file.common().time.step,
-                   {given.file.common().time.start, given.file.common().time.end}, given.file),
+                   {given.file.common().time.start, given.file.common().time.end}),
         plan_(plan_of(given, command)),
         filter_(plan_, parameters_, prepared(), data_.traces, pool) {
+    check_noise(data_, given.file);
     fingerprint_ = hash_case(echo_json("observations", given.observations), hash_case(pool.model().effective_case, 0));
     fingerprint_ = hash_case(echo_json("identification", given.identification), fingerprint_);
   }
@@ -132,6 +134,7 @@ class Job {
       throw run_error("{}\n{}", error.what(), what_is_saved());
     }
     save();
+    write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
     write_estimate(output_ / "estimate.json", parameters_, filter_, facts(seconds_since(begun), cpu_before));
   }
 

@@ -20,7 +20,7 @@ double independent_share(double apart, double correlation_time) {
   return correlation_time > 0 ? std::tanh(apart / (2 * correlation_time)) : 1;
 }
 
-void check_noise(const Noise& noise, bool on_lumen, const std::string& field, const CaseFile& file) {
+void check(const Noise& noise, bool on_lumen, const std::string& field, const CaseFile& file) {
   if (!(noise.deviation > 0))
     throw input_error("{}: must be given: how far single data err decides what they can tell",
                       file.where(field + ".noise.deviation"));
@@ -37,14 +37,11 @@ double time_within(double time, double start, double period) {
 
 }  // namespace
 
-DataPrecision::DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run,
-                             const CaseFile& file)
+DataPrecision::DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run)
     : dt_(dt), run_start_(run.first), run_length_(run.second - run.first) {
   std::vector<double> deviations;
   for (const auto& source : data.lumen) {
     const SourceSettings& settings = source->settings();
-    const char* kind = source->sample_dimension() == 2 ? "surfaces." : "contours.";
-    check_noise(settings.noise, true, std::string("observations.") + kind + settings.name, file);
     const std::size_t first = series_.size();
     series_.resize(first + source->series_names().size(), {{}, settings.period, settings.noise.correlation_time, 0});
     double any_time = 0;
@@ -64,7 +61,6 @@ DataPrecision::DataPrecision(const Observations& data, const Points& imaged, dou
   }
   for (Series& series : series_) std::sort(series.times.begin(), series.times.end());
   for (const Trace& trace : data.traces) {
-    check_noise(trace.noise, false, "observations.traces." + trace.name, file);
     traces_.push_back(
         {trace.times, trace.period, trace.noise.correlation_time, 1 / std::pow(trace.noise.deviation, 2)});
     deviations.push_back(trace.noise.deviation);
@@ -127,6 +123,14 @@ bool DataPrecision::has_frame(double begin, double end) const {
         return true;
     }
   return false;
+}
+
+void check_noise(const Observations& data, const CaseFile& file) {
+  for (const auto& source : data.lumen) {
+    const char* kind = source->sample_dimension() == 2 ? "surfaces." : "contours.";
+    check(source->settings().noise, true, std::string("observations.") + kind + source->settings().name, file);
+  }
+  for (const Trace& trace : data.traces) check(trace.noise, false, "observations.traces." + trace.name, file);
 }
 
 }  // namespace tether

@@ -13,10 +13,8 @@ namespace tether {
 class DataPrecision {
  public:
   /// imaged: the lumen, to know which sample belongs to which series. dt: of the steps that will be corrected. run:
-  /// start and end of the run, over which a frame that always holds counts once. Throws InputError if the noise of some
-  /// data is not stated.
-  DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run,
-                const CaseFile& file);
+  /// start and end of the run, over which a frame that always holds counts once. All noise is stated (check_noise).
+  DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run);
 
   /// Of all lumen samples [m], from their weights (O.4; the smallest among the particles), at the end of a step.
   VectorXd of_samples(const VectorXd& weights, double time) const;
@@ -44,5 +42,8 @@ class DataPrecision {
   double dt_, run_start_, run_length_;
   bool whole_frames_ = false;
 };
+
+/// Throws InputError if the noise of some data is not stated.
+void check_noise(const Observations& data, const CaseFile& file);
 
 }  // namespace tether

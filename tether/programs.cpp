@@ -3,6 +3,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <iostream>
+
 #include "common/base/error.hpp"
 
 namespace tether {
@@ -35,9 +37,9 @@ std::filesystem::path sibling(const std::string& name) {
   return program;
 }
 
-Command coupled_run(const CommandLine& command) {
+Command parallel_run(const std::string& master, const CommandLine& command) {
   Command run{{"mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n",
-               "1", sibling("fsi_master").string(), command.case_file.string()},
+               "1", sibling(master).string(), command.case_file.string()},
               {}};
   add_options(run.words, command);
   add_terminal(run.environment);
@@ -46,6 +48,14 @@ Command coupled_run(const CommandLine& command) {
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   return run;
+}
+
+int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command) {
+  if (code > 128)
+    std::cerr << fmt::format(
+        "tether: {} was ended by signal {}{}; the last checkpoint is kept: tether {} {} --resume\n", master, code - 128,
+        code == 128 + 9 ? " (killed; out of memory?)" : "", verb, command.case_file.string());
+  return code == exit_input_wrong ? code : exit_run_failed;
 }
 
 }  // namespace tether

@@ -11,8 +11,13 @@ namespace tether {
 /// The program of that name beside this one. Throws InputError if there is none.
 std::filesystem::path sibling(const std::string& name);
 
-/// The mpirun line that simulates a case. Open MPI is told that there may be more processes than cores, that none is to
-/// be bound to one, to say nothing of its own when a run fails, and, for the superuser, that this is meant.
-Command coupled_run(const CommandLine& command);
+/// The mpirun line that starts a master (fsi_master, identification_master) on a case. Open MPI is told that there may
+/// be more processes than cores, that none is to be bound to one, to say nothing of its own when a run fails, and, for
+/// the superuser, that this is meant.
+Command parallel_run(const std::string& master, const CommandLine& command);
+
+/// The master says why a run failed, unless it was killed itself: mpirun then ends with 128 and the signal's number.
+/// Says that, and how to go on; returns the exit code of the front-end.
+int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command);
 
 }  // namespace tether

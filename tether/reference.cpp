@@ -9,7 +9,7 @@
 namespace tether {
 namespace {
 
-constexpr std::array readers{"fluid", "solid", "fsi_master", "observation_manager"};
+constexpr std::array readers{"fluid", "solid", "fsi_master", "observation_manager", "identification_master"};
 
 /// Parts of a reference that stand or fall together: a field with its meaning, or a whole section's table.
 std::vector<std::string> blocks(const std::string& text, const std::string& format) {

@@ -28,15 +28,6 @@ void check_with(const char* program, const CommandLine& command) {
   if (end.exit_code != exit_done) throw RunError(message);
 }
 
-/// fsi_master says why a run failed, unless it was killed itself: mpirun then ends with 128 and the signal's number.
-int report_failure(int code, const CommandLine& command) {
-  if (code > 128)
-    std::cerr << fmt::format(
-        "tether: fsi_master was ended by signal {}{}; the last checkpoint is kept: tether simulate {} --resume\n",
-        code - 128, code == 128 + 9 ? " (killed; out of memory?)" : "", command.case_file.string());
-  return code == exit_input_wrong ? code : exit_run_failed;
-}
-
 }  // namespace
 
 void check_case(const CommandLine& command) {
@@ -57,7 +48,8 @@ int simulate(const CommandLine& command) {
   const CaseFile file(command.case_file);
   const auto output = claim_output(command, file);
   if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
-  if (const int code = run_in_foreground(coupled_run(command)); code != exit_done) return report_failure(code, command);
+  if (const int code = run_in_foreground(parallel_run("fsi_master", command)); code != exit_done)
+    return report_failure(code, "fsi_master", "simulate", command);
   auto plots = draw_plots(output, file.units(), file.common().image.pressure);
   const auto pictures = draw_pictures(output, file.units());
   plots.insert(plots.begin(), pictures.begin(), pictures.end());

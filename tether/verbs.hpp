@@ -28,6 +28,10 @@ std::string describe_twin(const std::string& format);
 /// Holds the diagnosis of a twin's case, or of that in a twin's folder, against the sealed answer: score.json.
 int score(const CommandLine& command);
 
+/// Finds the parameters that the case names from its measurements: estimate.json and .csv, a plot, the identified case.
+/// Returns the run's exit code.
+int identify(const CommandLine& command);
+
 /// Checks the case with every program that reads it. Throws InputError with all that they find.
 void check_case(const CommandLine& command);
 int validate(const CommandLine& command);

@@ -142,7 +142,7 @@ struct Count {
 
 template <class Reply>
 Packet reply_from(const tether_array* arrays, int count) {
-  if constexpr (std::is_same_v<Reply, Interface> || std::is_same_v<Reply, Usage>) {
+  if constexpr (std::is_same_v<Reply, Interface> || std::is_same_v<Reply, Usage> || std::is_same_v<Reply, Advanced>) {
     throw InternalError("the library answers this itself");
   } else {
     Reply reply;

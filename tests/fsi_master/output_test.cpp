@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/base/progress_line.hpp"
 #include "fsi_master/checkpoint.hpp"
 #include "fsi_master/progress.hpp"
 #include "fsi_master/time_series.hpp"

@@ -14,6 +14,7 @@
 #include "common/observation/observed_case.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/surface_file.hpp"
 
 namespace tether {
 namespace {
@@ -22,17 +23,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr double step = 2e-3, outward = 0.05, higher = 1000;
-
-void write_stl(const fs::path& path, const Points& x, const std::vector<Triangle>& triangles) {
-  std::ofstream file(path);
-  file << "solid lumen\n";
-  for (const Triangle& t : triangles) {
-    file << "facet normal 0 0 0\nouter loop\n";
-    for (const int node : t) file << fmt::format("vertex {:.9g} {:.9g} {:.9g}\n", x(0, node), x(1, node), x(2, node));
-    file << "endloop\nendfacet\n";
-  }
-  file << "endsolid lumen\n";
-}
 
 /// A run of eight steps, and the case that measures it.
 class Compare : public testing::Test {

@@ -9,6 +9,7 @@
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/processes.hpp"
 
 /// `tether simulate` with the real programs on a coarse configs/tube: stopped or killed, then resumed, it leaves the
 /// same files as a run that was never interrupted, byte for byte.
@@ -17,18 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr int all_steps = 12;
-
-/// The process of a program that works on a case; 0 if there is none.
-pid_t process_of(const std::string& program, const fs::path& case_file) {
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    std::ifstream file(entry.path() / "cmdline", std::ios::binary);
-    const std::string line{std::istreambuf_iterator<char>(file), {}};
-    const std::string executable = line.substr(0, line.find('\0'));
-    if (fs::path(executable).filename() == program && line.find(case_file.string()) != std::string::npos)
-      return std::stoi(entry.path().filename());
-  }
-  return 0;
-}
 
 class Resume : public testing::TestWithParam<const char*> {
  protected:

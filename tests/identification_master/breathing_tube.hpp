@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include <random>
+
+#include "common/observation/surface_series.hpp"
+#include "identification_master/identification.hpp"
+#include "tests/observation/lumens.hpp"
+
+namespace tether::testing {
+
+/// A tube whose front and rear halves widen by theta_0 s(t) and theta_1 s(t), s(t) = sin^2(pi t/beat).
+struct BreathingTube {
+  static constexpr double beat = 0.8, length = 10, radius = 2;
+
+  static double swing(double time) { return std::pow(std::sin(std::numbers::pi * time / beat), 2); }
+  static TriangleSurface at(int around, int along, double time, double front, double rear) {
+    return tube(around, along, length,
+                [=](double z) { return radius + swing(time) * (z < length / 2 ? front : rear); });
+  }
+};
+
+/// Errors along the normals, alike as exp(-r/l), with this deviation.
+class CorrelatedErrors {
+ public:
+  CorrelatedErrors(const Points& x, double deviation, double length, unsigned seed) : random_(seed) {
+    MatrixXd C(x.cols(), x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      C.col(i) = deviation * deviation *
+                 (-(x.colwise() - x.col(i)).colwise().norm().array() / length).exp().matrix().transpose();
+    factor_ = C.llt().matrixL();
+  }
+  VectorXd draw() {
+    std::normal_distribution<double> normal;
+    return factor_ * VectorXd::NullaryExpr(factor_.rows(), [&] { return normal(random_); });
+  }
+
+ private:
+  std::mt19937 random_;
+  MatrixXd factor_;
+};
+
+/// Its model: particles without memory, whose lumen has a mesh of its own, against measured surfaces.
+class BreathingEnsemble : public Ensemble {
+ public:
+  BreathingEnsemble(const Observations& data, int around, int along) : data_(data), around_(around), along_(along) {
+    hello_.observables = {{"fluid.front", "cm"}};
+  }
+  Points lumen() const { return BreathingTube::at(around_, along_, 0, 0, 0).points; }
+
+  const protocol::Hello& model() const override { return hello_; }
+  VectorXd initial_state() override { return VectorXd::Zero(1); }
+  std::vector<ParticleReport> advance(const EnsembleStep& step, const std::vector<NamedValues>& values,
+                                      MatrixXd& states, std::vector<std::vector<double>>&) override {
+    std::vector<ParticleReport> reports;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double end = step.time + step.dt, front = values[i].values[0], rear = values[i].values[1];
+      states(0, static_cast<Eigen::Index>(i)) = BreathingTube::swing(end) * front;
+      ParticleReport report;
+      report.observables = {BreathingTube::swing(end) * front};
+      if (step.observe)
+        for (const Sample& sample : data_.observe(BreathingTube::at(around_, along_, end, front, rear).points, end)) {
+          report.distances.push_back(sample.distance);
+          report.weights.push_back(sample.weight);
+        }
+      reports.push_back(std::move(report));
+    }
+    return reports;
+  }
+
+ private:
+  const Observations& data_;
+  int around_, along_;
+  protocol::Hello hello_;
+};
+
+}  // namespace tether::testing

@@ -1,0 +1,154 @@
+/// `tether identify` with the real programs on a coarse configs/tube, from surfaces made by a run whose supports are
+/// others.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <future>
+#include <nlohmann/json.hpp>
+
+#include "common/base/child_process.hpp"
+#include "common/base/csv.hpp"
+#include "common/io/lumen_motion.hpp"
+#include "common/observation/observed_case.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/processes.hpp"
+#include "tests/scenarios/surface_file.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int steps = 24;
+constexpr double step = 4e-3, spine = 1e6, opposite = 1e4;
+
+constexpr const char* section = R"(observations:
+  surfaces:
+    twin: {file: frames.csv, unit: cm, noise: {deviation: 0.005, correlation_length: 0.5}}
+identification:
+  parameters:
+    spine: {of: [solid.support.regions.spine.stiffness], transform: log2, mean: 2e5, deviation: 2}
+    opposite: {of: [solid.support.regions.opposite.stiffness], transform: log2, mean: 5e4, deviation: 2}
+output:)";
+
+Edits coarse(Edits edits) {
+  edits.insert(edits.end(), {{"around: 24", "around: 12"},
+                             {"along: 20", "along: 12"},
+                             {"step: 2e-3", "step: 4e-3"},
+                             {"checkpoint_every: 100", "checkpoint_every: 5"}});
+  return edits;
+}
+
+class Identify : public testing::Test {
+ protected:
+  Identify() {
+    const fs::path truth = case_variant(source, folder / "truth", coarse({}));
+    EXPECT_EQ(tether("simulate", truth, "truth_out", {}).exit_code, 0);
+    case_file = case_variant(source, folder / "case", coarse({{"output:", section}}));
+    write_surfaces(truth);
+  }
+  void write_surfaces(const fs::path& truth) const {
+    const ObservedCase model(truth);
+    const LumenSurface lumen = model.lumen();
+    const LumenMotion motion(folder / "truth_out/lumen.motion");
+    std::ofstream list(folder / "case/frames.csv");
+    list << "file, time [s]\n";
+    for (int k = 0; k <= steps; k += 2) {
+      const std::string name = fmt::format("lumen_{}.stl", k);
+      write_stl(folder / "case" / name, motion.at(k * step), lumen.triangles);
+      list << fmt::format("{}, {}\n", name, k * step);
+    }
+  }
+  ChildEnd tether(const std::string& verb, const fs::path& file, const std::string& output,
+                  const std::vector<std::string>& options) const {
+    std::vector<std::string> words{TETHER_PROGRAM,  verb,      file.string(),         "--output",
+                                   folder / output, "--steps", std::to_string(steps), "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    return capture({words, {}});
+  }
+  Json estimate(const std::string& output) const { return Json::parse(content_of(folder / output / "estimate.json")); }
+  /// theta and deviation of each parameter.
+  static std::vector<std::pair<double, double>> theta(const Json& estimate) {
+    std::vector<std::pair<double, double>> all;
+    for (const Json& p : estimate["parameters"])
+      all.emplace_back(p["estimate"]["theta"], p["estimate"]["theta_deviation"]);
+    return all;
+  }
+  void expect_same(const std::string& one, const std::string& other) const {
+    const auto a = theta(estimate(one)), b = theta(estimate(other));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_NEAR(a[i].first, b[i].first, 1e-3 * a[i].second);  // the coupling is solved to 1e-6
+      EXPECT_NEAR(a[i].second, b[i].second, 1e-3 * a[i].second);
+    }
+  }
+  static constexpr const char* source = TETHER_SOURCE "/configs/tube/case.yaml";
+  TemporaryFolder folder;
+  fs::path case_file;
+};
+
+TEST_F(Identify, FindsWhatTheDataWereMadeWith) {
+  const ChildEnd end = tether("identify", case_file, "one", {"--processes", "1"});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  const Json found = estimate("one");
+  ASSERT_EQ(found["parameters"].size(), 2U);
+  const double truths[] = {spine, opposite};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Json& p = found["parameters"][i];
+    EXPECT_LT(p["estimate"]["theta_deviation"], 0.3 * p["prior"]["theta_deviation"].get<double>()) << p;
+    EXPECT_LT(std::abs(std::log2(p["estimate"]["value"].get<double>() / truths[i])),
+              2 * p["estimate"]["theta_deviation"].get<double>())
+        << p;
+    EXPECT_EQ(p["unit"], "g/(cm2 s2)");
+  }
+  const CsvTable table(folder / "one/estimate.csv");
+  EXPECT_EQ(table.rows(), static_cast<std::size_t>(steps + 1));
+  EXPECT_NEAR(table.numbers("spine").back(), found["parameters"][0]["estimate"]["value"].get<double>(), 1e-6 * spine);
+  EXPECT_TRUE(fs::exists(folder / "one/plots/estimate.png"));
+
+  const ChildEnd again = tether("simulate", folder / "one/identified.yaml", "identified", {});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+
+  ASSERT_EQ(tether("identify", case_file, "three", {"--processes", "3"}).exit_code, 0);
+  EXPECT_EQ(estimate("three")["cost"]["groups"], 3);
+  expect_same("one", "three");
+}
+
+TEST_F(Identify, KilledAndResumedItFindsTheSame) {
+  ASSERT_EQ(tether("identify", case_file, "whole", {}).exit_code, 0);
+  for (const char* program : {"solid", "fsi_master", "observation_manager"}) {
+    const std::string output = std::string("killed_") + program;
+    auto end = std::async(std::launch::async, [&] { return tether("identify", case_file, output, {}); });
+    const auto saved = folder / output / "checkpoint/identification.bin";
+    while (!fs::exists(saved) && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
+    const pid_t process = process_of(program, case_file);
+    ASSERT_NE(process, 0) << program;
+    kill(process, SIGKILL);
+    const auto killed = std::chrono::steady_clock::now();
+    const ChildEnd ended = end.get();
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - killed).count(), 10);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_NE(
+        ended.errors.find(fmt::format(
+            "{} (pid {}", std::string_view(program) == "observation_manager" ? "solid_observation" : program, process)),
+        std::string::npos)
+        << ended.errors;
+    EXPECT_EQ(process_of("fluid", case_file), 0) << "an orphan";
+    ASSERT_EQ(tether("identify", case_file, output, {"--resume"}).exit_code, 0);
+    expect_same("whole", output);
+  }
+}
+
+TEST_F(Identify, SaysWhichNumberItDoesNotKnow) {
+  const fs::path wrong =
+      case_variant(case_file, folder / "wrong", {{"regions.spine.stiffness]", "regions.spin.stiffness]"}});
+  const ChildEnd end = tether("identify", wrong, "none", {});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("did you mean solid.support.regions.spine.stiffness?"), std::string::npos) << end.errors;
+}
+
+}  // namespace
+}  // namespace tether

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace tether {
+
+/// The process of a program that works on a case; 0 if there is none.
+inline pid_t process_of(const std::string& program, const std::filesystem::path& case_file) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+    const std::string line{std::istreambuf_iterator<char>(file), {}};
+    const std::string executable = line.substr(0, line.find('\0'));
+    if (std::filesystem::path(executable).filename() == program && line.find(case_file.string()) != std::string::npos)
+      return std::stoi(entry.path().filename());
+  }
+  return 0;
+}
+
+}  // namespace tether

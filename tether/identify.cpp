@@ -1,0 +1,105 @@
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.hpp"
+#include "common/config/output_folder.hpp"
+#include "tether/gnuplot.hpp"
+#include "tether/programs.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+Json read_estimate(const fs::path& output) {
+  std::ifstream file(output / "estimate.json");
+  return Json::parse(file);
+}
+
+bool is_logarithmic(const Json& parameter) {
+  return parameter["transform"].get<std::string>().starts_with("log");
+}
+
+/// Figure 11 of the paper: each parameter over time, with its 95 % interval.
+std::vector<std::string> draw(const fs::path& output, const Json& estimate) {
+  if (!has_gnuplot()) return {};
+  fs::create_directories(output / "plots");
+  const auto& parameters = estimate["parameters"];
+  std::string script =
+      gnuplot_head(900, 60 + 260 * static_cast<int>(parameters.size())) +
+      "set datafile separator ','\nset xlabel 'time [s]'\nset style fill transparent solid 0.25 noborder\n"
+      "set key top right\nset output 'plots/estimate.png'\n";
+  script += fmt::format("set multiplot layout {},1\n", parameters.size());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Json& p = parameters[i];
+    const auto column = 2 + 3 * i;
+    script += fmt::format("{} logscale y\nset ylabel \"{} [{}]\" noenhanced\n", is_logarithmic(p) ? "set" : "unset",
+                          p["name"].get<std::string>(), p["unit"].get<std::string>());
+    script += fmt::format(
+        "plot 'estimate.csv' using 1:{1}:{2} skip 1 with filledcurves linecolor 1 title '95 %', '' using 1:{0} skip 1 "
+        "with lines "
+        "linewidth 2 linecolor 1 title 'estimate'\n",
+        column, column + 1, column + 2);
+  }
+  run_gnuplot(output, "estimate.gnuplot", script + "unset multiplot\n");
+  return {"estimate.png"};
+}
+
+std::string line_of(const Json& p) {
+  const Json &now = p["estimate"], &prior = p["prior"];
+  const double shrunk = now["theta_deviation"].get<double>() / prior["theta_deviation"].get<double>();
+  return fmt::format("  {:<22} {:>10.4g}  ({:.3g} .. {:.3g}) {:<14} {:>6.3f} {}\n", p["name"].get<std::string>(),
+                     now["value"].get<double>(), now["lower_95"].get<double>(), now["upper_95"].get<double>(),
+                     p["unit"].get<std::string>(), shrunk, shrunk > 0.7 ? "these data hardly tell" : "");
+}
+
+/// What is consistent with what was assumed, and what is not.
+std::string judgement_of(const Json& estimate) {
+  const Json& innovations = estimate["innovations"];
+  const double ratio = innovations["chi_square_per_datum"], repeated = innovations["autocorrelation_between_frames"];
+  std::string text = fmt::format(
+      "  misfit {:.2f} of what the stated noise explains ({:.0f} independent data); from frame to frame {:+.2f} "
+      "alike\n",
+      ratio, innovations["effective_data"].get<double>(), repeated);
+  if (ratio > 1.5)
+    text +=
+        "  The data are farther from the model than their noise: something is missing that these parameters cannot "
+        "make up for; the\n"
+        "  intervals are optimistic. tether diagnose looks for it.\n";
+  else if (repeated > 0.5 && ratio > 0.5)
+    text += "  The misfit is the same from frame to frame: the intervals are optimistic.\n";
+  return text;
+}
+
+std::string text_of(const Json& estimate, const fs::path& output, const std::vector<std::string>& pictures) {
+  std::string text =
+      fmt::format("\n  {:<22} {:>10}  {:<38} {}\n", "parameter", "estimate", "95 % interval", "deviation after/before");
+  for (const Json& p : estimate["parameters"]) text += line_of(p);
+  text += judgement_of(estimate);
+  text += fmt::format(
+      "In {}:\n  estimate.json      estimates, correlations, what the data can tell, cost\n"
+      "  estimate.csv       everything over time\n  identified.yaml    the case with the estimate: tether simulate "
+      "{}\n",
+      output.string(), (output / "identified.yaml").string());
+  for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
+  return text;
+}
+
+}  // namespace
+
+int identify(const CommandLine& command) {
+  check_case(command);
+  const CaseFile file(command.case_file);
+  const fs::path output = claim_output(command, file);
+  if (const int code = run_in_foreground(parallel_run("identification_master", command)); code != exit_done)
+    return report_failure(code, "identification_master", "identify", command);
+  const Json estimate = read_estimate(output);
+  const auto pictures = draw(output, estimate);
+  if (!command.quiet) std::cout << text_of(estimate, output, pictures);
+  return exit_done;
+}
+
+}  // namespace tether
