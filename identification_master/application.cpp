@@ -120,6 +120,7 @@ class Job {
     ProgressLine progress(filter_.state().step, plan_.steps, command_.quiet);
     const auto begun = Clock::now();
     const double cpu_before = pool_.usage().cpu_seconds;
+    master_cpu_before_ = cpu_seconds();
     try {
       while (!filter_.is_done()) {
         filter_.advance();
@@ -169,7 +170,7 @@ class Job {
             .groups = pool_.size(),
             .wall_seconds = wall_seconds,
             .cpu_seconds = groups.cpu_seconds - cpu_before,
-            .master_cpu_seconds = cpu_seconds(),
+            .master_cpu_seconds = cpu_seconds() - master_cpu_before_,
             .peak_memory_mb = groups.peak_memory_mb + peak_memory_mb(),
             .notices = pool_.model().notices};
   }
@@ -185,6 +186,7 @@ class Job {
   Identification filter_;
   std::uint64_t fingerprint_ = 0;
   std::optional<std::int64_t> saved_;
+  double master_cpu_before_ = 0;
 };
 
 int run(const CommandLine& command) {

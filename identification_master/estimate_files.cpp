@@ -148,9 +148,8 @@ void write_estimate(const std::filesystem::path& path, const IdentifiedParameter
                     {"groups", facts.groups},
                     {"wall_seconds", facts.wall_seconds},
                     {"cpu_seconds", facts.cpu_seconds},
-                    {"master_cpu_seconds", facts.master_cpu_seconds},
-                    {"mixing_seconds", facts.mixing_seconds},
-                    {"peak_memory_mb", facts.peak_memory_mb}}}};
+                    {"master_loop_cpu_seconds", facts.master_cpu_seconds},
+                                {"peak_memory_mb", facts.peak_memory_mb}}}};
   write_whole(path, json.dump(2) + "\n");
 }
 

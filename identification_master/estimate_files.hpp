@@ -10,8 +10,7 @@ namespace tether {
 struct IdentificationFacts {
   std::string case_name, title, case_file;
   std::size_t groups = 0;
-  double wall_seconds = 0, cpu_seconds = 0, master_cpu_seconds = 0, peak_memory_mb = 0;
-  double mixing_seconds = 0;  ///< of the master between two steps: filter, mix, files
+  double wall_seconds = 0, cpu_seconds = 0, master_cpu_seconds = 0, peak_memory_mb = 0;  ///< of the steps: all groups, the master
   std::vector<std::string> notices;
 };
 

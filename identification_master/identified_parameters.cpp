@@ -61,7 +61,7 @@ class Builder {
     if (made_.transform == Transform::bounded &&
         !(std::isfinite(made_.range.lower) && std::isfinite(made_.range.upper)))
       throw input_error("{}: must be given for a bounded parameter, and upper too", where("lower"));
-    const double mean = given_.mean.value_or(given_.factor ? 1 : first_.value);
+    const double mean = given_.mean.value_or(given_.factor ? 1 : usual_value());
     try {
       made_.prior_mean = stretched(made_.transform, mean, made_.range);
     } catch (const InputError& error) {
@@ -70,6 +70,12 @@ class Builder {
     made_.prior_deviation = given_.deviation.value_or(first_.prior_deviation);
     if (!(made_.prior_deviation > 0))
       throw input_error("{}: must be given: the model announces none for {}", where("deviation"), first_.name);
+  }
+
+  /// The case's value; of an effect that is absent, and has no logarithm there, the scale that the model announces.
+  double usual_value() const {
+    const bool logarithmic = made_.transform == Transform::log || made_.transform == Transform::log2;
+    return logarithmic && first_.value == 0 && first_.scale > 0 ? first_.scale : first_.value;
   }
 
   const ParameterCase& given_;

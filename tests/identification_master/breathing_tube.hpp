@@ -10,25 +10,42 @@
 
 namespace tether::testing {
 
-/// A tube whose front and rear halves widen by theta_0 s(t) and theta_1 s(t), s(t) = sin^2(pi t/beat).
+/// A tube that widens at its front by theta_0 s(t), at its rear by theta_1 s(t), linearly in between; s(t) = sin^2(pi
+/// t/beat).
 struct BreathingTube {
   static constexpr double beat = 0.8, length = 10, radius = 2;
 
   static double swing(double time) { return std::pow(std::sin(std::numbers::pi * time / beat), 2); }
+  static double widening(double z, double front, double rear) { return front + (rear - front) * z / length; }
+  /// Nodes on the tube.
   static TriangleSurface at(int around, int along, double time, double front, double rear) {
-    return tube(around, along, length,
-                [=](double z) { return radius + swing(time) * (z < length / 2 ? front : rear); });
+    return tube(around, along, length, [=](double z) { return radius + swing(time) * widening(z, front, rear); });
+  }
+  /// As it is measured: longer than the model, and with facets that are on the tube on average, not inside it.
+  static TriangleSurface measured(int around, int along, double time, double front, double rear) {
+    constexpr double beyond = 1;
+    const double angle = std::numbers::pi / around;
+    TriangleSurface surface = tube(around, along, length + 2 * beyond, [=](double z) {
+      return (radius + swing(time) * widening(z - beyond, front, rear)) * angle / std::sin(angle);
+    });
+    surface.points.row(2).array() -= beyond;
+    return surface;
   }
 };
 
-/// Errors along the normals, alike as exp(-r/l), with this deviation.
+/// Errors along the normals, smooth as a segmentation is: alike as exp(-r^2/(2 l^2)), so that one in 2 pi l^2 is
+/// independent, as of exp(-r/l).
 class CorrelatedErrors {
  public:
   CorrelatedErrors(const Points& x, double deviation, double length, unsigned seed) : random_(seed) {
     MatrixXd C(x.cols(), x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       C.col(i) = deviation * deviation *
-                 (-(x.colwise() - x.col(i)).colwise().norm().array() / length).exp().matrix().transpose();
+                 (-(x.colwise() - x.col(i)).colwise().squaredNorm().array() / (2 * length * length))
+                     .exp()
+                     .matrix()
+                     .transpose();
+    C.diagonal().array() += 1e-8 * deviation * deviation;
     factor_ = C.llt().matrixL();
   }
   VectorXd draw() {

@@ -15,19 +15,19 @@ constexpr double deviation = 0.06, correlation = 0.5;
 IdentifiedParameters parameters_of_tube() {
   static const TemporaryFolder folder;
   const auto path = folder / "case.yaml";
-  std::ofstream(path) << "name: tube\ntime: {step: 0.01, end: 0.8}\n";
+  std::ofstream(path) << "name: tube\nunits: cgs\ntime: {step: 0.01, end: 0.8}\n";
   const CaseFile file(path);
   IdentificationCase given;
   for (const char* name : {"front", "rear"}) {
     ParameterCase parameter;
     parameter.of = {name};
     parameter.mean = 0.1;
-    parameter.deviation = 0.5;
+    parameter.deviation = 0.2;
     given.parameters.emplace_back(name, parameter);
   }
   std::vector<protocol::ParameterInfo> announced;
   for (const char* name : {"front", "rear"})
-    announced.push_back({name, "", "cm", "linear", 0.1, 0, -infinite, infinite, 1});
+    announced.push_back({name, "", "cm", "linear", 0.1, 0, -infinite, infinite, 1, 1});
   return {given, announced, file};
 }
 
@@ -37,7 +37,7 @@ Observations surfaces(int around, int along, double front, double rear, int mode
   std::vector<SurfaceFrame> list;
   for (int k = 0; k < frames; ++k) {
     const double time = BreathingTube::beat * k / frames;
-    TriangleSurface surface = BreathingTube::at(around, along, time, front, rear);
+    TriangleSurface surface = BreathingTube::measured(around, along, time, front, rear);
     if (errors != nullptr) {
       const VectorXd e = errors->draw();
       for (Eigen::Index i = 0; i < e.size(); ++i)
@@ -81,9 +81,9 @@ TEST(Identification, IsAsSureAsTheDataAllow) {
   const EstimateRecord found = identified(data, 24, 20, 0.01);
   double squares = 0;
   for (int k = 0; k < frames; ++k) squares += std::pow(BreathingTube::swing(BreathingTube::beat * k / frames), 2);
-  const double area = 2 * std::numbers::pi * BreathingTube::radius * BreathingTube::length / 2;
+  const double area = 2 * std::numbers::pi * BreathingTube::radius * BreathingTube::length;
   const double information =
-      squares * area / (2 * std::numbers::pi * correlation * correlation) / (deviation * deviation);
+      squares * area / (2 * std::numbers::pi * correlation * correlation) / 4 / (deviation * deviation);
   for (const double now : deviations(found))
     EXPECT_NEAR(now * std::sqrt(information), 1, 0.1);  // rims; interpolation between frames
   EXPECT_NEAR(found.mean(0), 0.3, 0.01);
@@ -115,11 +115,11 @@ TEST(Identification, AtFramesOnlyIsAboutAsSure) {
 /// 60 data sets with correlated errors: the truth is in the 95 % interval in 57 of 60 on average; 0.5 % of all series
 /// of 120 fall below 108.
 TEST(Identification, ItsIntervalsHoldTheTruth) {
-  CorrelatedErrors errors(BreathingTube::at(24, 20, 0, 0, 0).points, deviation, correlation, 11);
+  CorrelatedErrors errors(BreathingTube::measured(48, 25, 0, 0, 0).points, deviation, correlation, 11);
   int inside = 0;
   VectorXd mean_error = VectorXd::Zero(2);
   for (int trial = 0; trial < 60; ++trial) {
-    const Observations data = surfaces(24, 20, 0.3, -0.1, 16, 14, &errors);
+    const Observations data = surfaces(48, 25, 0.3, -0.1, 16, 14, &errors);
     const EstimateRecord found = identified(data, 16, 14, 0.02);
     const VectorXd error = found.mean - Eigen::Vector2d(0.3, -0.1);
     inside += static_cast<int>((error.cwiseAbs().array() < 1.96 * deviations(found).array()).count());

@@ -9,17 +9,19 @@ namespace tether {
 namespace {
 
 const std::vector<protocol::ParameterInfo> announced{
-    {"solid.a.stiffness", "", "g/(cm2 s2)", "log2", 1e5, 0, 0, infinite, 2},
-    {"solid.b.stiffness", "", "g/(cm2 s2)", "log2", 4e5, 0, 0, infinite, 2},
-    {"solid.poisson", "", "1", "bounded", 0.4, undefined, 0, 0.5, 0.3},
-    {"solid.none.stiffness", "", "g/(cm2 s2)", "log2", 0, 0, 0, infinite, 2},
-    {"fluid.shift", "", "s", "linear", 0, 0, -0.1, 0.1, undefined}};
+    {"solid.a.stiffness", "", "g/(cm2 s2)", "log2", 1e5, 0, 0, infinite, 2, 1e5},
+    {"solid.b.stiffness", "", "g/(cm2 s2)", "log2", 4e5, 0, 0, infinite, 2, 1e5},
+    {"solid.poisson", "", "1", "bounded", 0.4, undefined, 0, 0.5, 0.3, undefined},
+    {"solid.none.stiffness", "", "g/(cm2 s2)", "log2", 0, 0, 0, infinite, 2, undefined},
+    {"solid.absent.stiffness", "", "g/(cm2 s2)", "log2", 0, 0, 0, infinite, 2, 3e5},
+    {"fluid.shift", "", "s", "linear", 0, 0, -0.1, 0.1, undefined, undefined}};
 
 class Parameters : public testing::Test {
  protected:
   IdentifiedParameters made(const std::string& text) const {
-    std::ofstream(folder / "case.yaml") << "name: test\ntime: {step: 0.1, end: 1}\nidentification:\n  parameters:\n"
-                                        << text;
+    std::ofstream(folder / "case.yaml")
+        << "name: test\nunits: cgs\ntime: {step: 0.1, end: 1}\nidentification:\n  parameters:\n"
+        << text;
     CaseFile file(folder / "case.yaml");
     IdentificationCase given;
     file.read("identification", given);
@@ -46,6 +48,10 @@ TEST_F(Parameters, TakeTheirPriorFromTheModel) {
   EXPECT_EQ(values.names, (std::vector<std::string>{"solid.a.stiffness", "solid.poisson"}));
   EXPECT_NEAR(values.values[0], 1e5, 1e-6);
   EXPECT_NEAR(values.values[1], 0.4, 1e-14);
+}
+
+TEST_F(Parameters, OfAnAbsentEffectBeginAtItsScale) {
+  EXPECT_DOUBLE_EQ(made("    a: {of: [solid.absent.stiffness]}\n").prior_mean()(0), std::log2(3e5));
 }
 
 TEST_F(Parameters, AFactorKeepsTheCasesProportions) {
@@ -75,7 +81,7 @@ TEST_F(Parameters, BadOnesAreNamedWithTheirLine) {
   const auto expect = [&](const std::string& text, const std::string& part) {
     const std::string told = refusal(text);
     EXPECT_NE(told.find(part), std::string::npos) << told;
-    EXPECT_NE(told.find("case.yaml:5"), std::string::npos) << told;
+    EXPECT_NE(told.find("case.yaml:6"), std::string::npos) << told;
   };
   expect("    a: {of: [solid.a.stifness]}\n", "did you mean solid.a.stiffness?");
   expect("    a: {of: [solid.none.stiffness]}\n", "0 has no logarithm (the case's value; give a mean)");

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "common/base/child_process.hpp"
 #include "common/base/csv.hpp"
@@ -136,6 +137,7 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
             "{} (pid {}", std::string_view(program) == "observation_manager" ? "solid_observation" : program, process)),
         std::string::npos)
         << ended.errors;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     EXPECT_EQ(process_of("fluid", case_file), 0) << "an orphan";
     ASSERT_EQ(tether("identify", case_file, output, {"--resume"}).exit_code, 0);
     expect_same("whole", output);
