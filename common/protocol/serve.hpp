@@ -23,7 +23,8 @@ Failure current_failure();
 template <class Handler, class... Requests>
 Packet answer(std::variant<Requests...>*, const Packet& request, Handler& handler) {
   static_assert((Answers<Handler, Requests> && ...), "a request has no handler, or one with another reply");
-  if (!Answers<Handler, GetUsage> && holds<GetUsage>(request)) return pack(Usage{cpu_seconds(), peak_memory_mb()});
+  if constexpr (!(std::same_as<Requests, GetUsage> || ...))
+    if (holds<GetUsage>(request)) return pack(Usage{cpu_seconds(), peak_memory_mb()});
   Packet reply;
   const bool known = ((holds<Requests>(request) && (reply = pack(handler(unpack<Requests>(request))), true)) || ...);
   return known ? std::move(reply) : pack(Failure{"does not know " + kind_name<ToPartner>(request.kind)});

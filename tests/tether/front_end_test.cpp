@@ -41,7 +41,8 @@ class FrontEnd : public testing::Test {
     fs::create_directories(folder_);
     fs::copy_file(TETHER_PROGRAM, folder_ / "tether");
     std::ofstream(folder_ / "case.yaml") << "name: tube\ntitle: A tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
-    for (const char* name : {"fluid", "solid", "fsi_master", "observation_manager"}) program(name, finished_run);
+    for (const char* name : {"fluid", "solid", "fsi_master", "observation_manager", "identification_master"})
+      program(name, finished_run);
   }
   void program(const std::string& name, const std::string& script) {
     std::ofstream(folder_ / name) << "#!/bin/sh\n" << script;
