@@ -313,9 +313,11 @@ void ElementsOf<Element>::set_initial_stress(const Points& u, const Material& ma
   const double lambda = C(0, 1), mu = C(3, 3), sum = lambda + mu;
   const auto linear = saint_venant_kirchhoff.make(std::array{mu * (3 * lambda + 2 * mu) / sum, lambda / (2 * sum)});
   const WallLaw law(*linear);
-  constexpr double share = 1e-6;  // the law is linear, but a strain that no body can have would have no square root
+  constexpr double small = 0.01;  // the law is linear, but a strain that no body can have would have no square root
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const Samples s = elements_[e].strains().rates(unstressed_[e]).transpose() * gather(u, e).reshaped() * share;
+    const Samples all = elements_[e].strains().rates(unstressed_[e]).transpose() * gather(u, e).reshaped();
+    const double share = small / std::max(small, all.cwiseAbs().maxCoeff());
+    const Samples s = share * all;
     initial_[e] = sample_stress(elements_[e], s, law) / share;
     initial_mean_[e] = mean_stress(elements_[e], PointStrains<Element>(elements_[e], s, law).strain, law) / share;
   }
