@@ -14,6 +14,16 @@ FlowInlet::FlowInlet(const EndFace& face, const InletSettings& settings)
       ramp_(settings.ramp),
       kind_(settings.profile) {}
 
+double FlowInlet::opening(double clock) const {
+  const double s = ramp_ > 0 ? std::clamp(clock / ramp_, 0.0, 1.0) : 1.0;
+  return 0.5 * (1 - std::cos(std::numbers::pi * s));  // as Curve's
+}
+
+double FlowInlet::flow(double time) const {
+  const double clock = inflow->curve_time(time);
+  return inflow->gain() * curve_(clock) + opening(clock) * inflow->added(time, period_);
+}
+
 Points FlowInlet::velocity(double time, double kinematic_viscosity) {
   if (!profile_ || (kind_ == Profile::womersley && kinematic_viscosity != profile_viscosity_)) {
     const double opened = period_ > 0 ? period_ * std::ceil(ramp_ / period_) : 0;  // a whole number of periods
@@ -21,9 +31,7 @@ Points FlowInlet::velocity(double time, double kinematic_viscosity) {
     profile_viscosity_ = kinematic_viscosity;
   }
   const double clock = inflow->curve_time(time);
-  const double s = ramp_ > 0 ? std::clamp(clock / ramp_, 0.0, 1.0) : 1.0;
-  const double opening = 0.5 * (1 - std::cos(std::numbers::pi * s));  // as Curve's
-  return profile_->velocity(*face_, flow(time), clock, inflow->gain() * opening);
+  return profile_->velocity(*face_, flow(time), clock, inflow->gain() * opening(clock));
 }
 
 Opening::Opening(const EndFace& face, const EffectChoice& effect, const Curve& curve, bool is_inlet)

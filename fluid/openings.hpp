@@ -20,13 +20,16 @@ class FlowInlet {
   Configured<Inflow> inflow;
 
   /// Into the vessel [volume/time].
-  double flow(double time) const { return inflow->gain() * curve_(inflow->curve_time(time)); }
+  double flow(double time) const;
   /// At the face's nodes (local), in space; its flux is -flow(time) to round-off.
   Points velocity(double time, double kinematic_viscosity);
 
  private:
   const EndFace* face_;
   Curve curve_;
+  /// Of a curve that sets in smoothly, how far it has by its clock.
+  double opening(double clock) const;
+
   double period_, ramp_;
   Profile kind_;
   std::optional<InletProfile> profile_;  // made when first needed, and again when the viscosity has changed

@@ -59,7 +59,7 @@ std::vector<int> clamped_nodes(const SolidCase& solid, const WallMesh& mesh) {
   return nodes;
 }
 
-std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh& mesh, const UnitSystem& units) {
+std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file) {
   std::vector<SurfaceSupport> result;
   for (const Patch& region : mesh.outside)
     if (const SupportCase* chosen = named(solid.support.regions, region.name))
@@ -69,9 +69,9 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
     if (chosen == nullptr || chosen->effect.type == clamped_ring.name || chosen->effect.type == free_ring.name)
       continue;
     result.emplace_back(ring, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values),
-                        chosen->motion ? chosen->motion->load(units) : TissueMotion{});
+                        chosen->motion ? chosen->motion->load(file.units()) : TissueMotion{});
   }
-  add_surface_effects(solid.effects, mesh, units, result);
+  add_surface_effects(solid.effects, mesh, file, result);
   return result;
 }
 
@@ -184,7 +184,7 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
                               .conserve_energy = solid.integrator == "energy_conserving",
                               .support_on_current_area = solid.support.area == "current"};
   const std::vector<int> clamped = clamped_nodes(solid, mesh);
-  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file.units());
+  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file);
   const ImageCase& image = file.common().image;
   const Points stress_free =
       image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;

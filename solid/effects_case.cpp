@@ -3,18 +3,27 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
+#include "common/base/transform.hpp"
 #include "solid/motions/registry.hpp"
+#include "solid/supports/expression_traction.hpp"
 #include "solid/supports/registry.hpp"
 #include "solid/wall_effects/registry.hpp"
 
 namespace tether {
 namespace {
 
+const EffectDeclaration expression_declaration{
+    .name = "expression",
+    .meaning = "A traction on the outer wall, written as formulas in the case file",
+    .place = Place::outer_wall,
+    .parameters = {}};
+
 const std::vector<const EffectDeclaration*>& family() {
   static const std::vector<const EffectDeclaration*> all = [] {
     std::vector<const EffectDeclaration*> list = declarations(surface_effects());
     for (const EffectDeclaration* more : declarations(motions())) list.push_back(more);
     for (const EffectDeclaration* more : declarations(wall_effects())) list.push_back(more);
+    list.push_back(&expression_declaration);
     return list;
   }();
   return all;
@@ -73,7 +82,65 @@ void tie(const std::shared_ptr<MovingTissue>& tissue, const std::vector<Triangle
     throw input_error("{}: nothing holds the wall there: what moves must be tied to it by a support", tissue->path);
 }
 
+Parameter parameter_of(const std::string& name, const ExpressionParameterCase& given) {
+  return {.name = name,
+          .meaning = given.meaning,
+          .dimension = dimension::none,
+          .range = {given.lower.value_or(-infinite), given.upper.value_or(infinite)},
+          .standard = given.value,
+          .absent = given.absent.value_or(undefined),
+          .transform = transform_named(given.transform),
+          .prior_deviation = given.prior_deviation.value_or(undefined),
+          .scale = given.scale.value_or(undefined)};
+}
+
+/// The expression's effect. Throws InputError that begins with `where`.
+Configured<Support> configured(const ExpressionCase& given, const WallMesh& mesh, const std::string& where) {
+  const Vec3 size = mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff();
+  ExpressionLaw law{given.normal, given.traction, {}, size.norm()};
+  std::vector<double> values;
+  for (const auto& [name, parameter] : given.parameters) {
+    law.parameters.push_back(parameter_of(name, parameter));
+    values.push_back(parameter.value);
+  }
+  try {
+    return configure(law, std::move(values));
+  } catch (const InputError& error) {
+    throw input_error("{}: {}", where, error.what());
+  }
+}
+
 }  // namespace
+
+void ExpressionParameterCase::declare(Fields& f) {
+  f.number("value", value, dimension::none, range::any, "in the case's units");
+  f.number("absent", absent, dimension::none, range::any,
+           "value at which the expression does nothing, if there is one");
+  f.number("lower", lower, dimension::none, range::any, "least admissible value");
+  f.number("upper", upper, dimension::none, range::any, "largest admissible value");
+  f.choice("transform", transform,
+           {{"linear", "itself"},
+            {"log", "natural logarithm"},
+            {"log2", "logarithm to base 2"},
+            {"bounded", "between lower and upper"}},
+           "how it is stretched when it is identified");
+  f.number("prior_deviation", prior_deviation, dimension::none, range::positive,
+           "standard deviation after the transform");
+  f.number("scale", scale, dimension::none, range::positive, "how far from 'absent' the value of a patient may be");
+  f.text("meaning", meaning, "for reports");
+}
+
+void ExpressionCase::declare(Fields& f) {
+  f.text("normal", normal,
+         "traction along the outward normal, a formula of the imaged position x y z, the normal nx ny nz, displacement "
+         "ux uy uz, "
+         "velocity vx vy vz, their parts along the normal un vn, the time t, and the parameters");
+  f.texts("traction", traction,
+          "x, y and z components of the traction, such formulas; beside 'normal' or instead of it");
+  f.check(!normal.empty() || !traction.empty(), "type", "needs 'normal', 'traction' or both");
+  f.check(traction.empty() || traction.size() == 3, "traction", "must be three formulas");
+  f.groups("parameters", parameters, "numbers that the formulas name: they can be identified like any other");
+}
 
 void WallEffectCase::declare(Fields& f) {
   f.effect(effect, family(), "what acts, or is different");
@@ -82,6 +149,7 @@ void WallEffectCase::declare(Fields& f) {
     f.group("motion", motion, "the motion over time");
     f.check(motion.has_value(), "type", "needs a section 'motion'");
   });
+  f.when("type", effect.type, {"expression"}, [&] { expression.declare(f); });
 }
 
 void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file) {
@@ -104,18 +172,22 @@ bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects) {
   });
 }
 
-void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const UnitSystem& units,
+void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file,
                          std::vector<SurfaceSupport>& supports) {
-  for (const auto& [name, block] : effects)
+  for (const auto& [name, block] : effects) {
+    const std::string path = "solid.effects." + name;
+    const auto add = [&, &name = name, &block = block](Configured<Support> effect) {
+      supports.emplace_back(Patch{name, triangles_of(block.region, mesh)}, std::move(effect), TissueMotion{}, path);
+    };
     if (is_of(surface_effects(), block.effect.type))
-      supports.emplace_back(Patch{name, triangles_of(block.region, mesh)},
-                            Configured<Support>(surface_effects(), block.effect.type, block.effect.values),
-                            TissueMotion{}, "solid.effects." + name);
+      add(Configured<Support>(surface_effects(), block.effect.type, block.effect.values));
+    if (block.effect.type == expression_declaration.name) add(configured(block.expression, mesh, file.where(path)));
+  }
   for (const auto& [name, block] : effects)
     if (is_of(motions(), block.effect.type)) {
       Configured<MotionLaw> motion(motions(), block.effect.type, block.effect.values);
       tie(std::make_shared<MovingTissue>("solid.effects." + name, std::move(motion),
-                                         block.motion ? block.motion->load(units) : TissueMotion{}),
+                                         block.motion ? block.motion->load(file.units()) : TissueMotion{}),
           triangles_of(block.region, mesh), supports);
     }
 }

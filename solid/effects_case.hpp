@@ -7,12 +7,29 @@
 
 namespace tether {
 
+/// A number of an expression.
+struct ExpressionParameterCase {
+  double value = undefined;
+  std::optional<double> absent, lower, upper, prior_deviation, scale;
+  std::string transform = "linear", meaning;
+  void declare(Fields& f);
+};
+
+/// A traction written as formulas.
+struct ExpressionCase {
+  std::string normal;
+  std::vector<std::string> traction;
+  Named<ExpressionParameterCase> parameters;
+  void declare(Fields& f);
+};
+
 /// An effect on a part of the wall, under a name of the user's choice: `solid.effects.NAME`. A case has any number of
 /// them, also several on one region; at their absent values they change nothing.
 struct WallEffectCase {
   EffectCase effect;
   std::string region;  ///< of the outer wall, or a ring; empty: the whole outer wall
   std::optional<MotionCase> motion;
+  ExpressionCase expression;
   void declare(Fields& f);
 };
 
@@ -25,7 +42,7 @@ bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects);
 
 /// Appends what acts on the wall's surface, and ties what holds it, these and the supports already there, to the tissue
 /// that moves.
-void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const UnitSystem& units,
+void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file,
                          std::vector<SurfaceSupport>& supports);
 
 /// In what parts of the wall differ.

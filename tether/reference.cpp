@@ -16,7 +16,7 @@ std::vector<std::string> blocks(const std::string& text, const std::string& form
   std::vector<std::string> found;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    const bool begins = format == "markdown" ? line.starts_with("## ") : !line.starts_with(" ");
+    const bool begins = format != "text" ? line.starts_with("## ") : !line.starts_with(" ");
     if (begins || found.empty()) found.emplace_back();
     found.back() += line + "\n";
   }

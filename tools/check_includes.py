@@ -20,7 +20,7 @@ COMMON = {
     "common/protocol": ["base", "config"],
 }
 PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "pictures", "tether"]
-HEAVY = re.compile(r"(yaml-cpp/.*|CGAL/.*|vtk.*\.h|spdlog/.*|CLI/.*|nlohmann/.*|cholmod\.h)")
+HEAVY = re.compile(r"(yaml-cpp/.*|CGAL/.*|vtk.*\.h|spdlog/.*|CLI/.*|nlohmann/.*|muParser.*|cholmod\.h)")
 BUILT_ON = {"tether": ["diagnosis", "twin"]}  # rooms that are libraries of a program
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 

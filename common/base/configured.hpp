@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -44,27 +45,32 @@ class Configured {
  public:
   /// Throws InputError for an unknown type or name, a value out of range, or one that must be given and is not.
   Configured(std::span<const Registered<Physics>> registry, const EffectChoice& choice)
-      : entry_(&find_effect(registry, choice.type)) {
+      : Configured(find_effect(registry, choice.type)) {
     for (const auto& parameter : declaration().parameters) {
       const auto given = choice.values.find(parameter.name);
       values_.push_back(given == choice.values.end() ? parameter.standard : given->second);
       check(parameter, values_.back());
     }
     for (const auto& [name, value] : choice.values) index_of(name);
-    physics_ = entry_->make(values_);
+    physics_ = make_(values_);
   }
 
   /// Values in the declaration's order, as the case file's reader leaves them.
   Configured(std::span<const Registered<Physics>> registry, const std::string& type, std::vector<double> values)
-      : entry_(&find_effect(registry, type)), values_(std::move(values)) {
-    TETHER_ASSERT(values_.size() == declaration().parameters.size(), "{} values for {}", values_.size(), type);
-    for (std::size_t i = 0; i < values_.size(); ++i) check(declaration().parameters[i], values_[i]);
-    physics_ = entry_->make(values_);
+      : Configured(find_effect(registry, type)) {
+    start_with(std::move(values));
+  }
+
+  /// An effect whose declaration the case itself makes.
+  Configured(std::shared_ptr<const EffectDeclaration> declaration,
+             std::function<std::unique_ptr<Physics>(std::span<const double>)> make, std::vector<double> values)
+      : declaration_(std::move(declaration)), make_(std::move(make)) {
+    start_with(std::move(values));
   }
 
   const Physics& operator*() const { return *physics_; }
   const Physics* operator->() const { return physics_.get(); }
-  const EffectDeclaration& declaration() const { return entry_->declaration; }
+  const EffectDeclaration& declaration() const { return *declaration_; }
   /// Whether all parameters that can switch the effect off do so. An effect without any is never absent.
   bool is_absent() const {
     bool any = false;
@@ -83,10 +89,20 @@ class Configured {
     const std::size_t index = index_of(name);
     check(declaration().parameters[index], value);
     values_[index] = value;
-    physics_ = entry_->make(values_);
+    physics_ = make_(values_);
   }
 
  private:
+  explicit Configured(const Registered<Physics>& entry)
+      : declaration_(std::shared_ptr<void>(), &entry.declaration), make_(entry.make) {}
+
+  void start_with(std::vector<double> values) {
+    values_ = std::move(values);
+    TETHER_ASSERT(values_.size() == declaration().parameters.size(), "{} values for {}", values_.size(),
+                  declaration().name);
+    for (std::size_t i = 0; i < values_.size(); ++i) check(declaration().parameters[i], values_[i]);
+    physics_ = make_(values_);
+  }
   std::size_t index_of(const std::string& name) const {
     const auto& list = declaration().parameters;
     const auto found = std::find_if(list.begin(), list.end(), [&](const Parameter& p) { return p.name == name; });
@@ -99,7 +115,8 @@ class Configured {
       throw input_error("{}.{}: {} is out of range", declaration().name, parameter.name, value);
   }
 
-  const Registered<Physics>* entry_;
+  std::shared_ptr<const EffectDeclaration> declaration_;  ///< a registered one lives as long as the program
+  std::function<std::unique_ptr<Physics>(std::span<const double>)> make_;
   std::vector<double> values_;
   std::unique_ptr<Physics> physics_;
 };

@@ -7,12 +7,18 @@
 #include "common/base/process.hpp"
 #include "common/config/case.hpp"
 #include "common/config/describe.hpp"
+#include "common/config/describe_effects.hpp"
 
 namespace tether {
 namespace {
 
 std::string reference(const Program& program, const std::string& format) {
   if (program.reference) return program.reference(format);
+  if (format == "effects") {
+    DescribeEffects effects(UnitSystem::cgs());
+    program.declare(effects);
+    return effects.markdown();
+  }
   Describe describe(UnitSystem::cgs());
   CommonCase common;
   common.declare(describe);
@@ -34,8 +40,8 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
                  "list every field of the case file that this program reads")
       ->expected(0, 1)
       ->default_str("text")
-      ->type_name("[text|markdown]")
-      ->check(CLI::IsMember({"text", "markdown"}));
+      ->type_name("[text|markdown|effects]")
+      ->check(CLI::IsMember({"text", "markdown", "effects"}));
   app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
   app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(CLI::PositiveNumber);
   app.add_option("--processes", c.processes, "processes to share the work between")

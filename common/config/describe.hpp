@@ -29,6 +29,8 @@ class Describe : public Fields {
   void check(bool holds, Text field, Text rule) override;
 
  protected:
+  /// The path of the section being declared: "solid.rings.NAME".
+  std::string section() const { return path_.empty() ? "" : path_.substr(0, path_.size() - 1); }
   double from_si(double value, Dimension dimension) const override { return units_.from_si(value, dimension); }
   bool enter(Text name, Text meaning) override;
   bool enter_if_given(Text name, Text meaning, bool held) override;

@@ -26,6 +26,7 @@ void Fields::points(Text name, Named<Vec3>& values, Dimension dimension, Text me
 }
 
 void Fields::effect(EffectCase& effect, EffectFamily family, Text meaning) {
+  offers(family);
   std::vector<Word> words;
   for (const auto* declaration : family) words.push_back({declaration->name, declaration->meaning});
   const std::string type_before = effect.type;

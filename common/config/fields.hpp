@@ -125,6 +125,8 @@ class Fields {
   }
 
  protected:
+  /// Called where a section offers a family of effects.
+  virtual void offers(EffectFamily) {}
   /// A number of a declaration, which is in SI, in the units of the fields.
   virtual double from_si(double value, Dimension) const { return value; }
   virtual bool enter(Text name, Text meaning) = 0;

@@ -18,7 +18,7 @@ const EffectDeclaration declaration{
     "pressure",
     "a measured or chosen pressure",
     Place::outlet,
-    {{"offset", "added to the curve", dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined},
+    {{"offset", "added to the curve", dimension::pressure, range::any, 0.0, 0.0, Transform::linear, 500.0},
      {"scale", "factor of the curve", dimension::none, range::any, 1.0, undefined, Transform::linear, 0.1}}};
 
 }  // namespace

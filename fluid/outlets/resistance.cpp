@@ -19,9 +19,9 @@ const EffectDeclaration declaration{
     "the vessels downstream as one resistance, without a reservoir",
     Place::outlet,
     {{"resistance", "pressure per flow", dimension::resistance, range::not_negative, undefined, 0.0, Transform::log,
-      0.3},
+      0.3, 2e8},
      {"distal_pressure", "pressure behind the resistance, relative to the reference pressure", dimension::pressure,
-      range::any, 0.0, 0.0, Transform::linear, undefined}}};
+      range::any, 0.0, 0.0, Transform::linear, 1000.0}}};
 
 }  // namespace
 

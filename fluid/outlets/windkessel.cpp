@@ -30,15 +30,15 @@ const EffectDeclaration declaration{
     "the vessels downstream: a resistance, then an elastic reservoir that drains through a second resistance",
     Place::outlet,
     {{"proximal_resistance", "resistance before the reservoir", dimension::resistance, range::not_negative, undefined,
-      0.0, Transform::log, 0.5},
+      0.0, Transform::log, 0.5, 1.5e7},
      {"distal_resistance", "resistance behind the reservoir", dimension::resistance, range::not_negative, undefined,
-      0.0, Transform::log, 0.3},
+      0.0, Transform::log, 0.3, 2e8},
      {"compliance", "volume the reservoir takes up per pressure", dimension::compliance, range::not_negative, undefined,
-      0.0, Transform::log, 0.5},
+      0.0, Transform::log, 0.5, 5e-9},
      {"initial_pressure", "pressure of the reservoir at the start, relative to the reference pressure",
-      dimension::pressure, range::any, 0.0, undefined, Transform::linear, undefined},
+      dimension::pressure, range::any, 0.0, undefined, Transform::linear, 1000.0},
      {"distal_pressure", "pressure behind the distal resistance, relative to the reference pressure",
-      dimension::pressure, range::any, 0.0, 0.0, Transform::linear, undefined}}};
+      dimension::pressure, range::any, 0.0, 0.0, Transform::linear, 1000.0}}};
 
 }  // namespace
 

@@ -2,14 +2,11 @@
 
 namespace tether::fluid {
 
-extern const Registered<Rheology> newtonian, carreau_yasuda, casson, power_law;
+extern const Registered<Rheology> newtonian, carreau_yasuda, casson, power_law, shear_thinning;
 
 std::span<const Registered<Rheology>> rheologies() {
   static const Registered<Rheology> table[] = {
-      newtonian,
-      carreau_yasuda,
-      casson,
-      power_law,
+      newtonian, carreau_yasuda, casson, power_law, shear_thinning,
   };
   return table;
 }

@@ -1,4 +1,4 @@
-#include "common/config/describe.hpp"
+#include "common/config/describe_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +104,19 @@ TEST(Describe, CommonFieldsStandUnderOneHeading) {
   common.declare(describe);
   EXPECT_EQ(describe.markdown().find("\n## top level\n"), 0u);
   EXPECT_NE(describe.markdown().find("\n## time\n"), std::string::npos);
+}
+
+TEST(DescribeEffects, ListsEachEffectOnceWithWhatThereIsToSayOfItsNumbers) {
+  DescribeEffects describe(UnitSystem::cgs());
+  Wall wall;
+  wall.declare(describe);
+  wall.declare(describe);
+  const std::string text = describe.markdown();
+  EXPECT_NE(text.find("## on an end ring: spring\n\npulls back. As `type` of `rings.NAME`"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `stiffness` | g/(cm2 s2) | not negative | 3 | 0 | linear |  |  | traction per way |"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("## on an end ring: spring"), text.rfind("## on an end ring: spring"));
 }
 
 }  // namespace

@@ -78,6 +78,40 @@ TEST(Rheologies, KnownValues) {
   EXPECT_NEAR(rheology(3, power)->viscosity(100), 0.42 * std::pow(100, -0.39), 1e-12);
 }
 
+TEST(ShearThinning, LeadsFromNewtonianBloodToCarreauAndYasudas) {
+  const auto rheology = [](std::size_t i, const std::vector<double>& values) { return rheologies()[i].make(values); };
+  const auto none = rheology(4, {0.0345, 0}), blood = rheology(4, {0.0345, 0.56 / 0.0345 - 1}),
+             carreau = rheology(1, {0.0345, 0.56, 1.902, 0.22, 1.25});
+  EXPECT_TRUE(none->is_constant());
+  EXPECT_EQ(none->viscosity(3), 0.0345);
+  EXPECT_FALSE(blood->is_constant());
+  for (const double shear_rate : {0.0, 0.1, 1.0, 10.0, 1000.0})
+    EXPECT_NEAR(blood->viscosity(shear_rate), carreau->viscosity(shear_rate), 1e-13);
+}
+
+TEST(PrescribedFlow, AddsWhatTheCurveLacks) {
+  const std::vector<double> absent{1, 0, 0, 0, 0, 0, 0}, values{1.1, 0.02, 5, 1, 2, 3, 4};
+  EXPECT_EQ(inflows()[0].make(absent)->added(0.3, 0.8), 0);
+  const auto inflow = inflows()[0].make(values);
+  EXPECT_NEAR(inflow->added(0, 0.8), 5 + 1 + 3, 1e-12);
+  EXPECT_NEAR(inflow->added(0.2, 0.8), 5 + 2 - 3, 1e-12) << "a quarter of the beat";
+  EXPECT_NEAR(inflow->added(0.1, 0.8), 5 + (1 + 2) / std::sqrt(2.0) + 4, 1e-12);
+  EXPECT_EQ(inflow->added(0.1, 0), 5) << "without a period";
+}
+
+/// What identification and diagnosis need: a scale for whatever can be switched off.
+TEST(Registries, WhatCanBeAbsentHasAScale) {
+  const auto check = [](const EffectDeclaration& declaration) {
+    for (const Parameter& p : declaration.parameters) {
+      if (std::isnan(p.absent) || std::isnan(p.prior_deviation)) continue;
+      EXPECT_TRUE(p.scale > 0 || p.transform == Transform::linear) << declaration.name << "." << p.name;
+    }
+  };
+  for (const auto& entry : rheologies()) check(entry.declaration);
+  for (const auto& entry : outlets()) check(entry.declaration);
+  for (const auto& entry : inflows()) check(entry.declaration);
+}
+
 TEST(Outlets, OneStepIsImplicitAndPassive) {
   constexpr double dt = 1e-3;
   for (const auto& entry : outlets()) {

@@ -80,6 +80,21 @@ TEST(EffectsOfACase, ALooseRingIsHeldOnlyByItsCompliance) {
   EXPECT_TRUE(wall.model->clamped_unknowns().empty());
 }
 
+TEST(EffectsOfACase, AFormulaIsAnEffectLikeAnyOther) {
+  const std::string text =
+      "  effects:\n"
+      "    odd:\n"
+      "      type: expression\n"
+      "      region: wall\n"
+      "      normal: -k*un*abs(un)\n"
+      "      parameters: {k: {value: 0, absent: 0, lower: 0, transform: log2, prior_deviation: 1, scale: 1e5}}\n";
+  EXPECT_TRUE(wall_with(text).model->supports().back().effect().is_absent());
+  const auto k = announced(text, "solid.effects.odd.k");
+  EXPECT_EQ(k.transform, "log2");
+  EXPECT_EQ(k.lower, 0);
+  EXPECT_EQ(k.scale, 1e5);
+}
+
 TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
   const auto error = [](const std::string& text) {
     return input_error_of([&] { wall_with("  effects:\n    e: " + text + "\n"); });
@@ -92,6 +107,9 @@ TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(error("{type: breathing, region: inlet_ring, period: 4}").find("nothing holds the wall there"),
             std::string::npos);
   EXPECT_NE(error("{type: stiffening, cubic: -1}").find("must not be negative"), std::string::npos);
+  EXPECT_NE(error("{type: expression, normal: -k*un}").find("case.yaml:12: solid.effects.e"), std::string::npos);
+  EXPECT_NE(error("{type: expression}").find("needs 'normal'"), std::string::npos);
+  EXPECT_NE(error("{type: fibres, region: inlet_ring}").find("not in a ring"), std::string::npos);
   EXPECT_NE(error("{type: traction}").find("period"), std::string::npos);
 }
 

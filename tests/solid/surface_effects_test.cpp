@@ -3,6 +3,7 @@
 
 #include "solid/motions/registry.hpp"
 #include "solid/solid_solver.hpp"
+#include "solid/supports/expression_traction.hpp"
 #include "solid/supports/registry.hpp"
 #include "solid/vessel_direction.hpp"
 #include "tests/solid/tube.hpp"
@@ -50,6 +51,48 @@ TEST(ExternalPressure, FollowsItsHarmonicsAfterTheRamp) {
   EXPECT_NEAR(pressure(0.8), 1 + 2 + 4 + 6, 1e-12);
   EXPECT_NEAR(pressure(0.2), 1 + 3 - 4 - 7, 1e-12) << "a quarter of the beat";
   EXPECT_NEAR(pressure(0.05), pressure(0.85) / 2, 1e-12) << "half way up the ramp";
+}
+
+constexpr double size = 10;
+
+/// A parameter of a formula, absent at zero.
+Parameter number(const char* name) {
+  return {name, "", dimension::none, range::any, 0, 0};
+}
+
+TEST(ExpressionTraction, IsWhatItsFormulasSay) {
+  const ExpressionLaw law{
+      "-k*un - c*vn + q*sin(2*pi*t)", {"k*ux^3", "0", "z*nx"}, {number("k"), number("c"), number("q")}, size};
+  SupportPoint p{Vec3(0.3, -0.2, 0.5), Vec3(1, 2, -1), Vec3(1, 2, 2) / 3};
+  p.position = Vec3(4, 5, 6);
+  p.time = 0.25;
+  const double k = 7, c = 2, q = 3, un = p.displacement.dot(p.normal), vn = p.velocity.dot(p.normal);
+  const SupportTraction coded = configure(law, {k, c, q})->at(p);
+  EXPECT_LE((coded.traction - ((-k * un - c * vn + q) * p.normal + Vec3(k * 0.027, 0, 6.0 / 3))).norm(), 1e-13);
+  Mat3 stiffness = k * p.normal * p.normal.transpose();
+  stiffness(0, 0) -= 3 * k * 0.09;
+  EXPECT_LE((coded.stiffness - stiffness).norm(), 1e-7);
+  EXPECT_LE((coded.damping - c * p.normal * p.normal.transpose()).norm(), 1e-7);
+}
+
+TEST(ExpressionTraction, OnlyTheSymmetricPartOfItsTangentIsUsed) {
+  const ExpressionLaw law{"", {"uy", "-ux + 2*uz", "0"}, {}, size};
+  const SupportTraction coded = configure(law, {})->at({Vec3(0.3, -0.2, 0.5), Vec3::Zero(), Vec3(0, 0, 1)});
+  EXPECT_EQ(coded.stiffness, coded.stiffness.transpose());
+  EXPECT_NEAR(coded.stiffness(0, 1), 0, 1e-8);
+  EXPECT_NEAR(coded.stiffness(1, 2), -1, 1e-8);
+}
+
+TEST(ExpressionTraction, IsAbsentWithItsParametersAndRefusesWhatIsNoFormula) {
+  const Parameter k = number("k"), x = number("x");
+  EXPECT_TRUE(configure({"-k*un", {}, {k}, size}, {0}).is_absent());
+  EXPECT_FALSE(configure({"-k*un", {}, {k}, size}, {1}).is_absent());
+  EXPECT_FALSE(configure({"-un", {}, {}, size}, {}).is_absent());
+  EXPECT_THROW(configure({"-k*un", {}, {}, size}, {}), InputError);
+  EXPECT_THROW(configure({"-k*un +", {}, {k}, size}, {1}), InputError);
+  EXPECT_THROW(configure({"-x*un", {}, {x}, size}, {1}), InputError);
+  const SupportPoint p{Vec3(-1, 0, 0), Vec3::Zero(), Vec3(1, 0, 0)};
+  EXPECT_THROW(configure({"sqrt(un)", {}, {}, size}, {})->at(p), RunError);
 }
 
 /// A wall's surface as the effect sees it, in one step of theta dt = 0.5.
@@ -272,6 +315,20 @@ struct Tube {
   WallModel model;
   SolidSolver solver;
 };
+
+/// A formula for a spring does what the spring does.
+TEST(ExpressionTraction, ReplacesARegisteredEffect) {
+  const WallMesh wall = plate({3, 2, 0.5}, {3, 2}, 1);
+  const Parameter k = number("k"), c = number("c");
+  Plate spring(list_of({wall.outside[0], effect("normal_visco_elastic", {{"stiffness", 3}, {"damping", 0.4}})}),
+               nodes_of(wall.rings[0].triangles));
+  Plate formula(list_of({wall.outside[0], configure({"-k*un - c*vn", {}, {k, c}, 3}, {3, 0.4}), {}, "solid.effects.f"}),
+                nodes_of(wall.rings[0].triangles));
+  for (Plate* plate : {&spring, &formula}) plate->pull(Vec3(0.1, 0.1, 0.2), 10, 0.1);
+  EXPECT_LE((spring.solver.displacement() - formula.solver.displacement()).norm(),
+            1e-8 * spring.solver.displacement().norm());
+  formula.model.parameters().set("solid.effects.f.k", 5);
+}
 
 TEST(ManyEffects, AbsentOnesChangeNoBit) {
   Tube plain(false), many(true);
