@@ -77,7 +77,7 @@ std::string DescribeEffects::table_of(const EffectDeclaration& effect) const {
 std::string DescribeEffects::markdown() const {
   std::string out;
   for (const Offer& offer : offers_)
-    out += fmt::format("\n## {}: {}\n\n{}. As `type` of {}.\n{}", words_of(offer.effect->place), offer.effect->name,
+    out += fmt::format("## {}: {}\n\n{}. As `type` of {}.\n{}\n", words_of(offer.effect->place), offer.effect->name,
                        offer.effect->meaning, fmt::join(offer.sections, ", "), table_of(*offer.effect));
   return out;
 }
