@@ -14,6 +14,7 @@
 #include "common/protocol/run.hpp"
 #include "common/protocol/signals.hpp"
 #include "identification_master/checkpoint.hpp"
+#include "identification_master/diagnosis_runs.hpp"
 #include "identification_master/estimate_files.hpp"
 #include "identification_master/group_pool.hpp"
 #include "identification_master/identification_case.hpp"
@@ -32,7 +33,9 @@ struct IdentifiedCase {
     file.read("mesh", mesh);
     file.read("observations", observations);
     file.read("identification", identification);
+    file.read("diagnosis", diagnosis);
     file.finish();
+    if (is_diagnosis()) return;
     if (!observations.has_lumen_data() && observations.traces.empty())
       throw input_error("{}: names no measurements to learn from", file.where("observations"));
     if (identification.parameters.empty())
@@ -40,12 +43,15 @@ struct IdentifiedCase {
   }
   /// The wall's element does not matter: interface nodes are the same.
   LumenSurface lumen() const { return lumen_of(load_mesh(mesh, file.units(), WallElement::prism)); }
+  /// Prepared by tether diagnose: whole runs are wanted instead.
+  bool is_diagnosis() const { return diagnosis.runs != "none"; }
   std::size_t particles() const { return identification.parameters.size() + 1; }
 
   CaseFile file;
   MeshCase mesh;
   ObservationsCase observations;
   IdentificationCase identification;
+  DiagnosisCase diagnosis;
 };
 
 IdentificationPlan plan_of(const IdentifiedCase& given, const CommandLine& command) {
@@ -71,7 +77,8 @@ std::size_t cores() {
 std::size_t group_count(const IdentifiedCase& given, const CommandLine& command, const protocol::Session& session) {
   if (const auto offered = session.offered("fsi_master")) return *offered;
   const int wanted = command.processes > 0 ? command.processes : given.identification.groups;
-  return std::min(given.particles(), wanted > 0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(1, cores()));
+  const std::size_t most = given.is_diagnosis() ? cores() : given.particles();
+  return std::min(most, wanted > 0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(1, cores()));
 }
 
 std::vector<Partner*> launch_groups(std::size_t count, const fs::path& case_file, const fs::path& output,
@@ -189,6 +196,15 @@ class Job {
   double master_cpu_before_ = 0;
 };
 
+void diagnose(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool, const fs::path& output) {
+  const auto& numbers = pool.model().parameters;
+  const bool is_trial = given.diagnosis.runs == "trials";
+  const auto runs =
+      is_trial ? trial_runs(numbers, given.diagnosis, given.file) : sensitivity_runs(numbers, given.diagnosis);
+  const int steps = command.steps.value_or(given.file.common().time.steps());
+  make_runs(pool, runs, given.file, output, steps, command.quiet);
+}
+
 int run(const CommandLine& command) {
   return protocol::run_master("identification_master", [&command](protocol::Session& session) {
     IdentifiedCase given(command.case_file);
@@ -196,7 +212,10 @@ int run(const CommandLine& command) {
     const std::vector<Partner*> groups =
         launch_groups(group_count(given, command, session), command.case_file, output, session);
     GroupPool pool(session, groups);
-    Job(given, command, pool, output).run();
+    if (given.is_diagnosis())
+      diagnose(given, command, pool, output);
+    else
+      Job(given, command, pool, output).run();
     for (Partner* group : groups) group->stop("the identification is done");
   });
 }
@@ -212,7 +231,9 @@ Program identification_master_program() {
       .declare =
           [](Fields& fields) {
             IdentificationCase identification;
+            DiagnosisCase diagnosis;
             fields.group("identification", identification, meaning_of_section("identification"));
+            fields.group("diagnosis", diagnosis, meaning_of_section("diagnosis"));
           },
       .validate = [](const CommandLine& command) { IdentifiedCase given(command.case_file); },
       .run = run};

@@ -6,6 +6,7 @@
 #include "common/config/echo.hpp"
 #include "common/protocol/run.hpp"
 #include "solid/case.hpp"
+#include "solid/effects_list.hpp"
 #include "solid/server.hpp"
 
 namespace tether {
@@ -59,6 +60,11 @@ Program solid_program() {
               [](const CommandLine& command) {
                 const WallCase wall(command.case_file);
                 check_against_mesh(wall.solid, wall.wall(), wall.file);
+              },
+          .list_effects =
+              [](const CommandLine& command) {
+                const WallCase wall(command.case_file);
+                return list_effects(wall.solid, wall.wall(), wall.file.units());
               },
           .run = run};
 }

@@ -28,6 +28,10 @@ std::string describe_twin(const std::string& format);
 /// Holds the diagnosis of a twin's case, or of that in a twin's folder, against the sealed answer: score.json.
 int score(const CommandLine& command);
 
+/// Tests every effect of the catalogue against what the measurements say of the case, and confirms the strongest with
+/// runs: diagnosis.json, a suggested case, a plot, a verdict (docs/diagnosis.md). Returns the runs' exit code.
+int diagnose(const CommandLine& command);
+
 /// Finds the parameters that the case names from its measurements: estimate.json and .csv, a plot, the identified case.
 /// Returns the run's exit code.
 int identify(const CommandLine& command);

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array verdicts{"nothing", "missing", "either", "outside", "cannot_tell"};
+constexpr std::array verdicts{"nothing_missing", "missing", "ambiguous", "not_in_catalogue", "undecided"};
 
 std::string place_of(const std::string& name, const std::string& where) {
   return where.empty() ? name : name + " at " + where;
@@ -87,7 +87,7 @@ bool is_right(const Score& score) {
   const auto all = [&](auto holds) { return std::all_of(score.found.begin(), score.found.end(), holds); };
   if (score.verdict == "missing")
     return score.wrongly_accepted.empty() && all([](const FoundEffect& e) { return e.accepted; });
-  if (score.verdict == "either") return all([](const FoundEffect& e) { return e.accepted || e.in_accepted_group; });
+  if (score.verdict == "ambiguous") return all([](const FoundEffect& e) { return e.accepted || e.in_accepted_group; });
   return true;
 }
 

@@ -62,15 +62,15 @@ void HiddenEffectCase::declare(Fields& f) {
 
 void HiddenCase::declare(Fields& f) {
   f.choice("verdict", verdict,
-           {{"nothing", "the model lacks nothing"},
+           {{"nothing_missing", "the model lacks nothing"},
             {"missing", "the model lacks the effects below"},
-            {"either", "these data cannot tell the effects below apart"},
-            {"outside", "the model lacks something that the catalogue does not have"},
-            {"cannot_tell", "these data cannot tell"}},
+            {"ambiguous", "these data cannot tell the effects below apart"},
+            {"not_in_catalogue", "the model lacks something that the catalogue does not have"},
+            {"undecided", "these data cannot tell"}},
            "what a diagnosis should say");
   f.groups("effects", effects, "effects that the truth has and the model lacks, by name");
-  const bool named = verdict == "missing" || verdict == "either";
-  f.check(named == !effects.empty(), "verdict", "must be 'missing' or 'either' with effects, and another one without");
+  const bool named = verdict == "missing" || verdict == "ambiguous";
+  f.check(named == !effects.empty(), "verdict", "must be 'missing' or 'ambiguous' with effects, and another one without");
 }
 
 void TwinCase::declare(Fields& f) {

@@ -42,6 +42,8 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
       ->default_str("text")
       ->type_name("[text|markdown|effects]")
       ->check(CLI::IsMember({"text", "markdown", "effects"}));
+  if (program.list_effects)
+    app.add_flag("--list-effects", c.list_effects, "list what could be added to the case, as JSON");
   app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
   app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(CLI::PositiveNumber);
   app.add_option("--processes", c.processes, "processes to share the work between")
@@ -64,6 +66,10 @@ int act(const Program& program, const Typed& typed) {
   }
   if (program.needs_case && typed.command.case_file.empty())
     throw input_error("which case? Give the path of a case file, or --help");
+  if (typed.command.list_effects) {
+    std::cout << program.list_effects(typed.command) << "\n";
+    return exit_done;
+  }
   if (!typed.command.validate) return program.run(typed.command);
   program.validate(typed.command);
   if (!typed.command.quiet) std::cout << typed.command.case_file.string() << ": valid for " << program.name << "\n";

@@ -16,7 +16,7 @@ struct CommandLine {
   std::optional<int> steps;      ///< stop after that many, whatever the case says
   std::string role;              ///< one of the program's roles; empty if it has but one
   int processes = 0;             ///< to share the work between; 0: the program decides
-  bool validate = false, resume = false, overwrite = false, quiet = false;
+  bool validate = false, list_effects = false, resume = false, overwrite = false, quiet = false;
 };
 
 /// A program as its main presents it.
@@ -28,6 +28,8 @@ struct Program {
   std::function<std::string(const std::string& format)> reference = {};
   /// For --validate: reads the case and what it refers to. Throws InputError.
   std::function<void(const CommandLine&)> validate = {};
+  /// For --list-effects, an option only where this is set: what could be added to the case, as JSON.
+  std::function<std::string(const CommandLine&)> list_effects = {};
   /// Returns the exit code.
   std::function<int(const CommandLine&)> run = {};
   /// What it may be, the first by default, if there is a choice: --role.

@@ -61,7 +61,7 @@ class Twin : public testing::Test {
 };
 
 constexpr const char* exact = "  image: {voxel: [0, 0, 0]}\n";
-constexpr const char* nothing = "  hidden: {verdict: nothing}\n";
+constexpr const char* nothing = "  hidden: {verdict: nothing_missing}\n";
 constexpr const char* spine =
     "  hidden: {effects: {visco_elastic: {where: spine, amplitude: 1e6, unit: g/(cm2 s2)}}}\n";
 
@@ -137,8 +137,8 @@ TEST_F(Twin, TellsWhatIsWrong) {
   const std::string file = (folder / "wrong.yaml").string();
   EXPECT_EQ(error_of(""), file + ":1: twin: must be given, to make a twin\n");
   EXPECT_EQ(error_of("twin: {truth: same.yaml}\n"),
-            file + ":3: twin.hidden.verdict: must be 'missing' or 'either' with effects, and another one without\n");
-  EXPECT_EQ(error_of("twin: {truth: none.yaml, hidden: {verdict: nothing}}\n"),
+            file + ":3: twin.hidden.verdict: must be 'missing' or 'ambiguous' with effects, and another one without\n");
+  EXPECT_EQ(error_of("twin: {truth: none.yaml, hidden: {verdict: nothing_missing}}\n"),
             file + ":3: twin.truth: none.yaml: no such file or folder: " + (folder / "none.yaml").string() +
                 " (case file of the run that the data are made from)\n");
   const ChildEnd validated =
@@ -148,7 +148,7 @@ TEST_F(Twin, TellsWhatIsWrong) {
   fs::create_directories(folder / "wrong");
   std::ofstream(folder / "wrong" / "thesis.txt") << "precious";
   EXPECT_NE(
-      error_of("twin: {truth: same.yaml, hidden: {verdict: nothing}}\n").find("holds files that are not a twin's"),
+      error_of("twin: {truth: same.yaml, hidden: {verdict: nothing_missing}}\n").find("holds files that are not a twin's"),
       std::string::npos);
   EXPECT_NE(tether({"score", (folder / "model.yaml").string()}).errors.find("not the folder of a twin"),
             std::string::npos);

@@ -53,21 +53,21 @@ TEST(Score, OfAWrongEffect) {
 }
 
 TEST(Score, OfAnotherVerdict) {
-  const Score score = score_of(diagnosis("nothing", false), spine);
+  const Score score = score_of(diagnosis("nothing_missing", false), spine);
   EXPECT_FALSE(score.verdict_right);
   EXPECT_EQ(score.true_verdict, "missing");
-  EXPECT_TRUE(text_of(score).starts_with("verdict: nothing: wrong, the answer is missing\n"));
-  const Answer nothing{"nothing", {}, "", 1, 0, 0};
-  EXPECT_TRUE(score_of(diagnosis("nothing", false), nothing).verdict_right);
+  EXPECT_TRUE(text_of(score).starts_with("verdict: nothing_missing: wrong, the answer is missing\n"));
+  const Answer nothing{"nothing_missing", {}, "", 1, 0, 0};
+  EXPECT_TRUE(score_of(diagnosis("nothing_missing", false), nothing).verdict_right);
   EXPECT_FALSE(score_of(diagnosis("missing"), nothing).verdict_right);
   EXPECT_EQ(score_of(diagnosis("missing"), nothing).wrongly_accepted.size(), 1U);
 }
 
 TEST(Score, OfEffectsThatLookAlike) {
   Answer alike = spine;
-  alike.verdict = "either";
-  EXPECT_TRUE(score_of(diagnosis("either", false, true, "2"), alike).verdict_right) << "its group is accepted";
-  EXPECT_FALSE(score_of(diagnosis("either", false, true), alike).verdict_right);
+  alike.verdict = "ambiguous";
+  EXPECT_TRUE(score_of(diagnosis("ambiguous", false, true, "2"), alike).verdict_right) << "its group is accepted";
+  EXPECT_FALSE(score_of(diagnosis("ambiguous", false, true), alike).verdict_right);
 }
 
 TEST(Score, OfAnEffectThatIsNotListedOrInAnotherUnit) {
@@ -103,7 +103,7 @@ TEST(Diagnosis, ThatCannotBeReadIsTold) {
   EXPECT_TRUE(error_of("{").starts_with(file + ": is no diagnosis: "));
   EXPECT_TRUE(error_of(R"({"verdict": "missing"})").starts_with(file + ": is no diagnosis: "));
   EXPECT_EQ(error_of(R"({"verdict": "maybe", "effects": []})"),
-            file + ": verdict: maybe: must be one of nothing, missing, either, outside, cannot_tell");
+            file + ": verdict: maybe: must be one of nothing_missing, missing, ambiguous, not_in_catalogue, undecided");
   EXPECT_EQ(message_of([&] { read_diagnosis(folder / "none.json"); }),
             (folder / "none.json").string() + ": no such file; run tether diagnose first");
 }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "common/config/fields.hpp"
+
+namespace tether {
+
+/// What data and inputs may err in without that being news: standard deviations.
+struct AllowanceCase {
+  double inputs = 0.1;                              ///< of what the model takes for known, relative
+  std::optional<double> model, bias, displacement;  ///< [length]; absent: shares of the noise's deviation
+  double frame_displacement = 0;                    ///< [length]
+  double time_shift = 0;                            ///< [time]
+  void declare(Fields& f);
+};
+
+/// The section `diagnosis` of a case: which effects may be missing, and how they are judged.
+struct DiagnosisCase {
+  /// A run with other values, which `tether diagnose` asks for.
+  struct Trial {
+    std::vector<std::string> parameters;
+    std::vector<double> values;
+    void declare(Fields& f);
+  };
+  std::vector<std::string> candidates, exclude, assumed;
+  double step = 0.2, alpha = 0.05, unexplained = 0.3;
+  int most = 3, refinements = 5, confirmed = 8;
+  AllowanceCase allowed;
+  std::string runs = "none";
+  Named<Trial> trials;
+  void declare(Fields& f);
+};
+
+}  // namespace tether

@@ -1,0 +1,150 @@
+#include "diagnosis/data_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+/// The base run a moment earlier or later.
+FinishedMotion shifted(const FinishedMotion& base, double by) {
+  FinishedMotion run = base;
+  run.motion.positions = [&base, by](double time) {
+    return base.motion.positions(std::clamp(time + by, base.motion.start, base.motion.end));
+  };
+  return run;
+}
+
+/// How fast the model's lumen moves outward at each datum: frames shown later than they say lie that much farther out.
+VectorXd outward_velocity(const Evidence& evidence, const FinishedMotion& base, double h) {
+  const FinishedMotion before = shifted(base, -h), after = shifted(base, h);
+  const MatrixXd residuals = evidence.residuals({&before, &after});
+  VectorXd velocity = (residuals.col(0) - residuals.col(1)) / (2 * h);
+  for (const auto& part : evidence.parts())
+    if (evidence.is_trace(part)) velocity.segment(part.first, part.count).setZero();
+  return velocity.array().isFinite().select(velocity, 0);
+}
+
+/// Adds candidates with columns that are zero outside some parts.
+class DataErrors {
+ public:
+  DataErrors(EffectProblem& problem, const Evidence& evidence) : problem_(problem), evidence_(evidence) {}
+
+  void add(const Candidate& candidate, const std::vector<Amplitude>& amplitudes, const MatrixXd& columns,
+           double allowed) {
+    Candidate added = candidate;
+    for (Index k = 0; k < columns.cols(); ++k) {
+      added.amplitudes.push_back(problem_.changes.cols() + k);
+      problem_.amplitudes.push_back(amplitudes[static_cast<std::size_t>(k)]);
+      allow(problem_, columns.col(k), allowed);
+    }
+    append_columns(problem_.changes, columns);
+    problem_.candidates.push_back(added);
+  }
+  /// Values of a whole source, or of one frame.
+  MatrixXd only(const MatrixXd& values, std::size_t source, const Evidence::Part* frame) const {
+    MatrixXd columns = MatrixXd::Zero(values.rows(), values.cols());
+    for (const auto& part : evidence_.parts())
+      if (part.source == source && (frame == nullptr || &part == frame))
+        columns.middleRows(part.first, part.count) = values.middleRows(part.first, part.count);
+    return columns;
+  }
+
+ private:
+  EffectProblem& problem_;
+  const Evidence& evidence_;
+};
+
+std::vector<Amplitude> in_space(const std::string& unit) {
+  std::vector<Amplitude> all;
+  for (const char* axis : {"x", "y", "z"})
+    all.push_back({axis, std::string("displacement of the data in ") + axis, unit});
+  return all;
+}
+
+}  // namespace
+
+void append_columns(MatrixXd& to, const MatrixXd& columns) {
+  to.conservativeResize(columns.rows(), to.cols() + columns.cols());
+  to.rightCols(columns.cols()) = columns;
+}
+
+void allow(EffectProblem& problem, const VectorXd& column, double deviation) {
+  if (!(deviation > 0)) return;
+  append_columns(problem.allowed, column);
+  problem.allowed_deviation.conservativeResize(problem.allowed.cols());
+  problem.allowed_deviation(problem.allowed.cols() - 1) = deviation;
+}
+
+void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
+                     const AllowanceCase& allowed, const std::string& unit_of_length, const std::string& unit_of_time) {
+  DataErrors errors(problem, evidence);
+  const MatrixXd ones = MatrixXd::Ones(problem.residual.size(), 1), normals = evidence.normals().transpose(),
+                 velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
+  const auto kind = Candidate::Kind::data;
+  std::map<std::size_t, int> frames;
+  for (const auto& part : evidence.parts()) frames[part.source] += 1;
+  std::size_t last = evidence.parts().size();
+  for (const auto& part : evidence.parts()) {
+    if (evidence.is_trace(part)) continue;
+    const std::string name = evidence.name_of(part);
+    const double sigma = evidence.noise(part).deviation;
+    const Amplitude shift{"time_shift", "the frames show the vessel that much later than they say", unit_of_time};
+    if (part.source != last) {
+      last = part.source;
+      errors.add({"misregistration", name, "The data are displaced as a whole", kind, {}, true},
+                 in_space(unit_of_length), errors.only(normals, part.source, nullptr),
+                 allowed.displacement.value_or(0.5 * sigma));
+      errors.add({"segmentation_bias", name, "The measured lumen is too large or too small all over", kind, {}, true},
+                 {{"bias", "along the outward normal", unit_of_length}}, errors.only(ones, part.source, nullptr),
+                 allowed.bias.value_or(0.5 * sigma));
+      errors.add({"gating_shift", name, "The times of all frames are off", kind, {}, true}, {shift},
+                 errors.only(velocity, part.source, nullptr), allowed.time_shift);
+    }
+    if (part.frame.held_out || frames[part.source] < 2) continue;
+    const std::string where = fmt::format("{}, {:.4g} s", name, part.frame.time);
+    errors.add({"misplaced_frame", where, "One frame is displaced", kind, {}, false}, in_space(unit_of_length),
+               errors.only(normals, part.source, &part), allowed.frame_displacement);
+    errors.add({"mistimed_frame", where, "One frame shows another moment than it says", kind, {}, false}, {shift},
+               errors.only(velocity, part.source, &part), 0);
+  }
+}
+
+void add_patterns(EffectProblem& problem, const Evidence& evidence, const AllowanceCase& allowed, double start,
+                  double end) {
+  const auto n = problem.residual.size();
+  const auto region_of = [&](Index i) { return evidence.regions()[static_cast<std::size_t>(i)]; };
+  std::map<std::pair<int, double>, VectorXd> columns;  // a NaN has no order: -1, -2, -3 stand for the beat
+  std::map<std::pair<int, double>, double> deviation;
+  for (const auto& part : evidence.parts()) {
+    if (evidence.is_trace(part)) continue;
+    const double phase = 2 * std::numbers::pi * (part.time - start) / (end - start);
+    const double model = allowed.model.value_or(0.25 * evidence.noise(part).deviation);
+    const auto add = [&](double key, double value) {
+      for (Index i = part.first; i < part.first + part.count; ++i) {
+        const std::pair<int, double> place{region_of(i), key};
+        columns.try_emplace(place, VectorXd::Zero(n)).first->second(i) = value;
+        deviation[place] = model;
+      }
+    };
+    add(part.time, 1);
+    add(start - 1, 1);
+    add(start - 2, std::cos(phase));
+    add(start - 3, std::sin(phase));
+  }
+  for (const auto& [place, column] : columns) {
+    append_columns(problem.patterns, column);
+    const std::string region =
+        place.first >= 0 ? evidence.region_names()[static_cast<std::size_t>(place.first)] : "wall";
+    problem.pattern_names.push_back({region, place.second < start - 0.5 ? undefined : place.second});
+    allow(problem, column, deviation[place]);
+  }
+}
+
+}  // namespace tether

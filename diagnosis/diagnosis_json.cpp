@@ -1,0 +1,246 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.hpp"
+#include "diagnosis/diagnosis_report.hpp"
+
+namespace tether {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Index = Eigen::Index;
+
+const char* word_of(Candidate::Kind kind) {
+  switch (kind) {
+    case Candidate::Kind::effect:
+      return "effect";
+    case Candidate::Kind::input:
+      return "input";
+    case Candidate::Kind::data:
+      return "data";
+  }
+  return "effect";
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+const Amplitude& amplitude_of(const EffectProblem& problem, const TestedEffect& effect, Index own) {
+  const auto& amplitudes = problem.candidates[effect.candidate].amplitudes;
+  return problem.amplitudes[static_cast<std::size_t>(amplitudes[static_cast<std::size_t>(own)])];
+}
+
+Json json_of(const EffectProblem& problem, const TestedEffect& effect, Index own) {
+  const Amplitude& amplitude = amplitude_of(problem, effect, own);
+  const FoundValue found = value_of(problem, effect, own);
+  return {{"parameter", amplitude.name},  {"meaning", amplitude.meaning}, {"value", number(found.value)},
+          {"lower", number(found.lower)}, {"upper", number(found.upper)}, {"unit", amplitude.unit},
+          {"without", amplitude.base}};
+}
+
+Json json_of(const Gain& gain) {
+  return {{"value", gain.value},
+          {"lower", gain.lower},
+          {"upper", gain.upper},
+          {"before", gain.before},
+          {"after", gain.after}};
+}
+
+Json json_of(const EffectProblem& problem, const TestedEffect& effect) {
+  const Candidate& candidate = problem.candidates[effect.candidate];
+  Json parameters = Json::array();
+  for (Index own = 0; own < effect.amplitudes.size(); ++own) parameters.push_back(json_of(problem, effect, own));
+  return {{"name", candidate.name},
+          {"where", candidate.where},
+          {"meaning", candidate.meaning},
+          {"kind", word_of(candidate.kind)},
+          {"accepted", effect.accepted},
+          {"z", effect.z},
+          {"p", effect.p},
+          {"q", effect.q},
+          {"amplitude", json_of(problem, effect, main_amplitude(problem, effect))},
+          {"parameters", parameters},
+          {"confirmed_by_runs", effect.confirmed},
+          {"misfit_removed", effect.confirmed ? effect.confirmed_gain : effect.gain},
+          {"retained_information", effect.retained},
+          {"group", effect.group >= 0 ? Json(fmt::format("{}", effect.group + 1)) : Json()},
+          {"cosine", effect.group >= 0 ? Json(effect.cosine) : Json()},
+          {"held_out_gain", effect.held_out ? json_of(*effect.held_out) : Json()}};
+}
+
+Json json_of(const EffectProblem& problem, const LackOfFit& lack) {
+  if (problem.pattern_names.empty()) return nullptr;
+  const Pattern& worst = problem.pattern_names[lack.worst];
+  return {{"p", lack.p},
+          {"excess", lack.excess},
+          {"worst_region", worst.region},
+          {"worst_time", number(worst.time)},
+          {"worst_z", lack.z}};
+}
+
+Json detectable(const EffectProblem& problem, const std::vector<TestedEffect>& effects) {
+  Json all = Json::array();
+  for (const TestedEffect& effect : effects) {
+    const Candidate& candidate = problem.candidates[effect.candidate];
+    const Amplitude& first = amplitude_of(problem, effect, 0);
+    all.push_back({{"name", candidate.name},
+                   {"where", candidate.where},
+                   {"parameter", first.name},
+                   {"value", number(first.value(effect.visible))},
+                   {"unit", first.unit},
+                   {"without", first.base},
+                   {"in_scale", number(effect.visible / first.scale)}});
+  }
+  return all;
+}
+
+Json path_of(const DiagnosisReport& report) {
+  Json all = Json::array();
+  for (const SearchStep& step : report.found.path) {
+    const Candidate& candidate = report.problem.candidates[step.candidate];
+    all.push_back({{"name", candidate.name},
+                   {"where", candidate.where},
+                   {"accepted", step.accepted},
+                   {"reason", step.reason},
+                   {"misfit_before", step.misfit_before},
+                   {"misfit_after", step.misfit_after},
+                   {"left", json_of(report.problem, step.left)}});
+  }
+  return all;
+}
+
+/// Significant digits that a person reads.
+std::string short_number(double value) {
+  return fmt::format("{:.3g}", value);
+}
+
+std::string amplitude_text(const EffectProblem& problem, const TestedEffect& effect) {
+  const Index own = main_amplitude(problem, effect);
+  const Amplitude& amplitude = amplitude_of(problem, effect, own);
+  const FoundValue found = value_of(problem, effect, own);
+  const std::string name = amplitude.name.substr(amplitude.name.rfind('.') + 1);
+  return fmt::format("{} {} {} ({} .. {})", name, short_number(found.value), amplitude.unit, short_number(found.lower),
+                     short_number(found.upper));
+}
+
+std::string where_left(const EffectProblem& problem, const LackOfFit& lack) {
+  const Pattern& worst = problem.pattern_names[lack.worst];
+  const std::string time = std::isnan(worst.time) ? "over the beat" : fmt::format("at {:.3g} s", worst.time);
+  return fmt::format("{}, {}: the model lies too far {} ({:.1f} sigma)", worst.region, time,
+                     lack.z < 0 ? "outward" : "inward", std::abs(lack.z));
+}
+
+std::vector<const TestedEffect*> accepted_of(const SearchResult& found) {
+  std::vector<const TestedEffect*> all;
+  for (const TestedEffect& effect : found.effects)
+    if (effect.accepted) all.push_back(&effect);
+  return all;
+}
+
+std::string verdict_sentence(const DiagnosisReport& report) {
+  const EffectProblem& problem = report.problem;
+  const SearchResult& found = report.found;
+  std::vector<std::string> named;
+  for (const TestedEffect* effect : accepted_of(found))
+    named.push_back(
+        fmt::format("{}, {}", name_of(problem.candidates[effect->candidate]), amplitude_text(problem, *effect)));
+  if (found.verdict == "missing") return fmt::format("MISSING: {}", fmt::join(named, "; and "));
+  if (found.verdict == "nothing_missing")
+    return "NOTHING MISSING: no candidate explains more than chance, and what is left is within the noise and the "
+           "errors allowed";
+  if (found.verdict == "not_in_catalogue")
+    return fmt::format("NOT IN THE CATALOGUE: something is missing that no candidate explains: {}",
+                       where_left(problem, found.after));
+  if (found.verdict == "ambiguous") {
+    std::vector<std::string> alike;
+    for (const TestedEffect& effect : found.effects)
+      if (effect.group == 0 && effect.confirmed)
+        alike.push_back(
+            fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect)));
+    return fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
+  }
+  return found.path.empty()
+             ? "UNDECIDED: these data would not show any candidate at the size that it may have"
+             : fmt::format("UNDECIDED: {} stands out, but {}", name_of(problem.candidates[found.path.back().candidate]),
+                           found.path.back().reason);
+}
+
+}  // namespace
+
+std::string name_of(const Candidate& candidate) {
+  const std::string name = candidate.parameter.empty() ? candidate.name : candidate.name + " " + candidate.parameter;
+  return candidate.where.empty() ? name : name + " at " + candidate.where;
+}
+
+Index main_amplitude(const EffectProblem& problem, const TestedEffect& effect) {
+  Index best = 0;
+  double most = -1;
+  for (Index own = 0; own < effect.amplitudes.size(); ++own) {
+    const double scale = amplitude_of(problem, effect, own).scale;
+    const double size = std::abs(effect.amplitudes(own)) / (scale > 0 ? scale : 1);
+    if (size > most) best = own, most = size;
+  }
+  return best;
+}
+
+FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Index own) {
+  const Amplitude& amplitude = amplitude_of(problem, effect, own);
+  const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own);
+  if (!amplitude.one_sided) return {amplitude.value(size), amplitude.value(size - half), amplitude.value(size + half)};
+  if (!effect.confirmed || size == 0)
+    return {amplitude.value(size), amplitude.value(std::max(0.0, size - half)), amplitude.value(size + half)};
+  const double factor = std::exp(half / size);  // of runs, its logarithm is known
+  return {amplitude.value(size), amplitude.value(size / factor), amplitude.value(size * factor)};
+}
+
+std::vector<std::string> sentences_of(const DiagnosisReport& report) {
+  const SearchResult& found = report.found;
+  std::vector<std::string> all{verdict_sentence(report)};
+  for (const TestedEffect* effect : accepted_of(found)) {
+    if (effect->held_out)
+      all.push_back(fmt::format("Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with {}",
+                                100 * effect->held_out->value, 100 * effect->held_out->lower,
+                                100 * effect->held_out->upper, name_of(report.problem.candidates[effect->candidate])));
+    else
+      all.push_back("Not confirmed: no frames are held out");
+  }
+  if (found.dispersion > 1.5)
+    all.push_back(
+        fmt::format("The misfit that is left is {:.1f} times what noise makes: intervals are widened by its root, and "
+                    "still optimistic",
+                    found.dispersion));
+  if (found.verdict == "missing" && found.after.p < report.alpha)
+    all.push_back(fmt::format("Something smaller is left: {}", where_left(report.problem, found.after)));
+  return all;
+}
+
+void write_json(const std::filesystem::path& path, const DiagnosisReport& report) {
+  const SearchResult& found = report.found;
+  Json json{{"verdict", found.verdict},
+            {"sentences", sentences_of(report)},
+            {"case", report.case_name},
+            {"title", report.title}};
+  json["alpha"] = report.alpha;
+  json["independent_data"] = found.independent;
+  json["dispersion"] = found.dispersion;
+  json["effects"] = Json::array();
+  for (const TestedEffect& effect : found.effects) json["effects"].push_back(json_of(report.problem, effect));
+  json["held_out"] = found.held_out ? json_of(*found.held_out) : Json();
+  json["detectable"] = detectable(report.problem, found.effects);
+  json["lack_of_fit"] = {{"before", json_of(report.problem, found.before)},
+                         {"after", json_of(report.problem, found.after)}};
+  json["path"] = path_of(report);
+  json["suggested_case"] = report.suggested.empty() ? Json() : Json(report.suggested);
+  json["cost"] = {{"runs", report.runs}, {"runs_made", report.runs_made}, {"cpu_seconds", report.cpu_seconds}};
+  std::ofstream file(path);
+  file << json.dump(1) << std::endl;
+  if (!file) throw run_error("{} cannot be written", path.string());
+}
+
+}  // namespace tether

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+
+#include "diagnosis/effect_search.hpp"
+
+namespace tether {
+
+/// What a diagnosis found, and what it took.
+struct DiagnosisReport {
+  std::string case_name, title, suggested;  ///< suggested: the case with the effect; empty: none
+  EffectProblem problem;
+  SearchResult found;
+  double alpha = 0.05;
+  int runs = 0, runs_made = 0;  ///< of the model; those that were not there yet
+  double cpu_seconds = 0;       ///< of the runs that were made
+};
+
+/// "visco_elastic at spine".
+std::string name_of(const Candidate& candidate);
+
+/// The verdict first, then what a person should know next, a sentence each.
+std::vector<std::string> sentences_of(const DiagnosisReport& report);
+
+/// diagnosis.json (docs/diagnosis.md). Throws RunError if it cannot be written.
+void write_json(const std::filesystem::path& path, const DiagnosisReport& report);
+
+/// The number of an effect's amplitude that says most: the largest in its scale.
+Eigen::Index main_amplitude(const EffectProblem& problem, const TestedEffect& effect);
+/// Value of the model's number with the effect, and its 95 % interval; for one-sided amplitudes not below the base.
+struct FoundValue {
+  double value, lower, upper;
+};
+FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
+
+}  // namespace tether

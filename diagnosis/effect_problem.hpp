@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/base/effect.hpp"
+#include "diagnosis/scores.hpp"
+
+namespace tether {
+
+/// A number that may differ from what the model says. Its amplitude is 0 as the model is.
+struct Amplitude {
+  std::string name, meaning, unit;  ///< name: by its place in the case; of an error of the data its own
+  bool one_sided = false;           ///< cannot be negative
+  double scale = undefined;         ///< how large it may be in a patient
+  double base = 0;                  ///< value of the model
+  bool doubles = false;             ///< the value is base 2^amplitude, not base + amplitude
+  double value(double amplitude) const;
+};
+
+/// What may be missing or wrong: one effect at one place.
+struct Candidate {
+  enum class Kind { effect, input, data };
+  std::string name, where, meaning;
+  Kind kind = Kind::effect;
+  std::vector<Eigen::Index> amplitudes;  ///< numbers of its amplitudes
+  bool confirmable = true;               ///< it acts on held-out data as well
+  std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
+};
+
+/// A way in which data may be off that no effect has to explain: a region at a moment, or over the beat.
+struct Pattern {
+  std::string region;
+  double time = undefined;  ///< of a moment; undefined: over the whole run
+};
+
+/// Data set against a model, and all that might change it, to first order.
+struct EffectProblem {
+  VectorXd residual;       ///< r, data minus model, training and held-out [n]
+  VectorXd precision;      ///< W of each [n]
+  VectorXd independent;    ///< how many independent data each is [n]
+  std::vector<int> block;  ///< region and moment of each
+  std::vector<Eigen::Index> training, held_out;
+
+  MatrixXd changes;  ///< S [n x q]
+  std::vector<Amplitude> amplitudes;
+  std::vector<Candidate> candidates;
+  MatrixXd allowed;            ///< N [n x k]
+  VectorXd allowed_deviation;  ///< [k]
+  MatrixXd patterns;           ///< [n x g]
+  std::vector<Pattern> pattern_names;
+};
+
+/// The residual with amplitudes at finite size, one column for each column of amplitudes [q x m]: runs of the model.
+using ResidualAt = std::function<MatrixXd(const MatrixXd& amplitudes)>;
+
+/// To first order, without runs.
+ResidualAt linear_residual(const EffectProblem& problem);
+
+}  // namespace tether

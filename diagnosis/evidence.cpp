@@ -1,0 +1,143 @@
+#include "diagnosis/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace tether {
+namespace {
+
+/// Frames or values that far apart count as tanh(apart/(2 tau)) independent ones. (K.5)
+double share_of(double apart, double correlation_time) {
+  return correlation_time > 0 && apart > 0 ? std::tanh(apart / (2 * correlation_time)) : 1;
+}
+
+/// Mean distance in time of the frames of one contour or surface.
+double spacing(const std::vector<Frame>& frames, int series, double period) {
+  std::vector<double> times;
+  for (const Frame& frame : frames)
+    if (frame.series == series) times.push_back(frame.time);
+  if (times.size() < 2) return infinite;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  return period > 0 ? period / static_cast<double>(times.size())
+                    : (*last - *first) / static_cast<double>(times.size() - 1);
+}
+
+double independent_part(const Noise& noise, int dimension, double observed) {
+  const double l = noise.correlation_length;
+  const double part = dimension == 2 ? 2 * std::numbers::pi * l * l : 2 * l;
+  return observed > 0 ? std::min(part, observed) : part;
+}
+
+}  // namespace
+
+Evidence::Evidence(const Observations& data, const LumenSurface& lumen, const FinishedMotion& base)
+    : data_(data), region_names_(lumen.region_names) {
+  for (std::size_t s = 0; s < data.lumen.size(); ++s) add_frames(s, base);
+  for (std::size_t t = 0; t < data.traces.size(); ++t) add_trace(t, base);
+  normals_.resize(3, static_cast<Eigen::Index>(normal_list_.size()));
+  for (std::size_t i = 0; i < normal_list_.size(); ++i) normals_.col(static_cast<Eigen::Index>(i)) = normal_list_[i];
+}
+
+void Evidence::add_frames(std::size_t source, const FinishedMotion& base) {
+  const LumenSeries& series = *data_.lumen[source];
+  const SourceSettings& settings = series.settings();
+  const std::vector<Frame> frames = series.frames();
+  for (const Frame& frame : frames) {
+    const auto time =
+        time_in_run(frame.time, settings.period, base.motion.start, base.motion.end, settings.time_tolerance);
+    if (!time) continue;
+    const std::vector<Sample> samples = series.observe(base.motion.positions(*time), frame);
+    double observed = 0;
+    for (const Sample& sample : samples) observed += sample.weight;
+    const double part = independent_part(settings.noise, series.sample_dimension(), observed),
+                 share = share_of(spacing(frames, frame.series, settings.period), settings.noise.correlation_time);
+    std::map<int, int> block_of;
+    parts_.push_back(
+        {source, frame, *time, static_cast<Eigen::Index>(residual_.size()), static_cast<Eigen::Index>(samples.size())});
+    for (const Sample& sample : samples) {
+      const auto [place, is_new] = block_of.try_emplace(sample.region, blocks_);
+      if (is_new) ++blocks_;
+      residual_.push_back(sample.distance);
+      independent_.push_back(sample.weight / part * share);
+      precision_.push_back(independent_.back() / std::pow(settings.noise.deviation, 2));  // (K.5)
+      region_.push_back(sample.region);
+      block_.push_back(place->second);
+      normal_list_.push_back(sample.normal);
+    }
+  }
+}
+
+void Evidence::add_trace(std::size_t number, const FinishedMotion& base) {
+  const Trace& trace = data_.traces[number];
+  const TraceDiscrepancy seen = compare(trace, base.trace(trace.observable));
+  if (seen.times.empty()) return;
+  const double apart =
+      seen.times.size() > 1 ? (seen.times.back() - seen.times.front()) / static_cast<double>(seen.times.size() - 1) : 0;
+  const double share = share_of(apart, trace.noise.correlation_time);
+  parts_.push_back({data_.lumen.size() + number,
+                    {},
+                    seen.times.front(),
+                    static_cast<Eigen::Index>(residual_.size()),
+                    static_cast<Eigen::Index>(seen.times.size())});
+  for (std::size_t i = 0; i < seen.times.size(); ++i) {
+    residual_.push_back(seen.measured[i] - seen.model[i]);
+    independent_.push_back(share);
+    precision_.push_back(share / std::pow(trace.noise.deviation, 2));
+    region_.push_back(-1);
+    block_.push_back(blocks_);
+    normal_list_.push_back(Vec3::Zero());
+  }
+  ++blocks_;
+}
+
+const Noise& Evidence::noise(const Part& part) const {
+  return is_trace(part) ? data_.traces[part.source - data_.lumen.size()].noise
+                        : data_.lumen[part.source]->settings().noise;
+}
+
+std::string Evidence::name_of(const Part& part) const {
+  return is_trace(part) ? data_.traces[part.source - data_.lumen.size()].name
+                        : data_.lumen[part.source]->settings().name;
+}
+
+MatrixXd Evidence::residuals(const std::vector<const FinishedMotion*>& runs) const {
+  MatrixXd all = MatrixXd::Constant(static_cast<Eigen::Index>(residual_.size()), static_cast<Eigen::Index>(runs.size()),
+                                    undefined);
+  for (const Part& part : parts_)
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      auto column = all.col(static_cast<Eigen::Index>(k)).segment(part.first, part.count);
+      if (is_trace(part)) {
+        const Trace& trace = data_.traces[part.source - data_.lumen.size()];
+        const TraceDiscrepancy seen = compare(trace, runs[k]->trace(trace.observable));
+        for (std::size_t i = 0; i < seen.times.size() && static_cast<Eigen::Index>(i) < part.count; ++i)
+          column(static_cast<Eigen::Index>(i)) = seen.measured[i] - seen.model[i];
+        continue;
+      }
+      const std::vector<Sample> samples =
+          data_.lumen[part.source]->observe(runs[k]->motion.positions(part.time), part.frame);
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        if (samples[i].excluded == Exclusion::none) column(static_cast<Eigen::Index>(i)) = samples[i].distance;
+    }
+  return all;
+}
+
+EffectProblem Evidence::problem() const {
+  EffectProblem problem;
+  const auto n = static_cast<Eigen::Index>(residual_.size());
+  problem.residual = Eigen::Map<const VectorXd>(residual_.data(), n);
+  problem.precision = Eigen::Map<const VectorXd>(precision_.data(), n);
+  problem.independent = Eigen::Map<const VectorXd>(independent_.data(), n);
+  problem.block = block_;
+  for (const Part& part : parts_)
+    for (Eigen::Index i = part.first; i < part.first + part.count; ++i)
+      if (precision_[static_cast<std::size_t>(i)] > 0)
+        (!is_trace(part) && part.frame.held_out ? problem.held_out : problem.training).push_back(i);
+  problem.changes.resize(n, 0);
+  problem.allowed.resize(n, 0);
+  problem.patterns.resize(n, 0);
+  return problem;
+}
+
+}  // namespace tether

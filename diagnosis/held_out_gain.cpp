@@ -1,0 +1,50 @@
+#include "diagnosis/held_out_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace tether {
+namespace {
+
+constexpr int draws = 2000;
+
+double gain(double before, double after) {
+  return before > 0 ? 1 - std::sqrt(after / before) : 0;
+}
+
+}  // namespace
+
+Gain gain_of(const VectorXd& precision, const std::vector<int>& block, const VectorXd& before, const VectorXd& after,
+             double count) {
+  std::map<int, std::pair<double, double>> of_block;
+  for (Eigen::Index i = 0; i < precision.size(); ++i) {
+    auto& [one, other] = of_block[block[static_cast<std::size_t>(i)]];
+    one += precision(i) * before(i) * before(i);
+    other += precision(i) * after(i) * after(i);
+  }
+  std::vector<std::pair<double, double>> blocks;
+  double all_before = 0, all_after = 0;
+  for (const auto& [number, squares] : of_block) {
+    blocks.push_back(squares);
+    all_before += squares.first;
+    all_after += squares.second;
+  }
+  std::mt19937_64 generator(1);
+  std::vector<double> drawn;
+  for (int draw = 0; draw < draws; ++draw) {
+    double one = 0, other = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      const auto& [b, a] = blocks[generator() % blocks.size()];
+      one += b;
+      other += a;
+    }
+    drawn.push_back(gain(one, other));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  return {gain(all_before, all_after), drawn[draws / 40], drawn[draws - draws / 40 - 1], std::sqrt(all_before / count),
+          std::sqrt(all_after / count)};
+}
+
+}  // namespace tether

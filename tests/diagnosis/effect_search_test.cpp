@@ -1,0 +1,247 @@
+/// The search for a missing effect on a linear system: a band of 4 regions times 24 places, 8 training and 4 held-out
+/// moments, with noise that is alike over 3 places.
+#include "diagnosis/effect_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "diagnosis/chances.hpp"
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr int regions = 4, in_region = 24, places = regions * in_region, moments = 12;
+constexpr double correlation = 3;  // of places
+
+double beat(int moment) {
+  return 0.5 * (1 - std::cos(2 * std::numbers::pi * moment / moments));
+}
+
+/// What a unit of an effect in `region` does: it grows with the beat; `width` in places, smooth.
+VectorXd response(int region, double width, const std::function<double(int)>& in_time) {
+  VectorXd all(places * moments);
+  for (int m = 0; m < moments; ++m)
+    for (int i = 0; i < places; ++i) {
+      double away = std::abs(i - (region + 0.5) * in_region);
+      away = std::min(away, places - away);
+      all(m * places + i) = in_time(m) * std::exp(-0.5 * away * away / (width * width));
+    }
+  return all;
+}
+
+/// Noise of deviation 1 with the correlation exp(-r/l) along the band, new in each moment.
+VectorXd noise(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  const double a = std::exp(-1 / correlation), b = std::sqrt(1 - a * a);
+  VectorXd all(places * moments);
+  for (int m = 0; m < moments; ++m) {
+    double now = normal(generator);
+    for (int i = 0; i < places; ++i) all(m * places + i) = now = i == 0 ? now : a * now + b * normal(generator);
+  }
+  return all;
+}
+
+void add_candidate(EffectProblem& problem, const std::string& name, const VectorXd& change, bool one_sided = true) {
+  problem.candidates.push_back({name, "band", name, Candidate::Kind::effect, {problem.changes.cols()}});
+  problem.amplitudes.push_back({name, name, "1", one_sided, 5.0, 0, false});
+  problem.changes.conservativeResize(change.size(), problem.changes.cols() + 1);
+  problem.changes.rightCols(1) = change;
+}
+
+/// Four springs and four masses; patterns of all regions and moments. naive: as if all errors were independent.
+EffectProblem band(bool naive = false) {
+  EffectProblem problem;
+  const Index n = places * moments;
+  problem.independent = VectorXd::Constant(n, naive ? 1.0 : 1 / (2 * correlation));
+  problem.precision = problem.independent;
+  problem.changes.resize(n, 0);
+  problem.allowed.resize(n, 0);
+  problem.patterns = MatrixXd::Zero(n, regions * moments);
+  for (int m = 0; m < moments; ++m)
+    for (int i = 0; i < places; ++i) {
+      const int block = m * regions + i / in_region;
+      problem.block.push_back(block);
+      problem.patterns(m * places + i, block) = 1;
+      (m % 3 == 2 ? problem.held_out : problem.training).push_back(m * places + i);
+    }
+  for (int b = 0; b < regions * moments; ++b)
+    problem.pattern_names.push_back({std::to_string(b % regions), 1.0 * (b / regions)});
+  for (int r = 0; r < regions; ++r) {
+    add_candidate(problem, "spring_" + std::to_string(r), response(r, 8, beat));
+    add_candidate(problem, "mass_" + std::to_string(r),
+                  response(r, 8, [](int m) { return std::sin(4 * std::numbers::pi * m / moments); }));
+  }
+  return problem;
+}
+
+SearchResult found(const EffectProblem& problem, const SearchSettings& settings = {}) {
+  return search_effects(problem, settings, linear_residual(problem));
+}
+
+double share(const std::function<bool(std::mt19937_64&)>& happens, int trials = 200) {
+  int count = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::mt19937_64 generator(static_cast<std::uint64_t>(1000 + trial));
+    count += happens(generator) ? 1 : 0;
+  }
+  return static_cast<double>(count) / trials;
+}
+
+TEST(Chances, AreThoseOfTheTables) {
+  EXPECT_NEAR(normal_tail(1.959964), 0.025, 1e-7);
+  EXPECT_NEAR(chi_square_tail(3.841459, 1), 0.05, 1e-6);
+  EXPECT_NEAR(chi_square_tail(5.991465, 2), 0.05, 1e-6);
+  EXPECT_NEAR(chi_square_tail(7.814728, 3), 0.05, 1e-6);
+  EXPECT_NEAR(chi_square_tail(14.06714, 7), 0.05, 1e-6);
+  EXPECT_NEAR(one_sided_tail(2.705543, 1), 0.05, 1e-6);
+  const std::vector<double> q = holm({0.04, 0.01, 0.03});
+  EXPECT_DOUBLE_EQ(q[1], 0.03);
+  EXPECT_DOUBLE_EQ(q[2], 0.06);
+  EXPECT_DOUBLE_EQ(q[0], 0.06) << "not below a smaller p's";
+}
+
+TEST(Scores, TakeOutWhatIsAllowed) {
+  const MatrixXd changes = MatrixXd::Random(30, 3), allowed = MatrixXd::Random(30, 2);
+  const VectorXd precision = VectorXd::Random(30).cwiseAbs(), residual = VectorXd::Random(30);
+  const VectorXd deviations = (VectorXd(2) << 0.7, 2.0).finished();
+  const MatrixXd covariance = MatrixXd(precision.cwiseInverse().asDiagonal()) +
+                              allowed * deviations.cwiseAbs2().asDiagonal() * allowed.transpose();
+  const Scores scores = scores_of(AllowedErrors(precision, allowed, deviations), changes, residual);
+  EXPECT_LT((scores.information - changes.transpose() * covariance.inverse() * changes).norm(),
+            1e-9 * scores.information.norm());
+  EXPECT_LT((scores.response - changes.transpose() * covariance.inverse() * residual).norm(),
+            1e-9 * scores.response.norm());
+  const AllowedErrors anything(precision, allowed, VectorXd::Constant(2, infinite));
+  EXPECT_LT(anything(allowed).norm(), 1e-6 * (precision.asDiagonal() * allowed).norm())
+      << "orthogonal to what may be anything";
+}
+
+TEST(Scores, OneSidedAmplitudesAreNotNegative) {
+  const MatrixXd information = (MatrixXd(2, 2) << 2, 1, 1, 2).finished();
+  const VectorXd response = (VectorXd(2) << 3, -1).finished();
+  EXPECT_LT(best_fit(information, response, {false, false}).amplitudes(1), 0);
+  const Fit fit = best_fit(information, response, {true, true});
+  EXPECT_DOUBLE_EQ(fit.amplitudes(0), 1.5);
+  EXPECT_DOUBLE_EQ(fit.amplitudes(1), 0);
+  EXPECT_DOUBLE_EQ(fit.gain, 4.5);
+}
+
+TEST(EffectSearch, RarelyFindsWhatIsNotThere) {
+  const EffectProblem right = band(), naive = band(true);
+  const auto alarm = [](EffectProblem problem, std::mt19937_64& generator) {
+    problem.residual = noise(generator);
+    return found(problem).verdict != "nothing_missing";
+  };
+  EXPECT_LE(share([&](auto& g) { return alarm(right, g); }), 0.10);
+  EXPECT_GE(share([&](auto& g) { return alarm(naive, g); }), 0.80) << "errors that are taken for independent";
+}
+
+TEST(EffectSearch, FindsTheHiddenEffectFirst) {
+  int within = 0;
+  const double right = share([&](std::mt19937_64& generator) {
+    EffectProblem problem = band();
+    problem.residual = noise(generator) + 2 * problem.changes.col(4);
+    const SearchResult result = found(problem);
+    const TestedEffect& first = result.effects.front();
+    within += std::abs(first.amplitudes(0) - 2) < 1.96 * first.deviations(0) ? 1 : 0;
+    return result.verdict == "missing" && first.accepted && first.candidate == 4;
+  });
+  EXPECT_GE(right, 0.90);
+  EXPECT_GE(within / 200.0, 0.90) << "the 95 % interval";
+}
+
+TEST(EffectSearch, AWrongSignIsNoSign) {
+  std::mt19937_64 generator(7);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) - 3 * problem.changes.col(2);
+  for (const TestedEffect& effect : found(problem).effects)
+    if (effect.candidate == 2) {
+      EXPECT_DOUBLE_EQ(effect.p, 1);
+      EXPECT_FALSE(effect.accepted);
+      EXPECT_LT(effect.z, -5);
+    }
+}
+
+TEST(EffectSearch, TellsWhatItCannotTellApart) {
+  EffectProblem problem = band();
+  add_candidate(problem, "other_spring", response(1, 8.5, beat));
+  const double right = share(
+      [&](std::mt19937_64& generator) {
+        problem.residual = noise(generator) + 2 * problem.changes.col(2);
+        const SearchResult result = found(problem);
+        const auto group_of = [&](std::size_t candidate) {
+          for (const TestedEffect& effect : result.effects)
+            if (effect.candidate == candidate) return effect.group;
+          return -1;
+        };
+        return result.verdict == "ambiguous" && group_of(2) == group_of(8) && group_of(2) >= 0;
+      },
+      50);
+  EXPECT_GE(right, 0.90);
+}
+
+TEST(EffectSearch, KnowsThatTheCatalogueLacksSomething) {
+  EffectProblem problem = band();
+  const VectorXd stranger = response(1, 5, [](int m) { return m == 3 || m == 4 ? 1 : m == 9 || m == 10 ? -1 : 0; });
+  const double right = share(
+      [&](std::mt19937_64& generator) {
+        problem.residual = noise(generator) + 5 * stranger;
+        return found(problem).verdict == "not_in_catalogue";
+      },
+      50);
+  EXPECT_GE(right, 0.90);
+}
+
+TEST(EffectSearch, DoesNotDecideWhatTheDataCannotShow) {
+  EffectProblem problem = band();
+  std::mt19937_64 generator(3);
+  problem.residual = noise(generator);
+  for (Amplitude& amplitude : problem.amplitudes) amplitude.scale = 0.01;
+  EXPECT_EQ(found(problem).verdict, "undecided");
+}
+
+TEST(EffectSearch, HeldOutDataDecide) {
+  std::mt19937_64 generator(5);
+  EffectProblem problem = band();
+  problem.residual = noise(generator);
+  for (const Index i : problem.training) problem.residual(i) += 2 * problem.changes(i, 0);
+  const SearchResult result = found(problem);
+  ASSERT_EQ(result.path.size(), 1U);
+  EXPECT_FALSE(result.path[0].accepted);
+  EXPECT_EQ(result.path[0].reason, "held-out data do not confirm it");
+}
+
+/// An effect that saturates: runs find its amplitude where first order is far off.
+TEST(EffectSearch, FindsAnAmplitudeThatSaturates) {
+  std::mt19937_64 generator(11);
+  EffectProblem problem = band();
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) -> MatrixXd {
+    const MatrixXd saturated = amplitudes.array() / (1 + amplitudes.array().abs() / 6);
+    return (-problem.changes * saturated).colwise() + problem.residual;
+  };
+  problem.residual = noise(generator) + problem.changes.col(0) * (12 / (1 + 12 / 6.0));
+  const SearchResult result = search_effects(problem, {}, runs);
+  ASSERT_EQ(result.verdict, "missing");
+  EXPECT_EQ(result.effects.front().candidate, 0U);
+  EXPECT_NEAR(result.effects.front().amplitudes(0) / 12, 1, 3 * result.effects.front().deviations(0) / 12);
+  EXPECT_GT(result.effects.front().amplitudes(0), 6) << "first order says 4";
+}
+
+TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {
+  const VectorXd before = VectorXd::LinSpaced(40, 1, 2), precision = VectorXd::Ones(40);
+  std::vector<int> block;
+  for (int i = 0; i < 40; ++i) block.push_back(i / 4);
+  const Gain gain = gain_of(precision, block, before, 0.5 * before, 40);
+  EXPECT_DOUBLE_EQ(gain.value, 0.5);
+  EXPECT_NEAR(gain.lower, 0.5, 1e-12);
+  EXPECT_NEAR(gain.upper, 0.5, 1e-12);
+  EXPECT_NEAR(gain.before, std::sqrt(before.squaredNorm() / 40), 1e-12);
+}
+
+}  // namespace
+}  // namespace tether

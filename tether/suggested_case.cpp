@@ -1,0 +1,75 @@
+#include "tether/suggested_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/config/overlay.hpp"
+
+namespace tether {
+namespace {
+
+/// What the case must say for an effect that it does not have.
+void add_effect(Overlay& overlay, const PlacedEffect& effect, const TimeCase& time) {
+  overlay.values.push_back({effect.path + ".type", effect.type});
+  if (!effect.part.empty()) overlay.values.push_back({effect.path + ".region", effect.part});
+  for (const std::string& required : effect.required)
+    overlay.values.push_back({effect.path + "." + required, number_text(time.end - time.start)});
+}
+
+std::string without_dots(std::string name) {
+  for (const char* prefix : {"solid.effects.", "solid.support.regions.", "solid.", "fluid."})
+    if (name.starts_with(prefix)) {
+      name = name.substr(std::string(prefix).size());
+      break;
+    }
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+/// The prior: what was found, and how sure that is, at least a factor of the square root of two either way.
+void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValue& found) {
+  const std::string path = "identification.parameters." + without_dots(amplitude.name);
+  const bool positive = amplitude.doubles || amplitude.one_sided;
+  overlay.values.push_back({path + ".of", "[" + amplitude.name + "]"});
+  overlay.values.push_back({path + ".transform", positive ? "log2" : "linear"});
+  overlay.values.push_back({path + ".mean", number_text(found.value)});
+  const double half = found.upper - found.value;
+  const double deviation =
+      positive ? std::max(0.5, std::log2(found.upper / found.value)) : std::max(half, 0.25 * std::abs(found.value));
+  overlay.values.push_back({path + ".deviation", number_text(deviation)});
+}
+
+}  // namespace
+
+bool write_suggested(const std::filesystem::path& file, const CaseFile& from, const DiagnosisReport& report,
+                     const std::vector<PlacedEffect>& effects) {
+  Overlay overlay{std::filesystem::absolute(from.path()),
+                  from.common().name + "_suggested",
+                  from.common().title + ", with what the diagnosis adds",
+                  {}};
+  std::vector<std::string> added;
+  for (const TestedEffect& effect : report.found.effects) {
+    const Candidate& candidate = report.problem.candidates[effect.candidate];
+    if (!effect.accepted || candidate.kind == Candidate::Kind::data) continue;
+    for (Eigen::Index own = 0; own < effect.amplitudes.size(); ++own) {
+      const auto number = static_cast<std::size_t>(candidate.amplitudes[static_cast<std::size_t>(own)]);
+      const Amplitude& amplitude = report.problem.amplitudes[number];
+      if (effect.amplitudes(own) == 0) continue;
+      const auto placed = std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) {
+        return e.is_new && amplitude.name.starts_with(e.path + ".");
+      });
+      if (placed != effects.end() && std::find(added.begin(), added.end(), placed->path) == added.end()) {
+        add_effect(overlay, *placed, from.common().time);
+        added.push_back(placed->path);
+      }
+      const FoundValue found = value_of(report.problem, effect, own);
+      overlay.values.push_back({amplitude.name, number_text(found.value)});
+      add_parameter(overlay, amplitude, found);
+    }
+  }
+  if (overlay.values.empty()) return false;
+  write_overlay(file, overlay);
+  return true;
+}
+
+}  // namespace tether
