@@ -11,7 +11,7 @@ double normal_tail(double z);
 double chi_square_tail(double x, int n);
 
 /// The same for the gain of a fit of n amplitudes that cannot be negative: at most this, whatever their correlation
-/// (Perlman, Ann. Math. Statist. 40, 1969); exact for one. (D.9)
+/// (Perlman, Ann. Math. Statist. 40, 1969); exact for one. (D.10)
 double one_sided_tail(double x, int n);
 
 /// Probabilities corrected for their number, so that one of them is below alpha by chance in alpha of all cases at most

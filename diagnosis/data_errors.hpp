@@ -6,13 +6,13 @@
 namespace tether {
 
 /// What data may err in, none of it physics: displaced as a whole or in one frame, along the normal as by a wrong
-/// threshold, shown at another time than said. To first order these follow from the base run alone (D.6). They become
+/// threshold, shown at another time than said. To first order these follow from the base run alone (D.7). They become
 /// candidates, and as far as `allowed` says errors that are no news. `unit_of_length`, `unit_of_time`: symbols.
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
                      const AllowanceCase& allowed, const std::string& unit_of_length, const std::string& unit_of_time);
 
 /// Each region at each moment, and over the beat (constant, cosine, sine): what may be off without any effect's doing
-/// (D.10). As errors of the model's mesh they are allowed.
+/// (D.11). As errors of the model's mesh they are allowed.
 void add_patterns(EffectProblem& problem, const Evidence& evidence, const AllowanceCase& allowed, double start,
                   double end);
 

@@ -57,6 +57,7 @@ Json json_of(const EffectProblem& problem, const TestedEffect& effect) {
   Json parameters = Json::array();
   for (Index own = 0; own < effect.amplitudes.size(); ++own) parameters.push_back(json_of(problem, effect, own));
   return {{"name", candidate.name},
+          {"parameter", candidate.parameter.empty() ? Json() : Json(candidate.parameter)},
           {"where", candidate.where},
           {"meaning", candidate.meaning},
           {"kind", word_of(candidate.kind)},

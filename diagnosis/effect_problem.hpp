@@ -40,7 +40,7 @@ struct EffectProblem {
   VectorXd residual;       ///< r, data minus model, training and held-out [n]
   VectorXd precision;      ///< W of each [n]
   VectorXd independent;    ///< how many independent data each is [n]
-  std::vector<int> block;  ///< region and moment of each
+  std::vector<int> block;  ///< of each: a patch of a frame, alike in its errors
   std::vector<Eigen::Index> training, held_out;
 
   MatrixXd changes;  ///< S [n x q]

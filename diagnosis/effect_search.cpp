@@ -62,7 +62,7 @@ double as_z(double p) {
 double probability(const Fit& fit, const std::vector<bool>& one_sided) {
   const int n = static_cast<int>(one_sided.size());
   const bool any = std::any_of(one_sided.begin(), one_sided.end(), [](bool one) { return one; });
-  return any ? one_sided_tail(fit.gain, n) : chi_square_tail(fit.gain, n);  // (D.9)
+  return any ? one_sided_tail(fit.gain, n) : chi_square_tail(fit.gain, n);  // (D.10)
 }
 
 TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores) {
@@ -106,7 +106,7 @@ double worth(const EffectProblem& problem, const TestedEffect& effect, double co
   return gain - static_cast<double>(problem.candidates[effect.candidate].amplitudes.size()) * std::log(count);
 }
 
-/// (D.10)
+/// (D.11)
 LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual) {
   LackOfFit lack;
   if (problem.patterns.cols() == 0) return lack;
@@ -131,7 +131,7 @@ LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, cons
   return lack;
 }
 
-/// An effect on its way to the amplitude with the smallest misfit: its amplitudes to first order times a factor. (D.9)
+/// An effect on its way to the amplitude with the smallest misfit: its amplitudes to first order times a factor. (D.10)
 class Refined {
  public:
   Refined(TestedEffect& effect, VectorXd others, VectorXd residual, const Trained& trained,
@@ -166,7 +166,7 @@ class Refined {
     next_ =
         first ? std::clamp(factor_ + step, factor_ / 4, 4 * factor_) : factor_ * std::exp(std::clamp(step, -1.4, 1.4));
     expected_ = step * step * information;
-    done_ = expected_ < 0.25;
+    done_ = !(expected_ >= 0.25);  // also if the run changed nothing
   }
   /// Not even twice the gain that the last two runs promise would bring it near the best.
   void give_up_behind(double best) { done_ = done_ || best_ - 2 * expected_ > best + hopeless; }
@@ -238,7 +238,7 @@ class Search {
     return all;
   }
 
-  /// (D.11)
+  /// (D.12)
   double visible(const Scores& scores, const TestedEffect& effect) const {
     const Index first = problem_.candidates[effect.candidate].amplitudes.front();
     const bool one_sided = problem_.amplitudes[static_cast<std::size_t>(first)].one_sided;

@@ -18,7 +18,7 @@ struct SearchSettings {
 /// What the data say of one candidate.
 struct TestedEffect {
   std::size_t candidate = 0;
-  double gain = 0;                  ///< of the misfit, by its best amplitudes to first order (D.9)
+  double gain = 0;                  ///< of the misfit, by its best amplitudes to first order (D.10)
   double z = 0, p = 1, q = 1;       ///< q: corrected for the number of candidates
   VectorXd amplitudes, deviations;  ///< of its own; after confirmation at finite size
   double retained = 0;              ///< share of its information that errors allowed cannot explain as well
@@ -28,10 +28,10 @@ struct TestedEffect {
   bool accepted = false;
   int group = -1;      ///< effects that look alike have the same number
   double cosine = 0;   ///< with the first of the group
-  double visible = 0;  ///< smallest size of its first amplitude that would be seen with 80 % probability (D.11)
+  double visible = 0;  ///< smallest size of its first amplitude that would be seen with 80 % probability (D.12)
 };
 
-/// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.10)
+/// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.11)
 struct LackOfFit {
   double p = 1;       ///< that noise alone makes the worst pattern
   double excess = 0;  ///< of the patterns' squares over what noise makes
@@ -61,7 +61,7 @@ struct SearchResult {
 };
 
 /// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the
-/// data at hand and those held out ask for it, and judges what is left. (D.7-D.12)
+/// data at hand and those held out ask for it, and judges what is left. (D.8-D.13)
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
                             const ResidualAt& residual_at);
 

@@ -1,6 +1,7 @@
 #include "diagnosis/evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -22,6 +23,15 @@ double spacing(const std::vector<Frame>& frames, int series, double period) {
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   return period > 0 ? period / static_cast<double>(times.size())
                     : (*last - *first) / static_cast<double>(times.size() - 1);
+}
+
+/// The part of the wall that a sample belongs to: a cube of four correlation lengths, within a region.
+std::array<int, 4> patch_of(const Sample& sample, const Noise& noise) {
+  std::array<int, 4> patch{sample.region};
+  for (Eigen::Index i = 0; i < 3; ++i)
+    patch[static_cast<std::size_t>(i) + 1] =
+        static_cast<int>(std::floor(sample.position(i) / (4 * noise.correlation_length)));
+  return patch;
 }
 
 double independent_part(const Noise& noise, int dimension, double observed) {
@@ -53,11 +63,11 @@ void Evidence::add_frames(std::size_t source, const FinishedMotion& base) {
     for (const Sample& sample : samples) observed += sample.weight;
     const double part = independent_part(settings.noise, series.sample_dimension(), observed),
                  share = share_of(spacing(frames, frame.series, settings.period), settings.noise.correlation_time);
-    std::map<int, int> block_of;
+    std::map<std::array<int, 4>, int> block_of;
     parts_.push_back(
         {source, frame, *time, static_cast<Eigen::Index>(residual_.size()), static_cast<Eigen::Index>(samples.size())});
     for (const Sample& sample : samples) {
-      const auto [place, is_new] = block_of.try_emplace(sample.region, blocks_);
+      const auto [place, is_new] = block_of.try_emplace(patch_of(sample, settings.noise), blocks_);
       if (is_new) ++blocks_;
       residual_.push_back(sample.distance);
       independent_.push_back(sample.weight / part * share);

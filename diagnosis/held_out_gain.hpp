@@ -12,8 +12,8 @@ struct Gain {
   double before = 0, after = 0;  ///< root of the mean square, in the noise's deviation
 };
 
-/// Paired block bootstrap: blocks (a region at a moment) are drawn with replacement, before and after together, since
-/// errors within one are alike. (D.12) precision [1/unit^2], residuals [unit], block: of each datum; count: the number
+/// Paired block bootstrap: blocks (patches of a frame) are drawn with replacement, before and after together, since
+/// errors within one are alike. (D.13) precision [1/unit^2], residuals [unit], block: of each datum; count: the number
 /// of independent data. At least two blocks.
 Gain gain_of(const VectorXd& precision, const std::vector<int>& block, const VectorXd& before, const VectorXd& after,
              double count);

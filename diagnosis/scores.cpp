@@ -46,7 +46,7 @@ AllowedErrors::AllowedErrors(VectorXd precision, const MatrixXd& columns, const 
 }
 
 MatrixXd AllowedErrors::operator()(const MatrixXd& x) const {
-  return precision_.asDiagonal() * x - scaled_ * (inverse_ * (scaled_.transpose() * x));  // (D.7)
+  return precision_.asDiagonal() * x - scaled_ * (inverse_ * (scaled_.transpose() * x));  // (D.8)
 }
 
 Scores scores_of(const AllowedErrors& allowed, const MatrixXd& changes, const VectorXd& residual) {

@@ -5,7 +5,7 @@
 namespace tether {
 
 /// M = W - W N (P^-1 + N'W N)^-1 N'W, the precision of data whose errors are those of W and, beside them, combinations
-/// of the columns N with amplitudes of known deviations: M is the inverse of W^-1 + N P N'. (D.7)
+/// of the columns N with amplitudes of known deviations: M is the inverse of W^-1 + N P N'. (D.8)
 class AllowedErrors {
  public:
   /// precision: W, of each datum [n]. columns: N [n x k]. deviations: of their amplitudes [k]; infinite: anything is
@@ -21,7 +21,7 @@ class AllowedErrors {
   MatrixXd scaled_, inverse_;  ///< W N P^(1/2); (1 + P^(1/2) N'W N P^(1/2))^-1
 };
 
-/// All that the data say about amplitudes to first order. (D.8)
+/// All that the data say about amplitudes to first order. (D.9)
 struct Scores {
   MatrixXd information;  ///< S'M S
   VectorXd response;     ///< S'M r

@@ -14,7 +14,7 @@ struct DiagnosisRun {
 };
 
 /// Which runs show what each number of the model does: the case as it is, and one for each number that may be wrong,
-/// changed by `step` of its scale, or of its prior deviation where it is there already (D.6). Numbers that switch
+/// changed by `step` of its scale, or of its prior deviation where it is there already (D.7). Numbers that switch
 /// nothing on and have no prior stay.
 std::vector<DiagnosisRun> sensitivity_runs(const std::vector<protocol::ParameterInfo>& parameters,
                                            const DiagnosisCase& diagnosis);

@@ -117,7 +117,7 @@ void add_model_changes(EffectProblem& problem, const std::string& runs_json, con
     const double value = run["value"],
                  step = amplitude.doubles ? std::log2(value / amplitude.base) : value - amplitude.base;
     const VectorXd seen = residuals.col(0) - residuals.col(static_cast<Eigen::Index>(i));
-    const VectorXd change = seen.array().isFinite().select(seen, 0);  // (D.6)
+    const VectorXd change = seen.array().isFinite().select(seen, 0);  // (D.7)
     if (change.dot(problem.precision.cwiseProduct(change)) < no_response * no_response) continue;
     const bool is_absent = amplitude.base == number((*parameter)["absent"]),
                is_assumed = holds(diagnosis.assumed, amplitude.name);

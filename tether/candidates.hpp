@@ -27,7 +27,7 @@ void write_candidates(const std::filesystem::path& file, const CaseFile& from,
                       const std::vector<PlacedEffect>& effects);
 
 /// Adds what the runs show: the change of all data per amplitude, and what its number is called. residuals: one column
-/// a run of `runs_json`, the base first. (D.6)
+/// a run of `runs_json`, the base first. (D.7)
 void add_model_changes(EffectProblem& problem, const std::string& runs_json, const MatrixXd& residuals,
                        const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis);
 

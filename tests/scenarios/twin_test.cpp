@@ -147,9 +147,9 @@ TEST_F(Twin, TellsWhatIsWrong) {
       << validated.errors;
   fs::create_directories(folder / "wrong");
   std::ofstream(folder / "wrong" / "thesis.txt") << "precious";
-  EXPECT_NE(
-      error_of("twin: {truth: same.yaml, hidden: {verdict: nothing_missing}}\n").find("holds files that are not a twin's"),
-      std::string::npos);
+  EXPECT_NE(error_of("twin: {truth: same.yaml, hidden: {verdict: nothing_missing}}\n")
+                .find("holds files that are not a twin's"),
+            std::string::npos);
   EXPECT_NE(tether({"score", (folder / "model.yaml").string()}).errors.find("not the folder of a twin"),
             std::string::npos);
 }

@@ -1,0 +1,93 @@
+/// `tether diagnose` with the real programs on a coarse configs/tube without the spine's support, against data with it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/child_process.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/case_variant.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+ChildEnd tether(const std::vector<std::string>& words) {
+  std::vector<std::string> line{TETHER_PROGRAM};
+  line.insert(line.end(), words.begin(), words.end());
+  return capture({line, {}});
+}
+
+constexpr const char* model = R"(base: {}/configs/tube/case.yaml
+name: model
+time: {{step: 4e-3, end: 0.12}}
+mesh: {{swept: {{around: 12, along: 8}}}}
+solid: {{support: {{regions: {{spine: {{stiffness: 0}}}}}}}}
+diagnosis:
+  candidates: [contact, tissue_mass]
+  exclude: [vicinity_left, vicinity_right, fluid.density]
+twin:
+  truth: {}.yaml
+  frames: 8
+  image: {{voxel: [0, 0, 0]}}
+  noise: {{deviation: 0.05 mm, correlation_length: 5 mm}}
+  held_out: [3, 6]
+  hidden: {}
+)";
+
+class Diagnose : public testing::Test {
+ protected:
+  Json diagnosed(const std::string& truth, const std::string& hidden) const {
+    const fs::path file = folder.file("model.yaml", fmt::format(model, TETHER_SOURCE, truth, hidden));
+    folder.file("same.yaml", "base: model.yaml\nname: same\ntwin: ~\n");
+    folder.file("held.yaml",
+                "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n");
+    const ChildEnd made = tether({"twin", file.string(), "--output", (folder / "twin").string()});
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+    return again();
+  }
+  Json again() const {
+    const ChildEnd end = tether({"diagnose", (folder / "twin/case.yaml").string(), "--output", output().string()});
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    said = end.output;
+    return Json::parse(content_of(output() / "diagnosis.json"));
+  }
+  fs::path output() const { return folder / "out"; }
+
+  TemporaryFolder folder;
+  mutable std::string said;
+};
+
+TEST_F(Diagnose, FindsTheHiddenSupport) {
+  const Json found = diagnosed("held", "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}");
+  EXPECT_EQ(found["verdict"], "missing") << said;
+  const Json first = found["effects"][0];
+  EXPECT_EQ(first["name"], "visco_elastic") << said;
+  EXPECT_EQ(first["where"], "spine");
+  EXPECT_TRUE(first["accepted"]);
+  EXPECT_LT(first["amplitude"]["lower"], 4e5);
+  EXPECT_GT(first["amplitude"]["upper"], 4e5);
+  EXPECT_GT(first["held_out_gain"]["lower"], 0);
+  EXPECT_NE(said.find("MISSING: visco_elastic stiffness at spine"), std::string::npos) << said;
+
+  const ChildEnd valid = tether({"validate", (output() / "suggested.yaml").string()});
+  EXPECT_EQ(valid.exit_code, 0) << valid.errors;
+  const ChildEnd scored = tether({"score", (folder / "twin").string(), "--output", output().string()});
+  EXPECT_NE(scored.output.find("verdict: missing: right"), std::string::npos) << scored.output << scored.errors;
+
+  const Json kept = again();
+  EXPECT_EQ(kept["verdict"], "missing");
+  EXPECT_EQ(kept["cost"]["runs_made"], 0) << "all runs are there";
+}
+
+TEST_F(Diagnose, FindsNothingWhereNothingIsHidden) {
+  const Json found = diagnosed("same", "{verdict: nothing_missing}");
+  EXPECT_EQ(found["verdict"], "nothing_missing") << said;
+  for (const Json& effect : found["effects"]) EXPECT_FALSE(effect["accepted"]) << effect;
+  EXPECT_TRUE(found["suggested_case"].is_null());
+}
+
+}  // namespace
+}  // namespace tether
