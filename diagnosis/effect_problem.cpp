@@ -1,11 +1,15 @@
 #include "diagnosis/effect_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tether {
 
 double Amplitude::value(double amplitude) const {
-  return doubles ? base * std::exp2(amplitude) : base + amplitude;
+  const double value = doubles ? base * std::exp2(amplitude) : base + amplitude;
+  const double least = std::isfinite(lower) ? lower + 0.01 * (base - lower) : lower;
+  const double most = std::isfinite(upper) ? upper - 0.01 * (upper - base) : upper;
+  return std::clamp(value, std::min(least, base), std::max(most, base));
 }
 
 ResidualAt linear_residual(const EffectProblem& problem) {

@@ -11,11 +11,13 @@ namespace tether {
 
 /// A number that may differ from what the model says. Its amplitude is 0 as the model is.
 struct Amplitude {
-  std::string name, meaning, unit;  ///< name: by its place in the case; of an error of the data its own
-  bool one_sided = false;           ///< cannot be negative
-  double scale = undefined;         ///< how large it may be in a patient
-  double base = 0;                  ///< value of the model
-  bool doubles = false;             ///< the value is base 2^amplitude, not base + amplitude
+  std::string name, meaning, unit;             ///< name: by its place in the case; of an error of the data its own
+  bool one_sided = false;                      ///< cannot be negative
+  double scale = undefined;                    ///< how large it may be in a patient
+  double base = 0;                             ///< value of the model
+  bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
+  double lower = -infinite, upper = infinite;  ///< of the value
+  /// Admissible: short of the bounds by a hundredth of the way from the base.
   double value(double amplitude) const;
 };
 

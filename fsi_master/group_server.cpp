@@ -142,6 +142,7 @@ protocol::Ready GroupServer::operator()(const protocol::Simulate& m) {
   (*this)(protocol::SetParameters{m.names, m.values});
   RunPlan plan = plan_;
   plan.output = m.output;
+  plan.write_series = false;  // the codes of all groups have one folder
   plan.last_step = m.steps;
   std::filesystem::create_directories(plan.output);
   Simulation(plan, codes_->crew(), master_->coupling.halvings).run();

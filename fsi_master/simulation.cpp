@@ -154,6 +154,7 @@ double Simulation::largest_displacement() const {
 }
 
 void Simulation::write_files(std::int64_t step) {
+  if (!plan_.write_series) return;
   auto fluid = crew_.fluid.write(step, plan_.time_at(step));
   auto solid = crew_.solid.write(step, plan_.time_at(step));
   fluid.get();

@@ -36,6 +36,8 @@ Amplitude amplitude_of(const Json& p) {
                prior = number(p["prior_deviation"]);
   const bool is_absent = value == absent;
   Amplitude amplitude{p["name"], p["meaning"], p["unit"], is_absent && value == number(p["lower"]), {}, value, {}};
+  if (!p["lower"].is_null()) amplitude.lower = p["lower"];
+  if (!p["upper"].is_null()) amplitude.upper = p["upper"];
   amplitude.doubles = p["transform"].get<std::string>().starts_with("log") && value > 0;
   if (is_absent)
     amplitude.scale = amplitude.doubles ? std::log2(1 + scale / value) : scale;
