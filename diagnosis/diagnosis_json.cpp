@@ -101,6 +101,12 @@ Json detectable(const EffectProblem& problem, const std::vector<TestedEffect>& e
   return all;
 }
 
+Json rows_of(const MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
 Json path_of(const DiagnosisReport& report) {
   Json all = Json::array();
   for (const SearchStep& step : report.found.path) {
@@ -232,6 +238,7 @@ void write_json(const std::filesystem::path& path, const DiagnosisReport& report
   json["dispersion"] = found.dispersion;
   json["effects"] = Json::array();
   for (const TestedEffect& effect : found.effects) json["effects"].push_back(json_of(report.problem, effect));
+  json["look_alike"] = rows_of(found.cosines);
   json["held_out"] = found.held_out ? json_of(*found.held_out) : Json();
   json["detectable"] = detectable(report.problem, found.effects);
   json["lack_of_fit"] = {{"before", json_of(report.problem, found.before)},

@@ -218,6 +218,7 @@ class Search {
       if (a.confirmed != b.confirmed) return a.confirmed;
       return worth(problem_, a, result_.independent) > worth(problem_, b, result_.independent);
     });
+    compare_strongest(scores);
     return std::move(result_);
   }
 
@@ -419,6 +420,15 @@ class Search {
       first->group = groups++;
       first->cosine = 1;
     }
+  }
+
+  void compare_strongest(const Scores& scores) {
+    const auto count = std::min<Index>(settings_.compared, static_cast<Index>(result_.effects.size()));
+    result_.cosines.resize(count, count);
+    for (Index i = 0; i < count; ++i)
+      for (Index j = 0; j < count; ++j)
+        result_.cosines(i, j) = cosine(problem_, scores, result_.effects[static_cast<std::size_t>(i)],
+                                       result_.effects[static_cast<std::size_t>(j)]);
   }
 
   const EffectProblem& problem_;

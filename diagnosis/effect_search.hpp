@@ -13,6 +13,7 @@ struct SearchSettings {
   int most = 3;              ///< effects that are added
   int refinements = 5;       ///< runs at most for an effect's amplitude
   int confirmed = 8;         ///< candidates whose amplitude is found with runs, before one is chosen
+  int compared = 12;         ///< of the strongest, how much each looks like each other is kept
 };
 
 /// What the data say of one candidate.
@@ -51,6 +52,7 @@ struct SearchStep {
 struct SearchResult {
   std::string verdict;                ///< missing, nothing_missing, ambiguous, not_in_catalogue or undecided
   std::vector<TestedEffect> effects;  ///< accepted ones first, then by their evidence
+  MatrixXd cosines;                   ///< of the changes that the first of `effects` make, each with each other
   std::vector<SearchStep> path;
   LackOfFit before, after;
   VectorXd amplitudes;     ///< of all accepted effects [q]

@@ -189,6 +189,19 @@ TEST(EffectSearch, TellsWhatItCannotTellApart) {
       },
       50);
   EXPECT_GE(right, 0.90);
+
+  const SearchResult result = found(problem);
+  const auto& effects = result.effects;
+  ASSERT_EQ(result.cosines.rows(), 9);
+  for (Index i = 0; i < 9; ++i) {
+    EXPECT_NEAR(result.cosines(i, i), 1, 1e-12);
+    for (Index j = 0; j < i; ++j) {
+      EXPECT_NEAR(result.cosines(i, j), result.cosines(j, i), 1e-12);
+      const std::size_t a = effects[static_cast<std::size_t>(i)].candidate,
+                        b = effects[static_cast<std::size_t>(j)].candidate;
+      EXPECT_EQ(result.cosines(i, j) > 0.9, std::min(a, b) == 2 && std::max(a, b) == 8) << a << " and " << b;
+    }
+  }
 }
 
 TEST(EffectSearch, KnowsThatTheCatalogueLacksSomething) {
