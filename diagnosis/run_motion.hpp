@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -13,6 +14,9 @@ struct RunMotion {
   Points imaged;                            ///< one column an interface node [length]
   std::function<Points(double)> positions;  ///< at a time of the run [length]
 };
+
+/// Of a finished run, from lumen.motion in its folder. Throws InputError if there is none.
+RunMotion stored_motion(const std::filesystem::path& folder);
 
 /// When the run was at the moment that data call `time`: of a periodic series in the last period that the run covers;
 /// of one frame that holds at all times (NaN) at the end. Nothing if the run was not there, by more than `tolerance`.

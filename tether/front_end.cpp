@@ -29,6 +29,7 @@ constexpr std::array verbs{
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them", make_twin},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", score},
     Verb{"identify", "find parameters of the model from the measurements", identify},
+    Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR", report},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
     Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false},

@@ -36,6 +36,10 @@ int diagnose(const CommandLine& command);
 /// Returns the run's exit code.
 int identify(const CommandLine& command);
 
+/// Writes report.html, a page to look at and to mail, into the folder of results that the command names
+/// (docs/report.md).
+int report(const CommandLine& command);
+
 /// Checks the case with every program that reads it. Throws InputError with all that they find.
 void check_case(const CommandLine& command);
 int validate(const CommandLine& command);

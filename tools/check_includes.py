@@ -19,9 +19,9 @@ COMMON = {
     "common/observation": ["base", "case", "config", "io", "mesh"],
     "common/protocol": ["base", "config"],
 }
-PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "pictures", "tether"]
+PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "report", "pictures", "tether"]
 HEAVY = re.compile(r"(yaml-cpp/.*|CGAL/.*|vtk.*\.h|spdlog/.*|CLI/.*|nlohmann/.*|muParser.*|cholmod\.h)")
-BUILT_ON = {"tether": ["diagnosis", "twin"]}  # rooms that are libraries of a program
+BUILT_ON = {"tether": ["diagnosis", "twin", "report"], "report": ["diagnosis"]}  # rooms that are libraries of a program
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 
 

@@ -10,7 +10,7 @@ import sys
 
 LABEL = re.compile(r"\(([A-Z]\.\d+[a-z]?)\)")
 DEFINITION = re.compile(r"\*\*\(([A-Z]\.\d+[a-z]?)\)\*\*")
-FOLDERS = ["common", "fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "tether"]
+FOLDERS = ["common", "fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "report", "tether"]
 
 
 def used_labels(root):

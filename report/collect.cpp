@@ -1,0 +1,260 @@
+#include "report/collect.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.hpp"
+#include "common/config/output_folder.hpp"
+#include "report/estimate_table.hpp"
+#include "report/provenance.hpp"
+#include "report/wall.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Null if there is no such file.
+Json read_json(const fs::path& path) {
+  if (!fs::is_regular_file(path)) return nullptr;
+  try {
+    return Json::parse(text_of(path));
+  } catch (const Json::exception& error) {
+    throw input_error("{}: {}", path.string(), error.what());
+  }
+}
+
+/// Without the groups of single contours: the page shows regions.
+void drop_contours(Json& groups) {
+  Json kept = Json::array();
+  for (Json& group : groups)
+    if (group.at("series").is_null()) kept.push_back(std::move(group));
+  groups = std::move(kept);
+}
+
+Json regions_only(Json comparison) {
+  if (comparison.is_null()) return comparison;
+  for (Json& source : comparison.at("sources")) {
+    for (const char* kind : {"training", "held_out"}) drop_contours(source.at(kind).at("all_frames"));
+    for (Json& moment : source.at("moments")) {
+      drop_contours(moment.at("groups"));
+      moment.erase("frames");
+    }
+  }
+  return comparison;
+}
+
+/// What a reader asks of a run: when, how long, with what.
+Json facts_of(const Json& summary) {
+  if (summary.is_null()) return summary;
+  Json facts = Json::object();
+  for (const char* key : {"case_file", "steps", "dt", "time", "wall_seconds", "cpu_seconds", "peak_memory_mb",
+                          "unknowns", "versions", "notices", "coupling_method"})
+    if (summary.contains(key)) facts[key] = summary[key];
+  return facts;
+}
+
+/// A folder with a compared run, as the page shows it.
+struct ShownRun {
+  std::string label;
+  fs::path folder;
+  Json comparison;
+};
+
+class Collector {
+ public:
+  explicit Collector(fs::path folder) : folder_(std::move(folder)) {
+    document_ = {{"made", {{"version", version()}, {"commit", commit()}, {"date", date_now()}}},
+                 {"title", ""},
+                 {"case", ""},
+                 {"kind", nullptr},
+                 {"verdict", nullptr},
+                 {"sentences", Json::array()},
+                 {"explain", nullptr},
+                 {"runs", Json::array()},
+                 {"diagnoses", Json::array()},
+                 {"estimates", Json::array()},
+                 {"force", nullptr},
+                 {"wall", nullptr},
+                 {"provenance", nullptr},
+                 {"notes", Json::array()}};
+  }
+
+  Json document() {
+    const Json explain = read_json(folder_ / "explain.json");
+    if (explain.is_null())
+      take_folder();
+    else
+      take_explained(explain);
+    if (document_["kind"].is_null())
+      throw input_error("{}: holds no explain.json, comparison.json, diagnosis.json or estimate.json",
+                        folder_.string());
+    if (!shown_.empty()) document_["wall"] = wall();
+    document_["provenance"] = provenance();
+    return std::move(document_);
+  }
+
+ private:
+  /// The folder of one verb.
+  void take_folder() {
+    take_estimate("", "");
+    take_diagnosis("", "");
+    take_run("the model", "");
+    case_file_ = case_of_results(folder_);
+  }
+
+  void take_explained(const Json& explain) {
+    const Json& models = explain.at("models");
+    const std::size_t best = explain.value("best", 0U);
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      const Json& model = models[k];
+      const std::string name = "model " + std::to_string(model.value("number", k));
+      if (const Json& at = model.at("diagnosis"); at.is_string()) take_diagnosis(at, name);
+      if (const Json& at = model.at("identification"); at.is_string()) take_estimate(at, name);
+    }
+    take_run("before: " + models.at(0).value("name", "model 0"), models.at(0).value("run", ""));
+    if (best > 0) take_run("after: " + models.at(best).value("name", "best model"), models.at(best).value("run", ""));
+    if (const Json& force = explain.value("missing_force", Json()); force.is_string())
+      document_["force"] = read_json(folder_ / force.get<std::string>());
+    case_file_ = folder_ / models.at(0).value("case", "model_0.yaml");
+    introduce("explain", explain);
+    document_["explain"] = explain;
+  }
+
+  /// What the whole is called and what it says.
+  void introduce(const char* kind, const Json& from) {
+    document_["kind"] = kind;
+    for (const char* key : {"title", "case", "verdict", "sentences"})
+      if (from.contains(key)) document_[key] = from[key];
+    if (document_["title"] == "") document_["title"] = document_["case"];
+  }
+
+  void take_run(const std::string& label, const std::string& name) {
+    const fs::path folder = folder_ / name;
+    const Json comparison = read_json(folder / "comparison.json");
+    if (comparison.is_null()) {
+      if (!name.empty()) note("{} holds no comparison.json", name);
+      return;
+    }
+    if (name.empty()) introduce("comparison", comparison);
+    shown_.push_back({label, folder, comparison});
+    document_["runs"].push_back(
+        {{"label", label},
+         {"folder", name},
+         {"mm", UnitSystem::named(comparison.at("units").at("system").get<std::string>()).to_mm(1)},
+         {"comparison", regions_only(comparison)}});
+  }
+
+  void take_diagnosis(const std::string& name, const std::string& label) {
+    const Json diagnosis = read_json(folder_ / name / "diagnosis.json");
+    if (diagnosis.is_null()) return;
+    if (name.empty()) introduce("diagnosis", diagnosis);
+    document_["diagnoses"].push_back({{"label", label}, {"folder", name}, {"diagnosis", diagnosis}});
+  }
+
+  void take_estimate(const std::string& name, const std::string& label) {
+    const fs::path folder = folder_ / name;
+    const Json estimate = read_json(folder / "estimate.json");
+    if (estimate.is_null()) return;
+    if (name.empty()) introduce("estimate", estimate);
+    std::vector<std::string> names;
+    for (const Json& parameter : estimate.at("parameters")) names.push_back(parameter.at("name"));
+    Json over_time;
+    try {
+      over_time = Json::parse(estimate_over_time(folder / "estimate.csv", names));
+    } catch (const InputError& error) {
+      note("no estimates over time: {}", error.what());
+    }
+    document_["estimates"].push_back(
+        {{"label", label}, {"folder", name}, {"estimate", estimate}, {"over_time", over_time}});
+  }
+
+  /// The moving lumen of the runs shown; null, with a note, if it cannot be had or is not that of comparison.json.
+  Json wall() {
+    try {
+      if (!case_file_) throw input_error("the case file of these results is not where it was");
+      std::vector<fs::path> folders;
+      for (const ShownRun& run : shown_) folders.push_back(run.folder);
+      const Wall wall = wall_of(*case_file_, folders);
+      for (std::size_t i = 0; i < shown_.size(); ++i) check(wall, i);
+      return Json::parse(json_of(wall));
+    } catch (const std::exception& error) {
+      note("The moving wall is not shown: {}", error.what());
+      return nullptr;
+    }
+  }
+
+  /// Throws InputError if the distances are not those that were compared.
+  void check(const Wall& wall, std::size_t run) const {
+    const Json& sources = shown_[run].comparison.at("sources");
+    if (sources.size() != wall.sources.size()) throw input_error("the case has other measurements than were compared");
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      for (const WallMoment& moment : wall.sources[s].moments)
+        if (!agrees(sources[s], moment, run))
+          throw input_error("case or measurements have changed since {}: {:.3g} s",
+                            (shown_[run].folder / "comparison.json").string(), moment.time);
+  }
+
+  static bool agrees(const Json& source, const WallMoment& moment, std::size_t run) {
+    const double found = moment.states[run].root_mean_square;
+    for (const Json& other : source.at("moments"))
+      if (other.at("held_out") == moment.held_out && std::abs(other.at("time").get<double>() - moment.time) < 1e-9)
+        for (const Json& group : other.at("groups"))
+          if (group.at("series").is_null() && group.at("region").is_null())
+            return std::abs(group.value("l2", 0.0) - found) <= 1e-6 * found;
+    return false;
+  }
+
+  Json provenance() {
+    Json json{{"cases", Json::array()}, {"runs", Json::array()}, {"files", Json::array()}, {"seeds", Json::array()}};
+    if (shown_.empty()) add_facts(json, folder_, "");
+    for (const ShownRun& run : shown_) add_facts(json, run.folder, run.label);
+    if (!case_file_) return json;
+    try {
+      const CaseInputs inputs = inputs_of(*case_file_);
+      for (const auto& file : inputs.files)
+        json["files"].push_back(
+            {{"field", file.field}, {"name", file.name}, {"bytes", file.bytes}, {"modified", file.modified}});
+      for (const auto& seed : inputs.seeds) json["seeds"].push_back({{"field", seed.field}, {"value", seed.value}});
+    } catch (const InputError& error) {
+      note("The files of the case are not listed: {}", error.what());
+    }
+    return json;
+  }
+
+  static void add_facts(Json& json, const fs::path& folder, const std::string& label) {
+    if (const std::string text = text_of(folder / case_as_run); !text.empty())
+      json["cases"].push_back({{"label", label}, {"text", text}});
+    if (const Json facts = facts_of(read_json(folder / "summary.json")); !facts.is_null())
+      json["runs"].push_back({{"label", label}, {"finished", date_of(folder / "summary.json")}, {"summary", facts}});
+  }
+
+  template <class... Args>
+  void note(fmt::format_string<Args...> format, Args&&... args) {
+    document_["notes"].push_back(fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  fs::path folder_;
+  std::optional<fs::path> case_file_;
+  std::vector<ShownRun> shown_;
+  Json document_;
+};
+
+}  // namespace
+
+std::string collected(const fs::path& folder) {
+  try {
+    return Collector(folder).document().dump(-1, ' ', false, Json::error_handler_t::replace);
+  } catch (const Json::exception& error) {
+    throw input_error("{}: results are not as documented: {}", folder.string(), error.what());
+  }
+}
+
+}  // namespace tether

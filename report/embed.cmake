@@ -1,0 +1,10 @@
+# Writes OUT: the text of each of FILES (separated by |) as a string, in a table by name.
+set(text "#include \"report/page_files.hpp\"\n\nnamespace tether {\nstd::span<const PageFile> page_files() {\n  static const PageFile all[] = {\n")
+string(REPLACE "|" ";" FILES "${FILES}")
+foreach(file ${FILES})
+  file(READ ${file} content)
+  get_filename_component(name ${file} NAME)
+  string(APPEND text "{\"${name}\", R\"tether_page(${content})tether_page\"},\n")
+endforeach()
+string(APPEND text "};\n  return all;\n}\n}  // namespace tether\n")
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/types.hpp"
+
+namespace tether {
+
+/// Bytes as text of A-Z a-z 0-9 + / (RFC 4648).
+std::string base64(const void* bytes, std::size_t count);
+
+/// Numbers in units of `quantum` as little-endian 16-bit integers in base64, column by column; NaN becomes -32768.
+/// Throws RunError for a number beyond 32767 quanta.
+std::string packed16(const MatrixXd& numbers, double quantum);
+
+/// Whole numbers as little-endian 32-bit integers in base64.
+std::string packed32(const std::vector<std::int32_t>& numbers);
+
+}  // namespace tether

@@ -1,0 +1,95 @@
+"use strict";
+// The path from the model as given to the best one; what was identified on the way; what force is still missing.
+
+const modelName = (model) => `${model.number} · ${words(model.name)}`;
+
+/** Distances on training and held-out frames, model by model. */
+function pathChart(models, mm, noise) {
+  return responsive((width) => {
+    const left = 60, right = width - 20, top = 26, bottom = 210;
+    const svg = shape("svg", { width, height: 256, role: "img", "aria-label": "distance of each model" });
+    const kinds = [["training", "var(--faint)"], ["held_out", "var(--accent)"]];
+    const values = models.flatMap((m) => kinds.map(([k]) => (m[k] ? mm * m[k].l2 : NaN))).filter(isNumber);
+    const y = scaleOf(0, Math.max(...values, noise || 0) * 1.12, bottom, top);
+    const x = (i) => (models.length === 1 ? (left + right) / 2 : left + 40 + ((right - left - 80) * i) / (models.length - 1));
+    axisLeft(svg, y, left, right, "root mean square distance [mm]");
+    if (noise) {
+      svg.append(shape("rect", { x: left, y: y(noise), width: right - left, height: bottom - y(noise), fill: "var(--noise)", opacity: 0.1 }));
+      svg.append(label(right - 4, y(noise) - 5, "noise of the measurement, 1 σ", { "text-anchor": "end", style: "fill:var(--noise)" }));
+    }
+    svg.append(line(left, bottom, right, bottom, { class: "axis" }));
+    for (const [kind, colour] of kinds) {
+      const kept = models.map((m, i) => [m, i]).filter(([m]) => m[kind]);
+      svg.append(shape("path", { d: pathOf(kept.filter(([m]) => m.accepted).map(([m, i]) => [x(i), y(mm * m[kind].l2)])), fill: "none", stroke: colour, "stroke-width": 2 }));
+      for (const [m, i] of kept) {
+        const tip = `${modelName(m)}\n${kind === "held_out" ? "held-out" : "training"} frames: ${fixed(mm * m[kind].l2, 2)} mm${isNumber(m[kind].in_noise) ? ` · ${fixed(m[kind].in_noise, 1)} σ` : ""}${m.accepted ? "" : `\nrejected: ${m.reason}`}`;
+        svg.append(shape("circle", { cx: x(i), cy: y(mm * m[kind].l2), r: 5.5, fill: m.accepted ? colour : "var(--card)", stroke: colour, "stroke-width": 2, tip }));
+        if (kind === "held_out" || !m.held_out) svg.append(label(x(i) + 10, y(mm * m[kind].l2) - 8, fixed(mm * m[kind].l2, 2), { class: "strong" }));
+      }
+    }
+    models.forEach((m, i) => svg.append(label(x(i), bottom + 18, `model ${m.number}`, { "text-anchor": "middle", class: "strong" }), label(x(i), bottom + 34, m.accepted ? "" : "rejected", { "text-anchor": "middle" })));
+    return svg;
+  });
+}
+
+function addedText(added) {
+  return element("div", {}, element("span", { class: "name" }, `${words(added.name)}${added.where ? ` · ${words(added.where)}` : ""}`),
+    element("div", {}, interval(added)), element("div", { class: "minor" }, `${added.parameter ? words(String(added.parameter).split(".").pop()) : ""}${isNumber(added.without) ? `, before ${number(added.without)}` : ""}`));
+}
+
+function modelRow(model, mm) {
+  const distance = (d) => (d ? [`${fixed(mm * d.l2, 2)} mm`, isNumber(d.in_noise) ? element("div", { class: "minor" }, `${fixed(d.in_noise, 1)} σ`) : null] : "–");
+  const gain = model.held_out_gain;
+  return element("tr", {}, element("td", {}, element("span", { class: "name" }, modelName(model)), element("div", { class: "minor" }, model.case || "")),
+    element("td", {}, (model.added || []).length ? model.added.map(addedText) : "–"),
+    element("td", { class: "number" }, distance(model.training)), element("td", { class: "number" }, distance(model.held_out)),
+    element("td", { class: "number" }, gain ? [percent(gain.value), element("div", { class: "minor" }, `${percent(gain.lower)} … ${percent(gain.upper)}`)] : "–"),
+    element("td", {}, model.accepted ? element("span", { class: "chip good" }, model.number === 0 ? "start" : "accepted") : [element("span", { class: "chip bad" }, "rejected"), element("div", { class: "minor" }, model.reason || "")]));
+}
+
+function modelsSection(report) {
+  const models = report.explain ? report.explain.models || [] : [];
+  if (!models.length) return null;
+  const run = report.runs[0], mm = run ? run.mm : 1;
+  const source = run && run.comparison.sources[0];
+  const noise = source && source.noise.deviation > 0 ? mm * source.noise.deviation : null;
+  return section("models", "The models, one after the other", "One effect at a time was added, its size identified from the training frames, and the new model run again without any help from the data. A step that the held-out frames do not confirm is reverted.",
+    pathChart(models, mm, noise), legend([{ text: "held-out frames", mark: "dot", colour: "var(--accent)" }, { text: "training frames", mark: "dot", colour: "var(--faint)" }, models.some((m) => !m.accepted) ? { text: "rejected", mark: "ring", colour: "var(--faint)" } : null]),
+    element("div", { class: "scroll" }, element("table", {}, element("thead", {}, element("tr", {}, ["model", "added", "training", "held out", "held-out gain", ""].map((t, i) => element("th", { class: i > 1 && i < 5 ? "number" : null }, t)))), element("tbody", {}, models.map((m) => modelRow(m, mm))))));
+}
+
+/** One parameter of an identification over time. */
+function parameterChart(parameter, overTime) {
+  const logarithmic = String(parameter.transform).startsWith("log");
+  const over = overTime.parameters[parameter.name];
+  const e = parameter.estimate;
+  return element("div", {}, element("h3", {}, words(parameter.name)),
+    element("p", { class: "minor" }, `${interval({ value: e.value, lower: e.lower_95, upper: e.upper_95, unit: parameter.unit })}. Before the data: ${number(parameter.prior.value)} (${number(parameter.prior.lower_95)} … ${number(parameter.prior.upper_95)}).`),
+    bandChart({ series: [{ time: overTime.time, value: over.value, lower: over.lower, upper: over.upper, colour: "var(--accent)" }], title: `${words(parameter.name)}${parameter.unit && parameter.unit !== "1" ? ` [${unitText(parameter.unit)}]` : ""}`, logarithmic, marks: [{ value: parameter.prior.value, text: "before the data" }] }));
+}
+
+function estimateView(one) {
+  const shown = one.over_time ? one.estimate.parameters.map((p) => parameterChart(p, one.over_time)) : [];
+  const ratio = one.estimate.innovations ? one.estimate.innovations.chi_square_per_datum : null;
+  return element("div", {}, element("div", { class: shown.length > 1 ? "pair" : "" }, shown),
+    isNumber(ratio) ? element("p", { class: "note" }, `What is left of the misfit is ${number(ratio, 2)} times what the stated noise explains${ratio > 1.5 ? ": something else is missing, and the intervals are too narrow" : ratio < 0.5 ? ": the noise is stated too large" : ""}.`) : null);
+}
+
+function estimateSection(report) {
+  if (!report.estimates.length) return null;
+  return section("parameters", "Parameters over time", "How the estimate and its 95 % band develop as the frames of the beat come in. A band that does not become narrower means that the data did not tell.",
+    ...tabs(report.estimates.map((one) => ({ label: one.label || "estimate", show: () => estimateView(one) }))));
+}
+
+function lawText(law) {
+  const terms = (law.terms || []).map((t) => `${words(t.term)}: ${withUnit(number(t.coefficient), unitText(t.unit))}${isNumber(t.share) ? ` (${percent(t.share)} of it)` : ""}`);
+  return element("p", { class: "note" }, element("strong", {}, law.text || "no simple law"), isNumber(law.r2) ? ` explains ${percent(law.r2)} of the force. ` : " ", terms.join("; "));
+}
+
+function forceSection(report) {
+  if (!report.force) return null;
+  return section("force", "The force that is missing", "No effect of the catalogue explains what is left. This is the force on each region of the wall that would, as the data ask for it, and the simplest law that follows it.",
+    ...(report.force.sentences || []).map((s) => element("p", {}, s)),
+    element("div", { class: "pair" }, (report.force.regions || []).map((region) => element("div", {}, element("h3", {}, words(region.region)),
+      bandChart({ series: [{ time: region.time, value: region.value, lower: region.lower, upper: region.upper, colour: "var(--accent)" }], title: `force per area [${unitText(region.unit)}]`, marks: [{ value: 0, text: "" }] }), region.law ? lawText(region.law) : null))));
+}

@@ -1,0 +1,96 @@
+"use strict";
+// The page from top to bottom.
+
+const verdictChips = {
+  missing: ["Missing effect found", "bad"],
+  nothing_missing: ["Nothing missing", "good"],
+  ambiguous: ["Cannot tell which", "open"],
+  not_in_catalogue: ["Not in the catalogue", "open"],
+  undecided: ["Undecided", "open"],
+};
+const kindNames = { explain: "explanation", comparison: "comparison", diagnosis: "diagnosis", estimate: "identification" };
+
+/** Without the shouted first word, which the chip says. */
+const plain = (sentence) => sentence.replace(/^(MISSING|NOTHING MISSING|NOT IN THE CATALOGUE|AMBIGUOUS|UNDECIDED): /, "").replace(/^[a-z](?![^ ]*_)/, (c) => c.toUpperCase());
+
+/** What an identification says of itself, in sentences. */
+function estimateSentences(estimate) {
+  return estimate.parameters.map((p) => `${words(p.name)} is ${interval({ value: p.estimate.value, lower: p.estimate.lower_95, upper: p.estimate.upper_95, unit: p.unit })}`);
+}
+
+function tile(what, value, more, tip) {
+  return element("div", { class: "tile", tip }, element("div", { class: "what" }, what), element("div", { class: "value" }, value), element("div", { class: "more" }, more || ""));
+}
+
+const change = (before, after) => (after === null ? [before] : [before, element("span", { class: "to" }, "→"), after]);
+
+/** The few figures that a reader looks for first. */
+function tiles(report) {
+  const all = [];
+  const wholes = (kind) => report.runs.map((run) => ({ run, group: run.comparison.sources.length ? run.comparison.sources[0][kind].all_frames.find(allRegions) : null })).filter((w) => w.group && isNumber(w.group.l2));
+  for (const [kind, name] of [["held_out", "Distance, held-out frames"], ["training", "Distance, training frames"]]) {
+    const found = wholes(kind);
+    if (!found.length) continue;
+    const texts = found.map((w) => fixed(w.run.mm * w.group.l2, 2)), sigmas = found.filter((w) => w.group.in_noise).map((w) => fixed(w.group.in_noise.l2, 1));
+    all.push(tile(name, [change(texts[0], texts.length > 1 ? texts.at(-1) : null), " mm"].flat(), sigmas.length ? `${sigmas.join(" → ")} σ of noise` : ""));
+  }
+  const own = wholes("training")[0];
+  if (own && own.group.apparent && isNumber(own.group.apparent.l2)) all.push(tile("Motion in the images", `${fixed(own.run.mm * own.group.apparent.l2, 2)} mm`, "the yardstick"));
+  const diagnosis = report.diagnoses.length ? report.diagnoses[0].diagnosis : null;
+  if (diagnosis && diagnosis.effects) all.push(tile("Candidates tried", String(diagnosis.effects.length), isNumber(diagnosis.independent_data) ? `on ${number(diagnosis.independent_data, 3)} independent data` : ""));
+  const cost = report.explain ? report.explain.cost : diagnosis ? diagnosis.cost : null;
+  if (cost && isNumber(cost.runs)) all.push(tile("Runs of the model", String(cost.runs), isNumber(cost.cpu_seconds) ? `${duration(cost.cpu_seconds)} of CPU` : ""));
+  return all.length > 1 ? element("div", { class: "tiles" }, all) : null;
+}
+
+function head(report) {
+  const sentences = report.sentences.length ? report.sentences : report.estimates.length ? estimateSentences(report.estimates[0].estimate) : [];
+  const [name, colour] = verdictChips[report.verdict] || [kindNames[report.kind] || report.kind, ""];
+  return [
+    element("h1", {}, report.title, element("span", { class: "kind" }, ` — ${kindNames[report.kind] || "results"} · ${report.case}`)),
+    element("span", { class: `chip ${colour}` }, name),
+    element("p", { class: "verdict" }, sentences.length ? plain(sentences[0]) : "Results"),
+    sentences.length > 1 ? element("ul", { class: "further" }, sentences.slice(1).map((s) => element("li", {}, plain(s)))) : null,
+    tiles(report),
+  ].filter(Boolean);
+}
+
+function parts(report) {
+  const runs = report.runs;
+  return [
+    runs.length ? () => errorSection(runs) : null,
+    () => wallSection(report),
+    runs.length ? () => heatSection(runs) : null,
+    () => rankingSection(report),
+    () => lookAlikeSection(report),
+    () => detectableSection(report),
+    () => modelsSection(report),
+    () => estimateSection(report),
+    () => forceSection(report),
+    runs.length ? () => traceSection(runs) : null,
+    () => provenanceSection(report),
+    glossarySection,
+  ].filter(Boolean);
+}
+
+/** A part that cannot be drawn does not take the others with it. */
+function drawn(part) {
+  try {
+    return part();
+  } catch (error) {
+    const root = document.documentElement;
+    root.dataset.errors = (root.dataset.errors ? root.dataset.errors + "\n" : "") + error.stack;
+    return element("section", {}, element("p", { class: "note" }, `A part of this page could not be drawn: ${error.message}`));
+  }
+}
+
+function start() {
+  const report = JSON.parse(document.getElementById("data").textContent);
+  document.getElementById("head").replaceChildren(...head(report));
+  document.getElementById("parts").replaceChildren(...parts(report).map(drawn).filter(Boolean));
+  document.getElementById("foot").replaceChildren(`Made by Tether ${report.made.version} on ${report.made.date}. All figures are those of the JSON files beside this page.`);
+  showTips(document.getElementById("tip"));
+  document.documentElement.dataset.state = "ready";
+}
+
+start();

@@ -1,0 +1,74 @@
+#include "report/provenance.hpp"
+
+#include <fmt/chrono.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "common/config/case_tree.hpp"
+#include "common/config/output_folder.hpp"
+#include "report/built_from.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::system_clock;
+
+std::string date(Clock::time_point moment) {
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(Clock::to_time_t(moment)));
+}
+
+void gather(const YamlNode& node, const std::string& field, const fs::path& folder, CaseInputs& inputs) {
+  std::error_code none;
+  if (node.kind == YamlNode::Kind::scalar) {
+    const fs::path file = folder / node.text;
+    if (field.ends_with(".seed")) inputs.seeds.push_back({field, node.text});
+    if (!node.text.empty() && fs::is_regular_file(file, none))
+      inputs.files.push_back({field, node.text, date_of(file), fs::file_size(file, none)});
+  }
+  for (const YamlNode& item : node.items) gather(item, field, folder, inputs);
+  for (const YamlNode::Entry& entry : node.entries)
+    gather(entry.value, field.empty() ? entry.key : field + "." + entry.key, folder, inputs);
+}
+
+}  // namespace
+
+CaseInputs inputs_of(const fs::path& case_file) {
+  CaseInputs inputs;
+  gather(as_one_file(read_case_tree(case_file)), "", case_file.parent_path(), inputs);
+  return inputs;
+}
+
+std::string date_of(const fs::path& file) {
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  if (error) return {};
+  return date(std::chrono::time_point_cast<Clock::duration>(std::chrono::file_clock::to_sys(written)));
+}
+
+std::string date_now() {
+  return date(Clock::now());
+}
+
+std::optional<fs::path> case_of_results(const fs::path& folder) {
+  constexpr std::string_view before = "# Copy of ", after = " as it was";
+  std::ifstream mark(folder / case_as_run);
+  std::string line;
+  std::getline(mark, line);
+  const auto end = line.find(after);
+  if (!line.starts_with(before) || end == std::string::npos) return std::nullopt;
+  fs::path file = line.substr(before.size(), end - before.size());
+  if (!fs::is_regular_file(file)) return std::nullopt;
+  return file;
+}
+
+std::string version() {
+  return TETHER_VERSION;
+}
+
+std::string commit() {
+  return built_from;
+}
+
+}  // namespace tether

@@ -1,0 +1,22 @@
+#include "report/report.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.hpp"
+#include "report/collect.hpp"
+#include "report/page.hpp"
+
+namespace tether {
+
+std::filesystem::path write_report(const std::filesystem::path& folder) {
+  const std::string document = collected(folder);
+  const auto title = nlohmann::json::parse(document)["title"].get<std::string>();
+  const std::filesystem::path path = folder / "report.html";
+  std::ofstream file(path, std::ios::binary);
+  file << page_of(title, document) << std::flush;
+  if (!file) throw run_error("{} cannot be written", path.string());
+  return path;
+}
+
+}  // namespace tether

@@ -1,0 +1,232 @@
+/// `tether report` with the real programs: a coarse tube before and after a change, against surfaces of the changed
+/// one, and the page in a browser without a screen.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/child_process.hpp"
+#include "common/io/lumen_motion.hpp"
+#include "common/observation/observed_case.hpp"
+#include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/surface_file.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+ChildEnd tether(const std::vector<std::string>& words) {
+  std::vector<std::string> line{TETHER_PROGRAM};
+  line.insert(line.end(), words.begin(), words.end());
+  return capture({line, {}});
+}
+
+/// What a script finds out about a page that it is added to: it leaves a value in `found`.
+Json found_in(const fs::path& page, const std::string& script) {
+  std::string text = content_of(page);
+  const std::string end = "</body>";
+  text.insert(text.rfind(end), "<script>addEventListener('load', () => setTimeout(() => { let found = {}; " + script +
+                                   " const out = document.createElement('pre'); out.id = 'found'; out.textContent = "
+                                   "JSON.stringify(found).replace(/[<>&]/g, (c) => '\\\\u00' + "
+                                   "c.charCodeAt(0).toString(16)); document.body.append(out); }, 1000));</script>");
+  const fs::path copy = page.parent_path() / "looked_at.html";
+  std::ofstream(copy) << text;
+  const ChildEnd browser = capture({{"chromium-headless-shell", "--no-sandbox", "--disable-gpu", "--use-gl=angle",
+                                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=900,1200",
+                                     "--virtual-time-budget=5000", "--dump-dom", "file://" + copy.string()},
+                                    {}});
+  const std::string open = "<pre id=\"found\">";
+  const auto at = browser.output.find(open);
+  if (at == std::string::npos) {
+    ADD_FAILURE() << "the script did not run (is chromium-headless-shell installed?)\n" << browser.errors;
+    return {};
+  }
+  const auto first = at + open.size();
+  return Json::parse(browser.output.substr(first, browser.output.find("</pre>", first) - first));
+}
+
+/// Two models of a beat's first steps; the second is softer, and what was measured is its lumen.
+class ReportPage : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    fs::create_directories(folder);
+    write("model_0.yaml", fmt::format("base: {}/configs/tube/case.yaml\nname: model_0\nmesh: {{swept: {{around: 12, "
+                                      "along: 8}}}}\n",
+                                      TETHER_SOURCE));
+    write("model_1.yaml", "base: model_0.yaml\nname: model_1\nsolid: {material: {young: 1e6}}\n");
+    run("simulate", "model_1");
+    const LumenMotion truth(folder / "model_1/lumen.motion");
+    const auto triangles = ObservedCase(folder / "model_0.yaml").lumen().triangles;
+    std::string list = "file, time [s]\n";
+    for (const int k : {2, 5, 8}) {
+      const std::string name = fmt::format("frame_{}.stl", k);
+      write_stl(folder / name, truth.at(step * k), triangles);
+      list += fmt::format("{}, {}\n", name, step * k);
+    }
+    write("frames.csv", list);
+    std::ofstream(folder / "model_0.yaml", std::ios::app)
+        << "observations: {surfaces: {ct: {file: frames.csv, unit: cm, held_out: [1], noise: {deviation: 0.02 mm, "
+           "correlation_length: 4 mm}}}}\n";
+    for (const char* name : {"model_0", "model_1"}) run("compare", name);
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder); }
+  static void write(const std::string& name, const std::string& content) { std::ofstream(folder / name) << content; }
+  static void run(const std::string& verb, const std::string& name) {
+    const ChildEnd end = tether({verb, (folder / (name + ".yaml")).string(), "--output", (folder / name).string(),
+                                 "--steps", "8", "--overwrite", "--quiet"});
+    ASSERT_EQ(end.exit_code, 0) << end.errors;
+  }
+  static Json compared(const std::string& name) {
+    return Json::parse(content_of(folder / name / "comparison.json"))["sources"][0];
+  }
+  static Json whole(const Json& groups) {
+    for (const Json& group : groups)
+      if (group["region"].is_null() && group["series"].is_null()) return group;
+    return {};
+  }
+  static Json distance(const std::string& name, const char* kind) {
+    const Json group = whole(compared(name)[kind]["all_frames"]);
+    return {{"l2", group["l2"]}, {"in_noise", group["in_noise"]["l2"]}};
+  }
+  /// What `tether explain` would say of these two.
+  static void explain() {
+    fs::create_directories(folder / "diagnosis_0");
+    Json diagnosis{{"case", "model_0"}, {"title", "t"}, {"verdict", "missing"}, {"sentences", {"MISSING: x"}}};
+    for (int i = 0; i < candidates; ++i)
+      diagnosis["effects"].push_back(
+          {{"name", fmt::format("effect_{}<i>", i)},
+           {"where", "spine"},
+           {"meaning", "no <script>document.documentElement.dataset.errors = 'markup'</script>"},
+           {"kind", "effect"},
+           {"accepted", i == 0},
+           {"z", 9.0 - i},
+           {"q", 1e-9},
+           {"amplitude",
+            {{"parameter", "a.b"}, {"value", 1e6}, {"lower", 9e5}, {"upper", 1.1e6}, {"unit", "1"}, {"without", 4e6}}},
+           {"retained_information", 0.5},
+           {"group", nullptr},
+           {"held_out_gain", nullptr}});
+    diagnosis["look_alike"] = {{1.0, 0.5}, {0.5, 1.0}};
+    write("diagnosis_0/diagnosis.json", diagnosis.dump());
+    Json models;
+    for (const char* name : {"model_0", "model_1"})
+      models.push_back({{"number", models.size()},
+                        {"name", name},
+                        {"case", std::string(name) + ".yaml"},
+                        {"run", name},
+                        {"diagnosis", models.empty() ? Json("diagnosis_0") : Json()},
+                        {"identification", nullptr},
+                        {"added", Json::array()},
+                        {"accepted", true},
+                        {"reason", ""},
+                        {"training", distance(name, "training")},
+                        {"held_out", distance(name, "held_out")},
+                        {"held_out_gain", nullptr}});
+    write("explain.json", Json{{"case", "model_0"},
+                               {"title", "A tube & its wall"},
+                               {"verdict", "missing"},
+                               {"sentences", {"MISSING: a softer wall", "Held-out frames agree"}},
+                               {"models", models},
+                               {"best", 1},
+                               {"missing_force", nullptr},
+                               {"cost", {{"runs", 2}, {"cpu_seconds", 3.0}, {"wall_seconds", 2.0}}}}
+                              .dump());
+  }
+
+  static constexpr double step = 2e-3;
+  static constexpr int candidates = 15;
+  static inline const fs::path folder =
+      fs::temp_directory_path() / ("tether_report_page_test_" + std::to_string(getpid()));
+};
+
+TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
+  explain();
+  const ChildEnd end = tether({"report", folder.string()});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(end.output, (folder / "report.html").string() + "\n");
+  EXPECT_LT(fs::file_size(folder / "report.html"), 1000000U);
+
+  const Json found = found_in(folder / "report.html", R"js(
+    const root = document.documentElement;
+    const pixels = (canvas) => {
+      const gl = canvas.getContext("webgl"), [w, h] = [canvas.width, canvas.height], all = new Uint8Array(4 * w * h);
+      gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, all);
+      const colours = new Set();
+      let blue = 0, painted = 0;
+      for (let i = 0; i < all.length; i += 4) {
+        if (!all[i + 3]) continue;
+        colours.add((all[i] << 16) | (all[i + 1] << 8) | all[i + 2]);
+        blue += all[i + 2] - all[i];
+        ++painted;
+      }
+      return { colours: colours.size, painted: painted / (w * h), blue: blue / painted };
+    };
+    const walls = [...document.querySelectorAll("canvas.wall")], slider = document.querySelector("input.frame");
+    const at = (frame) => {
+      slider.value = frame;
+      slider.dispatchEvent(new Event("input"));
+      return walls.map(pixels);
+    };
+    found = { state: root.dataset.state, errors: root.dataset.errors || "", verdict: document.querySelector(".verdict").textContent,
+      chip: document.querySelector(".chip").textContent, rows: document.querySelectorAll("#ranking tbody tr").length,
+      seen: [...document.querySelectorAll("#ranking tbody tr")].filter((row) => row.offsetParent).length,
+      names: document.querySelector("#ranking .name").textContent, title: document.title, wide: root.scrollWidth,
+      first: at(0), last: at(2), models: document.querySelectorAll("#models tbody tr").length,
+      sections: [...document.querySelectorAll("section")].map((s) => s.id), tiles: document.querySelector(".tiles").textContent };)js");
+  EXPECT_EQ(found["state"], "ready");
+  EXPECT_EQ(found["errors"], "");
+  EXPECT_EQ(found["verdict"], "A softer wall");
+  EXPECT_EQ(found["title"], "A tube & its wall");
+  EXPECT_EQ(found["names"], "effect 0<i> · spine") << "text, not markup";
+  EXPECT_EQ(found["rows"], candidates);
+  EXPECT_EQ(found["seen"], 12) << "the others on demand";
+  EXPECT_EQ(found["models"], 2);
+  EXPECT_LE(found["wide"], 900) << "nothing sticks out";
+  const Json expected{"errors", "wall", "heat", "ranking", "look-alikes", "models", "provenance", "glossary"};
+  EXPECT_EQ(found["sections"], expected);
+  const Json before = found["last"][0], after = found["last"][1];
+  for (const Json& wall : {before, after}) {
+    EXPECT_GT(wall["colours"], 20) << wall;
+    EXPECT_GT(wall["painted"], 0.05) << wall;
+  }
+  const auto blue = [](const Json& wall) { return wall["blue"].get<double>(); };  // more than red
+  const double mean = whole(compared("model_0")["moments"][2]["groups"])["mean"];
+  EXPECT_GT((blue(before) - blue(after)) * (mean < 0 ? 1 : -1), 10) << "blue where the data lie inside the model; the "
+                                                                       "second model is at the data";
+  EXPECT_GT(std::abs(blue(before) - blue(found["first"][0])), 5) << "the slider changes the colours";
+  const std::string held_out = fmt::format("{:.2f}", 10 * distance("model_0", "held_out")["l2"].get<double>());
+  EXPECT_NE(found["tiles"].get<std::string>().find(held_out), std::string::npos) << found["tiles"];
+}
+
+TEST_F(ReportPage, OfAComparisonAndOfMeasurementsThatHaveChanged) {
+  const std::string run = (folder / "model_0").string();
+  ASSERT_EQ(tether({"report", run}).exit_code, 0);
+  const std::string script =
+      "found = {errors: document.documentElement.dataset.errors || '', walls: "
+      "document.querySelectorAll('canvas.wall').length, notes: [...document.querySelectorAll('.note')].map((n) => "
+      "n.textContent).join()};";
+  const Json found = found_in(folder / "model_0/report.html", script);
+  EXPECT_EQ(found["errors"], "");
+  EXPECT_EQ(found["walls"], 1);
+
+  fs::copy_file(folder / "frame_8.stl", folder / "kept.stl");
+  fs::copy_file(folder / "frame_2.stl", folder / "frame_8.stl", fs::copy_options::overwrite_existing);
+  ASSERT_EQ(tether({"report", run}).exit_code, 0);
+  const Json changed = found_in(folder / "model_0/report.html", script);
+  EXPECT_EQ(changed["errors"], "");
+  EXPECT_EQ(changed["walls"], 0);
+  EXPECT_NE(changed["notes"].get<std::string>().find("case or measurements have changed since"), std::string::npos)
+      << changed["notes"];
+  fs::rename(folder / "kept.stl", folder / "frame_8.stl");
+
+  const ChildEnd nothing = tether({"report", (folder / "none").string()});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_NE(nothing.errors.find("none: is not a folder of results"), std::string::npos) << nothing.errors;
+}
+
+}  // namespace
+}  // namespace tether
