@@ -62,6 +62,7 @@ Json json_of(const EffectProblem& problem, const TestedEffect& effect) {
           {"meaning", candidate.meaning},
           {"kind", word_of(candidate.kind)},
           {"accepted", effect.accepted},
+          {"rival", effect.rival},
           {"z", effect.z},
           {"p", effect.p},
           {"q", effect.q},
@@ -167,7 +168,7 @@ std::string verdict_sentence(const DiagnosisReport& report) {
   if (found.verdict == "ambiguous") {
     std::vector<std::string> alike;
     for (const TestedEffect& effect : found.effects)
-      if (effect.group == 0 && effect.confirmed)
+      if (effect.accepted || effect.rival)
         alike.push_back(
             fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect)));
     return fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));

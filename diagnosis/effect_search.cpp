@@ -1,252 +1,53 @@
 #include "diagnosis/effect_search.hpp"
 
-#include <fmt/format.h>
-
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "diagnosis/chances.hpp"
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/refinement.hpp"
 
 namespace tether {
 namespace {
 
 using Index = Eigen::Index;
 
-constexpr double convincing = 6;  ///< of BIC
-constexpr double hopeless = 30;   ///< of the misfit, behind the best
-
-/// The training part of a problem, with what is allowed and what was accepted taken out.
-class Trained {
- public:
-  Trained(const EffectProblem& problem, const std::vector<Index>& accepted)
-      : rows_(problem.training),
-        allowed_(precision_of(problem), columns_of(problem, accepted), deviations_of(problem, accepted)) {}
-
-  VectorXd rows(const VectorXd& all) const { return all(rows_); }
-  MatrixXd rows(const MatrixXd& all) const { return all(rows_, Eigen::all); }
-  const AllowedErrors& allowed() const { return allowed_; }
-  double misfit(const VectorXd& residual) const {
-    const VectorXd r = rows(residual);
-    return r.dot(allowed_(r).col(0));
-  }
-
- private:
-  static VectorXd precision_of(const EffectProblem& problem) { return problem.precision(problem.training); }
-  static MatrixXd columns_of(const EffectProblem& problem, const std::vector<Index>& accepted) {
-    MatrixXd columns(problem.training.size(), problem.allowed.cols() + static_cast<Index>(accepted.size()));
-    columns << problem.allowed(problem.training, Eigen::all), problem.changes(problem.training, accepted);
-    return columns;
-  }
-  static VectorXd deviations_of(const EffectProblem& problem, const std::vector<Index>& accepted) {
-    VectorXd deviations(problem.allowed.cols() + static_cast<Index>(accepted.size()));
-    deviations << problem.allowed_deviation, VectorXd::Constant(static_cast<Index>(accepted.size()), infinite);
-    return deviations;
-  }
-
-  std::vector<Index> rows_;
-  AllowedErrors allowed_;
-};
-
-std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
-  std::vector<bool> one_sided;
-  for (const Index i : of) one_sided.push_back(problem.amplitudes[static_cast<std::size_t>(i)].one_sided);
-  return one_sided;
-}
-
-/// z of the same probability, for people.
-double as_z(double p) {
-  return p > 1e-300 ? -normal_quantile(std::max(p, 1e-300)) : 37;
-}
-
-double probability(const Fit& fit, const std::vector<bool>& one_sided) {
-  const int n = static_cast<int>(one_sided.size());
-  const bool any = std::any_of(one_sided.begin(), one_sided.end(), [](bool one) { return one; });
-  return any ? one_sided_tail(fit.gain, n) : chi_square_tail(fit.gain, n);  // (D.10)
-}
-
-TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores) {
-  const std::vector<Index>& own = problem.candidates[number].amplitudes;
-  const MatrixXd information = scores.information(own, own);
-  const std::vector<bool> one_sided = sides(problem, own);
-  const Fit fit = best_fit(information, scores.response(own), one_sided);
-  TestedEffect effect;
-  effect.candidate = number;
-  effect.gain = fit.gain;
-  effect.p = probability(fit, one_sided);
-  effect.z = fit.gain > 0 ? (own.size() == 1 ? std::sqrt(fit.gain) : as_z(effect.p)) : 0;
-  if (own.size() == 1 && scores.response(own[0]) < 0)
-    effect.z = -std::sqrt(scores.response(own[0]) * scores.response(own[0]) / information(0, 0));
-  effect.amplitudes = fit.amplitudes;
-  effect.deviations = information.diagonal().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
-  const double alone = scores.alone(own).sum();
-  effect.retained = alone > 0 ? information.trace() / alone : 0;
-  return effect;
-}
-
-/// Of the model's changes for two effects, each at its best amplitudes.
-double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b) {
-  const auto direction = [&](const TestedEffect& effect) {
-    VectorXd all = VectorXd::Zero(problem.changes.cols());
-    const auto& own = problem.candidates[effect.candidate].amplitudes;
-    if (effect.amplitudes.squaredNorm() > 0)
-      all(own) = effect.amplitudes;
-    else
-      all(own[0]) = 1;
-    return all;
-  };
-  const VectorXd u = direction(a), v = direction(b);
-  const double size = u.dot(scores.information * u) * v.dot(scores.information * v);
-  return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
-}
-
-/// Evidence less what so many amplitudes cost (BIC).
-double worth(const EffectProblem& problem, const TestedEffect& effect, double count) {
-  const double gain = effect.confirmed ? effect.confirmed_gain : effect.gain;
-  return gain - static_cast<double>(problem.candidates[effect.candidate].amplitudes.size()) * std::log(count);
-}
-
-/// (D.11)
-LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual) {
-  LackOfFit lack;
-  if (problem.patterns.cols() == 0) return lack;
-  const Scores scores = scores_of(trained.allowed(), trained.rows(problem.patterns), trained.rows(residual));
-  double smallest = 1;
-  int seen = 0;
-  for (Index k = 0; k < scores.response.size(); ++k) {
-    if (!(scores.information(k, k) > 1e-9 * scores.alone(k)) || scores.alone(k) == 0) continue;
-    ++seen;
-    const double z = scores.response(k) / std::sqrt(scores.information(k, k));
-    const bool is_moment = problem.pattern_names[static_cast<std::size_t>(k)].time ==
-                           problem.pattern_names[static_cast<std::size_t>(k)].time;
-    if (is_moment) lack.excess += z * z - 1;
-    if (const double p = 2 * normal_tail(std::abs(z)); p < smallest) {
-      smallest = p;
-      lack.worst = static_cast<std::size_t>(k);
-      lack.z = z;
-    }
-  }
-  lack.p = std::min(1.0, seen * smallest);
-  lack.excess = std::max(0.0, lack.excess);
-  return lack;
-}
-
-/// An effect on its way to the amplitude with the smallest misfit: its amplitudes to first order times a factor. (D.10)
-class Refined {
- public:
-  Refined(TestedEffect& effect, VectorXd others, VectorXd residual, const Trained& trained,
-          const EffectProblem& problem)
-      : effect_(effect),
-        others_(std::move(others)),
-        trained_(trained),
-        problem_(problem),
-        last_(trained.rows(residual)) {
-    start_ = best_ = misfit(last_);
-    residual_ = std::move(residual);
-  }
-  bool done() const { return done_; }
-  VectorXd amplitudes() const { return at(next_); }
-  /// The run at `amplitudes` came back: the next is where the misfit is least, as the last two runs have it; in the
-  /// logarithm of the factor from the second run on.
-  void take(const VectorXd& residual) {
-    const VectorXd now = trained_.rows(residual);
-    const bool first = factor_ == 0;
-    const VectorXd change = (last_ - now) / (first ? next_ : std::log(next_ / factor_));
-    const VectorXd weighted = trained_.allowed()(change).col(0);
-    const double information = weighted.dot(change), step = weighted.dot(now) / information;
-    factor_ = next_;
-    last_ = now;
-    if (const double found = misfit(now); found < best_) {
-      best_ = found;
-      residual_ = residual;
-      effect_.amplitudes = at(factor_)(own()) - others_(own());
-    }
-    effect_.deviations = effect_.amplitudes.cwiseAbs() / (std::sqrt(information) * (first ? factor_ : 1));
-    effect_.confirmed_gain = start_ - best_;
-    next_ =
-        first ? std::clamp(factor_ + step, factor_ / 4, 4 * factor_) : factor_ * std::exp(std::clamp(step, -1.4, 1.4));
-    expected_ = step * step * information;
-    done_ = !(expected_ >= 0.25);  // also if the run changed nothing
-  }
-  /// Not even twice the gain that the last two runs promise would bring it near the best.
-  void give_up_behind(double best) { done_ = done_ || best_ - 2 * expected_ > best + hopeless; }
-  double best() const { return best_; }
-  const VectorXd& residual() const { return residual_; }
-  VectorXd total() const {
-    VectorXd all = others_;
-    all(own()) += effect_.amplitudes;
-    return all;
-  }
-
- private:
-  const std::vector<Index>& own() const { return problem_.candidates[effect_.candidate].amplitudes; }
-  VectorXd at(double factor) const {
-    VectorXd all = others_;
-    all(own()) += factor * direction_;
-    return all;
-  }
-  double misfit(const VectorXd& r) const { return r.dot(trained_.allowed()(r).col(0)); }
-
-  TestedEffect& effect_;
-  VectorXd others_;
-  const Trained& trained_;
-  const EffectProblem& problem_;
-  VectorXd last_, residual_, direction_ = effect_.amplitudes;
-  double start_ = 0, best_ = 0, factor_ = 0, next_ = 1, expected_ = infinite;
-  bool done_ = false;
-};
+constexpr double convincing = 6;    ///< of BIC
+constexpr double hopeless = 30;     ///< of the misfit, behind the best
+constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
 class Search {
  public:
   Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at)
-      : problem_(problem), settings_(settings), residual_at_(residual_at), plain_(problem, {}) {
-    result_.amplitudes = VectorXd::Zero(problem.changes.cols());
-    result_.residual = problem.residual;
+      : problem_(problem), settings_(settings), residual_at_(residual_at), plain_(problem) {
+    now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
     result_.independent = problem.independent(problem.training).sum();
+    rival_of_.resize(problem.candidates.size());
+    std::iota(rival_of_.begin(), rival_of_.end(), std::size_t{0});
   }
 
   SearchResult run() {
-    const Scores scores = scores_now(plain_);
-    result_.effects = tested(scores);
-    for (TestedEffect& effect : result_.effects) effect.visible = visible(scores, effect);
+    const Scores scores = plain_.scores(problem_.changes, problem_.residual);
+    result_.effects = test_all(problem_, scores, settings_.alpha);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
-    while (static_cast<int>(result_.path.size()) < settings_.most && add_one()) continue;
+    while (add_one()) continue;
+    result_.amplitudes = now_.amplitudes;
+    result_.residual = now_.residual;
+    refit_accepted();
     judge();
-    set_groups(scores);
+    set_groups(result_.effects, problem_, scores, result_.independent, rival_of_);
     std::stable_sort(result_.effects.begin(), result_.effects.end(), [&](const auto& a, const auto& b) {
       if (a.accepted != b.accepted) return a.accepted;
       if (a.confirmed != b.confirmed) return a.confirmed;
-      return worth(problem_, a, result_.independent) > worth(problem_, b, result_.independent);
+      return is_worth_more(a, b);
     });
     compare_strongest(scores);
     return std::move(result_);
   }
 
  private:
-  Scores scores_now(const Trained& trained) const {
-    return scores_of(trained.allowed(), trained.rows(problem_.changes), trained.rows(result_.residual));
-  }
-
-  std::vector<TestedEffect> tested(const Scores& scores) const {
-    std::vector<TestedEffect> all;
-    std::vector<double> p;
-    for (std::size_t i = 0; i < problem_.candidates.size(); ++i) {
-      all.push_back(test(problem_, i, scores));
-      p.push_back(all.back().p);
-    }
-    const std::vector<double> q = holm(p);
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].q = q[i];
-    return all;
-  }
-
-  /// (D.12)
-  double visible(const Scores& scores, const TestedEffect& effect) const {
-    const Index first = problem_.candidates[effect.candidate].amplitudes.front();
-    const bool one_sided = problem_.amplitudes[static_cast<std::size_t>(first)].one_sided;
-    const double tests = static_cast<double>(problem_.candidates.size()) * (one_sided ? 1 : 2);
-    const double information = scores.information(first, first);
-    return information > 0 ? (normal_quantile(1 - settings_.alpha / tests) + 0.842) / std::sqrt(information) : infinite;
-  }
+  double worth_of(const TestedEffect& effect) const { return worth(problem_, effect, result_.independent); }
+  bool is_worth_more(const TestedEffect& a, const TestedEffect& b) const { return worth_of(a) > worth_of(b); }
 
   double dispersion(const VectorXd& residual) const {
     const VectorXd r = residual(problem_.training), w = problem_.precision(problem_.training);
@@ -258,39 +59,44 @@ class Search {
                        [&](const SearchStep& step) { return step.candidate == candidate; });
   }
 
-  std::vector<Index> accepted_amplitudes() const {
-    std::vector<Index> all;
-    for (const SearchStep& step : result_.path)
-      if (step.accepted)
-        for (const Index i : problem_.candidates[step.candidate].amplitudes) all.push_back(i);
+  /// What the data ask for beside what was accepted, the strongest first.
+  std::vector<TestedEffect> wanted(const Trained& trained) const {
+    std::vector<TestedEffect> all =
+        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha);
+    std::erase_if(all, [&](const TestedEffect& e) { return e.q >= settings_.alpha || was_tried(e.candidate); });
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return is_worth_more(a, b); });
+    if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
     return all;
   }
 
-  /// Finds the amplitudes of the strongest with runs, side by side.
-  std::vector<Refined> refine(std::vector<TestedEffect>& strongest) const {
-    std::vector<Refined> all;
-    all.reserve(strongest.size());
-    for (TestedEffect& effect : strongest)
-      all.emplace_back(effect, result_.amplitudes, result_.residual, plain_, problem_);
-    for (int round = 0; round < settings_.refinements; ++round) {
-      std::vector<Refined*> open;
-      for (Refined& one : all)
-        if (!one.done()) open.push_back(&one);
-      if (open.empty()) break;
-      MatrixXd wanted(problem_.changes.cols(), static_cast<Index>(open.size()));
-      for (std::size_t i = 0; i < open.size(); ++i) wanted.col(static_cast<Index>(i)) = open[i]->amplitudes();
-      const MatrixXd residuals = residual_at_(wanted);
-      for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(residuals.col(static_cast<Index>(i)));
-      if (round > 0) give_up(all);
-    }
-    for (TestedEffect& effect : strongest) effect.confirmed = true;
+  /// Finds the amplitudes of the strongest with runs, those first that promise most; the hopeless are not run.
+  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) const {
+    std::vector<Refinement> all;
+    for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, trained, plain_, problem_);
+    for (int round = 0; round < settings_.refinements; ++round)
+      for (std::size_t first = 0; first < all.size(); first += at_once) {
+        std::vector<Refinement*> open;
+        for (std::size_t i = first; i < std::min(first + at_once, all.size()); ++i)
+          if (!all[i].done()) open.push_back(&all[i]);
+        if (open.empty()) continue;
+        run(open);
+        give_up_hopeless(all);
+      }
     return all;
   }
 
-  static void give_up(std::vector<Refined>& all) {
+  void run(const std::vector<Refinement*>& open) const {
+    MatrixXd wanted(problem_.changes.cols(), static_cast<Index>(open.size()));
+    for (std::size_t i = 0; i < open.size(); ++i) wanted.col(static_cast<Index>(i)) = open[i]->amplitudes();
+    const MatrixXd residuals = residual_at_(wanted);
+    for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(residuals.col(static_cast<Index>(i)));
+  }
+
+  static void give_up_hopeless(std::vector<Refinement>& all) {
     double best = infinite;
-    for (const Refined& one : all) best = std::min(best, one.best());
-    for (Refined& one : all) one.give_up_behind(best);
+    for (const Refinement& one : all) best = std::min(best, one.best());
+    for (Refinement& one : all)
+      if (one.hope() > best + hopeless) one.give_up();
   }
 
   std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
@@ -303,8 +109,7 @@ class Search {
 
   /// Whether the data at hand and those held out ask for the effect; else why not.
   std::string objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
-    if (worth(problem_, effect, result_.independent) < convincing * dispersion)
-      return "the misfit does not fall by enough";
+    if (worth_of(effect) < convincing * dispersion) return "the misfit does not fall by enough";
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && effect.held_out && !(effect.held_out->lower > 0)) return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
@@ -313,58 +118,73 @@ class Search {
 
   /// One step of the search; false when it is over.
   bool add_one() {
-    const Trained trained(problem_, accepted_amplitudes());
-    std::vector<TestedEffect> strongest = tested(scores_now(trained));
-    std::erase_if(strongest, [&](const TestedEffect& e) { return e.q >= settings_.alpha || was_tried(e.candidate); });
+    const Trained trained(problem_, now_.changes);
+    const std::vector<TestedEffect> strongest = wanted(trained);
     if (strongest.empty()) return false;
-    const auto by_worth = [&](const TestedEffect& a, const TestedEffect& b) {
-      return worth(problem_, a, result_.independent) > worth(problem_, b, result_.independent);
-    };
-    std::sort(strongest.begin(), strongest.end(), by_worth);
-    std::erase_if(strongest, [most = strongest.front().gain](const TestedEffect& e) { return e.gain < 0.6 * most; });
-    if (static_cast<int>(strongest.size()) > settings_.confirmed)
-      strongest.resize(static_cast<std::size_t>(settings_.confirmed));
-    const std::vector<Refined> refined = refine(strongest);
-    const auto best =
-        static_cast<std::size_t>(std::min_element(strongest.begin(), strongest.end(), by_worth) - strongest.begin());
-    return settle(strongest, best, refined);
+    if (static_cast<int>(result_.path.size()) == settings_.most) {
+      result_.more = true;
+      return false;
+    }
+    return settle(refined(strongest, trained));
   }
 
   /// Accepts the best or says why not; notes those that these data cannot tell from it.
-  bool settle(std::vector<TestedEffect>& strongest, std::size_t best, const std::vector<Refined>& refined) {
-    const VectorXd& residual = refined[best].residual();
-    const double spread = dispersion(residual);
-    for (std::size_t i = 0; i < strongest.size(); ++i) {
-      strongest[i].deviations *= std::sqrt(spread);
-      strongest[i].held_out = held_out_gain(result_.residual, refined[i].residual());
-    }
-    SearchStep step{strongest[best].candidate,
+  bool settle(const std::vector<Refinement>& all) {
+    const Refinement& best = *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+      return a.begun() != b.begun() ? a.begun() : is_worth_more(a.effect(), b.effect());
+    });
+    const VectorXd before = now_.residual;
+    const AmplitudeState state = best.state();
+    const double spread = dispersion(state.residual), most = worth_of(best.effect());
+    TestedEffect chosen = best.effect();
+    chosen.held_out = held_out_gain(before, state.residual);
+    SearchStep step{chosen.candidate,
                     false,
                     {},
-                    plain_.misfit(result_.residual),
-                    plain_.misfit(residual),
-                    lack_of_fit(problem_, plain_, residual)};
-    step.reason = objection(strongest[best], spread, step.left);
-    step.accepted = strongest[best].accepted = step.reason.empty();
+                    plain_.misfit(before),
+                    plain_.misfit(state.residual),
+                    lack_of_fit(problem_, plain_, state.residual)};
+    step.reason = objection(chosen, spread, step.left);
+    step.accepted = chosen.accepted = step.reason.empty();
     result_.path.push_back(step);
-    const double most = worth(problem_, strongest[best], result_.independent);
-    for (const TestedEffect& effect : strongest) {
-      TestedEffect& kept = *std::find_if(result_.effects.begin(), result_.effects.end(),
-                                         [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
-      if (kept.accepted) continue;
-      const double visible = kept.visible;
-      kept = effect;
-      kept.visible = visible;
-      if (step.accepted && &effect != &strongest[best] &&
-          worth(problem_, effect, result_.independent) > most - convincing * spread)
-        rivals_.push_back(effect.candidate);
+    for (const Refinement& one : all) {
+      if (!one.begun()) continue;
+      TestedEffect effect = &one == &best ? chosen : one.effect();
+      if (&one != &best) effect.held_out = held_out_gain(before, one.state().residual);
+      effect.deviations *= std::sqrt(spread);
+      effect.rival = step.accepted && &one != &best && worth_of(effect) > most - convincing * spread;
+      if (effect.rival) rival_of_[effect.candidate] = chosen.candidate;
+      keep(effect);
     }
     if (!step.accepted) return false;
-    result_.amplitudes = refined[best].total();
-    result_.residual = residual;
+    now_ = state;
     result_.after = step.left;
     result_.dispersion = spread;
-    return rivals_.empty() && leaves_too_much();
+    return leaves_too_much();
+  }
+
+  /// What is known of an effect now; `visible` stays what it was without any other.
+  void keep(TestedEffect effect) {
+    TestedEffect& kept = *std::find_if(result_.effects.begin(), result_.effects.end(),
+                                       [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
+    if (kept.accepted) return;
+    effect.visible = kept.visible;
+    effect.rival = !effect.accepted && (effect.rival || kept.rival);
+    kept = std::move(effect);
+  }
+
+  /// Amplitudes and deviations of those accepted first, as they are beside the later ones.
+  void refit_accepted() {
+    if (now_.accepted.size() < 2) return;
+    const MatrixXd covariance = plain_.scores(now_.changes, now_.residual).information.inverse();
+    for (std::size_t k = 0; k < now_.accepted.size(); ++k) {
+      const auto number = static_cast<Index>(k);
+      for (TestedEffect& effect : result_.effects)
+        if (effect.candidate == now_.accepted[k]) {
+          effect.amplitudes = now_.amplitudes(problem_.candidates[effect.candidate].amplitudes);
+          effect.deviations = effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * result_.dispersion);
+        }
+    }
   }
 
   bool leaves_too_much() const {
@@ -372,11 +192,13 @@ class Search {
   }
 
   void judge() {
-    const bool accepted = result_.amplitudes.squaredNorm() > 0;
+    const bool accepted = !now_.accepted.empty();
+    const bool ambiguous =
+        std::any_of(result_.effects.begin(), result_.effects.end(), [](const auto& e) { return e.rival; });
     if (accepted) result_.held_out = held_out_gain(problem_.residual, result_.residual);
-    if (leaves_too_much())
+    if (leaves_too_much() && !result_.more)
       result_.verdict = "not_in_catalogue";
-    else if (!rivals_.empty())
+    else if (ambiguous)
       result_.verdict = "ambiguous";
     else if (accepted)
       result_.verdict = "missing";
@@ -395,33 +217,6 @@ class Search {
     });
   }
 
-  /// By their evidence, each with those that look like it; rivals with what they rival.
-  void set_groups(const Scores& scores) {
-    std::vector<TestedEffect*> order;
-    for (TestedEffect& effect : result_.effects) order.push_back(&effect);
-    std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
-      if (a->accepted != b->accepted) return a->accepted;
-      return worth(problem_, *a, result_.independent) > worth(problem_, *b, result_.independent);
-    });
-    int groups = 0;
-    for (TestedEffect* first : order) {
-      if (first->group >= 0) continue;
-      bool any = false;
-      for (TestedEffect* other : order) {
-        if (other == first || other->group >= 0) continue;
-        const double c = cosine(problem_, scores, *first, *other);
-        const bool rival = groups == 0 && std::find(rivals_.begin(), rivals_.end(), other->candidate) != rivals_.end();
-        if (!rival && std::abs(c) <= 0.9) continue;
-        other->group = groups;
-        other->cosine = c;
-        any = true;
-      }
-      if (!any) continue;
-      first->group = groups++;
-      first->cosine = 1;
-    }
-  }
-
   void compare_strongest(const Scores& scores) {
     const auto count = std::min<Index>(settings_.compared, static_cast<Index>(result_.effects.size()));
     result_.cosines.resize(count, count);
@@ -435,8 +230,9 @@ class Search {
   const SearchSettings& settings_;
   const ResidualAt& residual_at_;
   Trained plain_;
+  AmplitudeState now_;
   SearchResult result_;
-  std::vector<std::size_t> rivals_;
+  std::vector<std::size_t> rival_of_;
 };
 
 }  // namespace

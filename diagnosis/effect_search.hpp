@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-
-#include "diagnosis/effect_problem.hpp"
-#include "diagnosis/held_out_gain.hpp"
+#include "diagnosis/effect_tests.hpp"
 
 namespace tether {
 
@@ -14,30 +11,6 @@ struct SearchSettings {
   int refinements = 5;       ///< runs at most for an effect's amplitude
   int confirmed = 8;         ///< candidates whose amplitude is found with runs, before one is chosen
   int compared = 12;         ///< of the strongest, how much each looks like each other is kept
-};
-
-/// What the data say of one candidate.
-struct TestedEffect {
-  std::size_t candidate = 0;
-  double gain = 0;                  ///< of the misfit, by its best amplitudes to first order (D.10)
-  double z = 0, p = 1, q = 1;       ///< q: corrected for the number of candidates
-  VectorXd amplitudes, deviations;  ///< of its own; after confirmation at finite size
-  double retained = 0;              ///< share of its information that errors allowed cannot explain as well
-  bool confirmed = false;           ///< the amplitudes are those of runs
-  double confirmed_gain = 0;        ///< of the misfit, by those runs
-  std::optional<Gain> held_out;
-  bool accepted = false;
-  int group = -1;      ///< effects that look alike have the same number
-  double cosine = 0;   ///< with the first of the group
-  double visible = 0;  ///< smallest size of its first amplitude that would be seen with 80 % probability (D.12)
-};
-
-/// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.11)
-struct LackOfFit {
-  double p = 1;       ///< that noise alone makes the worst pattern
-  double excess = 0;  ///< of the patterns' squares over what noise makes
-  std::size_t worst = 0;
-  double z = 0;  ///< of the worst
 };
 
 /// One attempt to add an effect.
@@ -58,6 +31,7 @@ struct SearchResult {
   VectorXd amplitudes;     ///< of all accepted effects [q]
   VectorXd residual;       ///< with them [n]
   double independent = 0;  ///< number of independent training data
+  bool more = false;       ///< another effect is wanted, but `most` were added
   double dispersion = 1;   ///< misfit per independent datum that is left, at least 1: intervals are widened by its root
   std::optional<Gain> held_out;
 };

@@ -107,6 +107,10 @@ const Noise& Evidence::noise(const Part& part) const {
                         : data_.lumen[part.source]->settings().noise;
 }
 
+bool Evidence::is_held_out(const Part& part) const {
+  return is_trace(part) ? data_.traces[part.source - data_.lumen.size()].held_out : part.frame.held_out;
+}
+
 std::string Evidence::name_of(const Part& part) const {
   return is_trace(part) ? data_.traces[part.source - data_.lumen.size()].name
                         : data_.lumen[part.source]->settings().name;
@@ -143,7 +147,7 @@ EffectProblem Evidence::problem() const {
   for (const Part& part : parts_)
     for (Eigen::Index i = part.first; i < part.first + part.count; ++i)
       if (precision_[static_cast<std::size_t>(i)] > 0)
-        (!is_trace(part) && part.frame.held_out ? problem.held_out : problem.training).push_back(i);
+        (is_held_out(part) ? problem.held_out : problem.training).push_back(i);
   problem.changes.resize(n, 0);
   problem.allowed.resize(n, 0);
   problem.patterns.resize(n, 0);

@@ -34,6 +34,7 @@ class Evidence {
 
   const std::vector<Part>& parts() const { return parts_; }
   bool is_trace(const Part& part) const { return part.source >= data_.lumen.size(); }
+  bool is_held_out(const Part& part) const;
   std::string name_of(const Part& part) const;
   /// Of the data on the lumen at the base: n out of the lumen, region (-1: none). Zero for traces.
   const Eigen::Matrix3Xd& normals() const { return normals_; }

@@ -1,14 +1,14 @@
-#include <fstream>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "common/base/csv.hpp"
 #include "common/base/error.hpp"
-#include "common/case/mesh_case.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/config/overlay.hpp"
-#include "common/io/lumen_motion.hpp"
-#include "diagnosis/data_errors.hpp"
+#include "tether/diagnosed_case.hpp"
 #include "tether/diagnosis_text.hpp"
 #include "tether/programs.hpp"
 #include "tether/suggested_case.hpp"
@@ -19,56 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-/// A case with measurements whose noise is stated.
-struct DiagnosedCase {
-  explicit DiagnosedCase(const fs::path& path) : file(path) {
-    file.read("mesh", mesh);
-    file.read("observations", observations);
-    file.read("diagnosis", diagnosis);
-    file.finish();
-    lumen = lumen_of(load_mesh(mesh, file.units(), WallElement::prism));
-    data = load_observations(observations, lumen, file);
-    if (data.lumen.empty() && data.traces.empty())
-      throw input_error("{}: names nothing that was measured", file.where("observations"));
-    for (const auto& source : data.lumen) check(source->settings().noise, true, source->settings().name);
-    for (const Trace& trace : data.traces) check(trace.noise, false, trace.name);
-  }
-  void check(const Noise& noise, bool on_lumen, const std::string& name) const {
-    if (noise.deviation > 0 && (!on_lumen || noise.correlation_length > 0)) return;
-    throw input_error(
-        "{}: {}: noise.deviation{} must be given: how far data err, and how far errors are alike, decides what they "
-        "can tell",
-        file.where("observations"), name, on_lumen ? " and noise.correlation_length" : "");
-  }
-  CaseFile file;
-  MeshCase mesh;
-  ObservationsCase observations;
-  DiagnosisCase diagnosis;
-  LumenSurface lumen;
-  Observations data;
-};
-
-/// A run's folder, read when it is needed.
-struct StoredRun {
-  explicit StoredRun(const fs::path& folder)
-      : lumen(std::make_shared<LumenMotion>(folder / "lumen.motion")),
-        table(std::make_shared<CsvTable>(folder / "timeseries.csv")) {}
-  FinishedMotion motion() const {
-    return {{lumen->times().front(), lumen->times().back(), lumen->imaged(),
-             [kept = lumen](double time) { return kept->at(time); }},
-            [kept = table](const std::string& column) {
-              return RunTrace{kept->numbers("time"), kept->numbers(column), kept->unit(column)};
-            }};
-  }
-  std::shared_ptr<LumenMotion> lumen;
-  std::shared_ptr<CsvTable> table;
-};
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The runs of a diagnosis: those that identification_master makes of a case that is written for it.
 class Runs {
@@ -117,11 +67,9 @@ class Job {
     report.case_name = given_.file.common().name;
     report.title = given_.file.common().title;
     report.alpha = given_.diagnosis.alpha;
-    std::vector<FinishedMotion> motions;
-    for (const Json& run : runs["runs"])
-      motions.push_back(StoredRun(runs_.folder_of(candidates) / "runs" / run["folder"].get<std::string>()).motion());
+    const std::vector<FinishedMotion> motions = stored_runs(runs_.folder_of(candidates));
     const Evidence evidence(given_.data, given_.lumen, motions.front());
-    report.problem = problem_of(evidence, motions, runs.dump());
+    report.problem = problem_of(given_, evidence, motions, runs.dump(), effects_);
     const DiagnosisCase& d = given_.diagnosis;
     report.found =
         search_effects(report.problem, {d.alpha, d.unexplained, d.most, d.refinements, d.confirmed},
@@ -134,53 +82,55 @@ class Job {
   }
 
  private:
-  EffectProblem problem_of(const Evidence& evidence, const std::vector<FinishedMotion>& motions,
-                           const std::string& runs) const {
-    const UnitSystem& units = given_.file.units();
-    std::vector<const FinishedMotion*> all;
-    for (const FinishedMotion& motion : motions) all.push_back(&motion);
-    EffectProblem problem = evidence.problem();
-    add_model_changes(problem, runs, evidence.residuals(all), effects_, given_.diagnosis);
-    const AllowanceCase& allowed = given_.diagnosis.allowed;
-    add_data_errors(problem, evidence, motions.front(), allowed, units.symbol(dimension::length),
-                    units.symbol(dimension::time));
-    add_patterns(problem, evidence, allowed, motions.front().motion.start, motions.front().motion.end);
-    return problem;
-  }
-
   /// Runs of the model with these amplitudes; errors of the data are added to first order, which is exact for most.
   MatrixXd residual_at(const EffectProblem& problem, const Evidence& evidence, const MatrixXd& amplitudes) {
-    const fs::path trials = output_ / "trials.yaml";
-    write_trials(trials, problem, amplitudes);
-    const Json runs = runs_.make(trials);
-    std::vector<FinishedMotion> motions;
-    for (const Json& run : runs["runs"])
-      motions.push_back(StoredRun(runs_.folder_of(trials) / "runs" / run["folder"].get<std::string>()).motion());
-    std::vector<const FinishedMotion*> all;
-    for (const FinishedMotion& motion : motions) all.push_back(&motion);
-    MatrixXd residuals = evidence.residuals(all);
-    residuals = residuals.array().isFinite().select(residuals, problem.residual.replicate(1, residuals.cols()));
+    provide(problem, evidence, amplitudes);
+    MatrixXd residuals(problem.residual.size(), amplitudes.cols());
+    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k)
+      residuals.col(k) = known_.at(trial_of(problem, amplitudes.col(k)));
     for (const Candidate& candidate : problem.candidates)
       if (candidate.kind == Candidate::Kind::data)
         for (const Eigen::Index i : candidate.amplitudes) residuals -= problem.changes.col(i) * amplitudes.row(i);
     return residuals;
   }
 
-  void write_trials(const fs::path& file, const EffectProblem& problem, const MatrixXd& amplitudes) {
+  /// Makes the runs among these that no run before was; errors of the data take none.
+  void provide(const EffectProblem& problem, const Evidence& evidence, const MatrixXd& amplitudes) {
+    known_[{"[]", "[]"}] = problem.residual;
+    std::vector<Trial> wanted;
+    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k)
+      if (const Trial trial = trial_of(problem, amplitudes.col(k));
+          !known_.contains(trial) && std::find(wanted.begin(), wanted.end(), trial) == wanted.end())
+        wanted.push_back(trial);
+    if (wanted.empty()) return;
+    const fs::path file = output_ / "trials.yaml";
+    write_trials(file, wanted);
+    runs_.make(file);
+    const MatrixXd residuals = residuals_of(evidence, stored_runs(runs_.folder_of(file)), problem.residual);
+    for (std::size_t k = 0; k < wanted.size(); ++k) known_[wanted[k]] = residuals.col(static_cast<Eigen::Index>(k));
+  }
+
+  /// Names of the model's numbers and their values, as a case file has them.
+  using Trial = std::pair<std::string, std::string>;
+  static Trial trial_of(const EffectProblem& problem, const VectorXd& amplitudes) {
+    std::vector<std::string> names, values;
+    for (const Candidate& candidate : problem.candidates)
+      for (const Eigen::Index i : candidate.amplitudes) {
+        if (candidate.kind == Candidate::Kind::data || amplitudes(i) == 0) continue;
+        const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(i)];
+        names.push_back(amplitude.name);
+        values.push_back(number_text(amplitude.value(amplitudes(i))));
+      }
+    return {fmt::format("[{}]", fmt::join(names, ", ")), fmt::format("[{}]", fmt::join(values, ", "))};
+  }
+
+  void write_trials(const fs::path& file, const std::vector<Trial>& trials) {
     Overlay overlay{
         output_ / "candidates.yaml", given_.file.common().name + "_trials", {}, {{"diagnosis.runs", "trials"}}};
-    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k) {
-      std::string names, values;
-      for (const Candidate& candidate : problem.candidates)
-        for (const Eigen::Index i : candidate.amplitudes) {
-          if (candidate.kind == Candidate::Kind::data || amplitudes(i, k) == 0) continue;
-          const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(i)];
-          names += (names.empty() ? "" : ", ") + amplitude.name;
-          values += (values.empty() ? "" : ", ") + number_text(amplitude.value(amplitudes(i, k)));
-        }
+    for (const auto& [names, values] : trials) {
       const std::string trial = fmt::format("diagnosis.trials.trial_{:03}", ++trials_);
-      overlay.values.push_back({trial + ".parameters", "[" + names + "]"});
-      overlay.values.push_back({trial + ".values", "[" + values + "]"});
+      overlay.values.push_back({trial + ".parameters", names});
+      overlay.values.push_back({trial + ".values", values});
     }
     write_overlay(file, overlay);
   }
@@ -189,6 +139,7 @@ class Job {
   fs::path output_;
   Runs runs_;
   std::vector<PlacedEffect> effects_;
+  std::map<Trial, VectorXd> known_;  ///< residuals of runs
   int trials_ = 0;
 };
 

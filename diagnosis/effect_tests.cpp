@@ -1,0 +1,145 @@
+#include "diagnosis/effect_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/chances.hpp"
+#include "diagnosis/statistics.hpp"
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
+  std::vector<bool> one_sided;
+  for (const Index i : of) one_sided.push_back(problem.amplitudes[static_cast<std::size_t>(i)].one_sided);
+  return one_sided;
+}
+
+/// z of the same probability, for people.
+double as_z(double p) {
+  return p > 1e-300 ? -normal_quantile(std::max(p, 1e-300)) : 37;
+}
+
+double probability(const Fit& fit, const std::vector<bool>& one_sided) {
+  const int n = static_cast<int>(one_sided.size());
+  const bool any = std::any_of(one_sided.begin(), one_sided.end(), [](bool one) { return one; });
+  return any ? one_sided_tail(fit.gain, n) : chi_square_tail(fit.gain, n);  // (D.10)
+}
+
+TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores) {
+  const std::vector<Index>& own = problem.candidates[number].amplitudes;
+  const MatrixXd information = scores.information(own, own);
+  const std::vector<bool> one_sided = sides(problem, own);
+  const Fit fit = best_fit(information, scores.response(own), one_sided);
+  TestedEffect effect;
+  effect.candidate = number;
+  effect.gain = fit.gain;
+  effect.p = probability(fit, one_sided);
+  effect.z = fit.gain > 0 ? (own.size() == 1 ? std::sqrt(fit.gain) : as_z(effect.p)) : 0;
+  if (own.size() == 1 && scores.response(own[0]) < 0)
+    effect.z = -std::sqrt(scores.response(own[0]) * scores.response(own[0]) / information(0, 0));
+  effect.amplitudes = fit.amplitudes;
+  effect.deviations = information.diagonal().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
+  const double alone = scores.alone(own).sum();
+  effect.retained = alone > 0 ? information.trace() / alone : 0;
+  return effect;
+}
+
+/// (D.12)
+double visible(const EffectProblem& problem, const Scores& scores, const TestedEffect& effect, double alpha) {
+  const Index first = problem.candidates[effect.candidate].amplitudes.front();
+  const bool one_sided = problem.amplitudes[static_cast<std::size_t>(first)].one_sided;
+  const double tests = static_cast<double>(problem.candidates.size()) * (one_sided ? 1 : 2);
+  const double information = scores.information(first, first);
+  return information > 0 ? (normal_quantile(1 - alpha / tests) + 0.842) / std::sqrt(information) : infinite;
+}
+
+}  // namespace
+
+double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b) {
+  const auto direction = [&](const TestedEffect& effect) {
+    VectorXd all = VectorXd::Zero(problem.changes.cols());
+    const auto& own = problem.candidates[effect.candidate].amplitudes;
+    if (effect.amplitudes.squaredNorm() > 0)
+      all(own) = effect.amplitudes;
+    else
+      all(own[0]) = 1;
+    return all;
+  };
+  const VectorXd u = direction(a), v = direction(b);
+  const double size = u.dot(scores.information * u) * v.dot(scores.information * v);
+  return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
+}
+
+std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha) {
+  std::vector<TestedEffect> all;
+  std::vector<double> p;
+  for (std::size_t i = 0; i < problem.candidates.size(); ++i) {
+    all.push_back(test(problem, i, scores));
+    p.push_back(all.back().p);
+  }
+  const std::vector<double> q = holm(p);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].q = q[i];
+    all[i].visible = visible(problem, scores, all[i], alpha);
+  }
+  return all;
+}
+
+double worth(const EffectProblem& problem, const TestedEffect& effect, double count) {
+  const double gain = effect.confirmed ? effect.confirmed_gain : effect.gain;
+  return gain - static_cast<double>(problem.candidates[effect.candidate].amplitudes.size()) * std::log(count);
+}
+
+LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual) {
+  LackOfFit lack;
+  if (problem.patterns.cols() == 0) return lack;
+  const Scores scores = trained.scores(problem.patterns, residual);
+  double smallest = 1;
+  int seen = 0;
+  for (Index k = 0; k < scores.response.size(); ++k) {
+    if (!(scores.information(k, k) > 1e-9 * scores.alone(k)) || scores.alone(k) == 0) continue;
+    ++seen;
+    const double z = scores.response(k) / std::sqrt(scores.information(k, k));
+    const bool is_moment = !std::isnan(problem.pattern_names[static_cast<std::size_t>(k)].time);
+    if (is_moment) lack.excess += z * z - 1;
+    if (const double p = 2 * normal_tail(std::abs(z)); p < smallest) {
+      smallest = p;
+      lack.worst = static_cast<std::size_t>(k);
+      lack.z = z;
+    }
+  }
+  lack.p = std::min(1.0, seen * smallest);
+  lack.excess = std::max(0.0, lack.excess);
+  return lack;
+}
+
+void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem, const Scores& scores, double count,
+                const std::vector<std::size_t>& rival_of) {
+  std::vector<TestedEffect*> order;
+  for (TestedEffect& effect : effects) order.push_back(&effect);
+  std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
+    if (a->accepted != b->accepted) return a->accepted;
+    return worth(problem, *a, count) > worth(problem, *b, count);
+  });
+  int groups = 0;
+  for (TestedEffect* first : order) {
+    if (first->group >= 0) continue;
+    bool any = false;
+    for (TestedEffect* other : order) {
+      if (other == first || other->group >= 0 || other->accepted) continue;
+      const double c = cosine(problem, scores, *first, *other);
+      if (rival_of[other->candidate] != first->candidate && std::abs(c) <= 0.9) continue;
+      other->group = groups;
+      other->cosine = c;
+      any = true;
+    }
+    if (!any) continue;
+    first->group = groups++;
+    first->cosine = 1;
+  }
+}
+
+}  // namespace tether

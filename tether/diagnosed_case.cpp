@@ -1,0 +1,83 @@
+#include "tether/diagnosed_case.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/csv.hpp"
+#include "common/base/error.hpp"
+#include "common/io/lumen_motion.hpp"
+#include "diagnosis/data_errors.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check(const Noise& noise, bool on_lumen, const std::string& name, const std::string& where) {
+  if (noise.deviation > 0 && (!on_lumen || noise.correlation_length > 0)) return;
+  throw input_error(
+      "{}: {}: noise.deviation{} must be given: how far data err, and how far errors are alike, decides what they "
+      "can tell",
+      where, name, on_lumen ? " and noise.correlation_length" : "");
+}
+
+FinishedMotion stored_run(const fs::path& folder) {
+  const auto lumen = std::make_shared<LumenMotion>(folder / "lumen.motion");
+  const auto table = std::make_shared<CsvTable>(folder / "timeseries.csv");
+  return {{lumen->times().front(), lumen->times().back(), lumen->imaged(),
+           [lumen](double time) { return lumen->at(time); }},
+          [table](const std::string& column) {
+            return RunTrace{table->numbers("time"), table->numbers(column), table->unit(column)};
+          }};
+}
+
+}  // namespace
+
+DiagnosedCase::DiagnosedCase(const fs::path& path) : file(path) {
+  file.read("mesh", mesh);
+  file.read("observations", observations);
+  file.read("diagnosis", diagnosis);
+  file.finish();
+  lumen = lumen_of(load_mesh(mesh, file.units(), WallElement::prism));
+  data = load_observations(observations, lumen, file);
+  const std::string where = file.where("observations");
+  if (data.lumen.empty() && data.traces.empty()) throw input_error("{}: names nothing that was measured", where);
+  for (const auto& source : data.lumen) check(source->settings().noise, true, source->settings().name, where);
+  for (const Trace& trace : data.traces) check(trace.noise, false, trace.name, where);
+}
+
+std::vector<FinishedMotion> stored_runs(const fs::path& folder) {
+  std::vector<FinishedMotion> all;
+  const auto json = nlohmann::json::parse(content_of(folder / "runs.json"));
+  for (const auto& run : json["runs"]) all.push_back(stored_run(folder / "runs" / run["folder"].get<std::string>()));
+  return all;
+}
+
+EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
+                         const std::vector<FinishedMotion>& motions, const std::string& runs_json,
+                         const std::vector<PlacedEffect>& effects) {
+  const UnitSystem& units = given.file.units();
+  const AllowanceCase& allowed = given.diagnosis.allowed;
+  const FinishedMotion& base = motions.front();
+  EffectProblem problem = evidence.problem();
+  std::vector<const FinishedMotion*> all;
+  for (const FinishedMotion& motion : motions) all.push_back(&motion);
+  add_model_changes(problem, runs_json, evidence.residuals(all), effects, given.diagnosis);
+  add_data_errors(problem, evidence, base, allowed, units.symbol(dimension::length), units.symbol(dimension::time));
+  add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
+  return problem;
+}
+
+MatrixXd residuals_of(const Evidence& evidence, const std::vector<FinishedMotion>& motions, const VectorXd& otherwise) {
+  std::vector<const FinishedMotion*> all;
+  for (const FinishedMotion& motion : motions) all.push_back(&motion);
+  const MatrixXd residuals = evidence.residuals(all);
+  return residuals.array().isFinite().select(residuals, otherwise.replicate(1, residuals.cols()));
+}
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace tether
