@@ -30,7 +30,8 @@ class Search {
     const Scores scores = plain_.scores(problem_.changes, problem_.residual);
     result_.effects = test_all(problem_, scores, settings_.alpha);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
-    while (add_one()) continue;
+    const bool is_enough = result_.before.excess < settings_.enough;
+    while (!is_enough && add_one()) continue;
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
     refit_accepted();
@@ -188,7 +189,8 @@ class Search {
   }
 
   bool leaves_too_much() const {
-    return result_.after.p < settings_.alpha && result_.after.excess > settings_.unexplained * result_.before.excess;
+    return result_.after.p < settings_.alpha &&
+           result_.after.excess > std::max(settings_.enough, settings_.unexplained * result_.before.excess);
   }
 
   void judge() {

@@ -72,7 +72,7 @@ class Job {
     report.problem = problem_of(given_, evidence, motions, runs.dump(), effects_);
     const DiagnosisCase& d = given_.diagnosis;
     report.found =
-        search_effects(report.problem, {d.alpha, d.unexplained, d.most, d.refinements, d.confirmed},
+        search_effects(report.problem, {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed},
                        [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
     if (write_suggested(output_ / "suggested.yaml", given_.file, report, effects_)) report.suggested = "suggested.yaml";
     report.runs = runs_.all;

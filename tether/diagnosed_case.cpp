@@ -3,10 +3,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/base/csv.hpp"
 #include "common/base/error.hpp"
-#include "common/io/lumen_motion.hpp"
 #include "diagnosis/data_errors.hpp"
+#include "tether/stored_run.hpp"
 
 namespace tether {
 namespace {
@@ -19,16 +18,6 @@ void check(const Noise& noise, bool on_lumen, const std::string& name, const std
       "{}: {}: noise.deviation{} must be given: how far data err, and how far errors are alike, decides what they "
       "can tell",
       where, name, on_lumen ? " and noise.correlation_length" : "");
-}
-
-FinishedMotion stored_run(const fs::path& folder) {
-  const auto lumen = std::make_shared<LumenMotion>(folder / "lumen.motion");
-  const auto table = std::make_shared<CsvTable>(folder / "timeseries.csv");
-  return {{lumen->times().front(), lumen->times().back(), lumen->imaged(),
-           [lumen](double time) { return lumen->at(time); }},
-          [table](const std::string& column) {
-            return RunTrace{table->numbers("time"), table->numbers(column), table->unit(column)};
-          }};
 }
 
 }  // namespace
@@ -49,7 +38,8 @@ DiagnosedCase::DiagnosedCase(const fs::path& path) : file(path) {
 std::vector<FinishedMotion> stored_runs(const fs::path& folder) {
   std::vector<FinishedMotion> all;
   const auto json = nlohmann::json::parse(content_of(folder / "runs.json"));
-  for (const auto& run : json["runs"]) all.push_back(stored_run(folder / "runs" / run["folder"].get<std::string>()));
+  for (const auto& run : json["runs"])
+    all.push_back(StoredRun(folder / "runs" / run["folder"].get<std::string>()).motion());
   return all;
 }
 

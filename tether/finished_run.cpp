@@ -59,6 +59,16 @@ std::string newer_file(const YamlNode& node, const fs::path& folder, fs::file_ti
   return {};
 }
 
+/// The later of `moment` and when a file below the node was written.
+fs::file_time_type newest(const YamlNode& node, const fs::path& folder, fs::file_time_type moment) {
+  std::error_code none;
+  if (node.kind == YamlNode::Kind::scalar && fs::is_regular_file(folder / node.text, none))
+    moment = std::max(moment, fs::last_write_time(folder / node.text));
+  for (const auto& item : node.items) moment = newest(item, folder, moment);
+  for (const auto& entry : node.entries) moment = newest(entry.value, folder, moment);
+  return moment;
+}
+
 Json summary_of(const fs::path& output) {
   std::ifstream file(output / "summary.json");
   try {
@@ -91,6 +101,10 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
   if (const int made = summary_of(output).value("steps", 0); made < steps)
     return fmt::format("the run in {} ended after {} of {} steps", output.string(), made, steps);
   return std::nullopt;
+}
+
+fs::file_time_type newest_file(const CaseFile& file) {
+  return newest(as_one_file(read_case_tree(file.path())), file.path().parent_path(), fs::file_time_type::min());
 }
 
 std::optional<std::string> why_no_velocity(const fs::path& output, const Points& points) {

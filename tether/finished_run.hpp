@@ -15,6 +15,9 @@ namespace tether {
 /// observer, of observations.
 std::optional<std::string> why_not_run(const std::filesystem::path& output, const CaseFile& file, int steps);
 
+/// When the newest of the files that a case names was written.
+std::filesystem::file_time_type newest_file(const CaseFile& file);
+
 /// Why such a run cannot be compared with velocities measured at these points; nothing if it can.
 std::optional<std::string> why_no_velocity(const std::filesystem::path& output, const Points& points);
 

@@ -25,6 +25,7 @@ struct Verb {
 constexpr std::array verbs{
     Verb{"simulate", "run a case: progress, results, plots and a summary", simulate},
     Verb{"compare", "compare a run with the measurements; simulates first if need be", compare},
+    Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path", explain},
     Verb{"diagnose", "find which effect the model lacks, from the measurements", diagnose},
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them", make_twin},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", score},

@@ -28,10 +28,10 @@ std::vector<std::string> draw(const fs::path& output, const Json& estimate) {
   if (!has_gnuplot()) return {};
   fs::create_directories(output / "plots");
   const auto& parameters = estimate["parameters"];
-  std::string script =
-      gnuplot_head(900, 60 + 260 * static_cast<int>(parameters.size())) +
-      "set datafile separator ','\nset autoscale xfix\nset xlabel 'time [s]'\nset style fill transparent solid 0.25 noborder\n"
-      "set key top right\nset output 'plots/estimate.png'\n";
+  std::string script = gnuplot_head(900, 60 + 260 * static_cast<int>(parameters.size())) +
+                       "set datafile separator ','\nset autoscale xfix\nset xlabel 'time [s]'\nset style fill "
+                       "transparent solid 0.25 noborder\n"
+                       "set key top right\nset output 'plots/estimate.png'\n";
   script += fmt::format("set multiplot layout {},1\n", parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Json& p = parameters[i];

@@ -7,13 +7,32 @@
 #include "tether/verbs.hpp"
 
 namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is to be scored in a folder of results: the whole path, or a single diagnosis.
+fs::path diagnosis_in(const fs::path& results) {
+  return results / (fs::exists(results / "explain.json") ? "explain.json" : "diagnosis.json");
+}
+
+/// Of the case's default folders, the one that was written last.
+fs::path last_results(const fs::path& results) {
+  const fs::path explained = results.string() + "_explain";
+  const fs::path one = diagnosis_in(results), other = diagnosis_in(explained);
+  const bool is_newer =
+      fs::exists(other) && (!fs::exists(one) || fs::last_write_time(other) > fs::last_write_time(one));
+  return is_newer ? explained : results;
+}
+
+}  // namespace
 
 int score(const CommandLine& command) {
-  namespace fs = std::filesystem;
   const fs::path given = command.case_file, case_file = fs::is_directory(given) ? given / "case.yaml" : given;
   const Answer answer = unsealed(sealed_answer(fs::absolute(case_file).parent_path()));
-  const fs::path results = output_of(command, CaseFile(case_file));
-  const Score result = score_of(read_diagnosis(results / "diagnosis.json"), answer);
+  const fs::path folder = output_of(command, CaseFile(case_file)),
+                 results = command.output.empty() ? last_results(folder) : folder;
+  const Score result = score_of(read_diagnosis(diagnosis_in(results)), answer);
   write_json(results / "score.json", result);
   if (!command.quiet) std::cout << text_of(result);
   return exit_done;

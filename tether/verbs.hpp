@@ -39,6 +39,10 @@ int identify(const CommandLine& command);
 /// Writes report.html, a page to look at and to mail, into the folder of results that the command names
 /// (docs/report.md).
 int report(const CommandLine& command);
+/// Walks the whole path by itself: compares, finds what the model lacks, adds it, identifies it, compares on held-out
+/// data, and again until there is a verdict: explain.json (docs/explain.md). What was done before is kept. Returns the
+/// exit code.
+int explain(const CommandLine& command);
 
 /// Checks the case with every program that reads it. Throws InputError with all that they find.
 void check_case(const CommandLine& command);

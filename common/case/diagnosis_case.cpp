@@ -31,6 +31,8 @@ void DiagnosisCase::declare(Fields& f) {
   f.number("alpha", alpha, dimension::none, {0, 0.5, true, true}, "probability of a false alarm over all candidates");
   f.number("unexplained", unexplained, dimension::none, {0, 1},
            "share of the misfit that noise does not explain; if more remains, something else is missing");
+  f.number("enough", enough, dimension::none, range::not_negative,
+           "misfit beyond noise (lack_of_fit.excess) below which nothing more is looked for; written by tether explain");
   f.integer("most", most, {1, 20}, "effects that are added at most, one after the other");
   f.integer("refinements", refinements, {1, 20}, "runs at most to find an effect's amplitude");
   f.integer("confirmed", confirmed, {1, 100}, "candidates whose amplitude is found with runs before one is chosen");

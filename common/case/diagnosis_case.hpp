@@ -22,7 +22,7 @@ struct DiagnosisCase {
     void declare(Fields& f);
   };
   std::vector<std::string> candidates, exclude, assumed;
-  double step = 0.2, alpha = 0.05, unexplained = 0.3;
+  double step = 0.2, alpha = 0.05, unexplained = 0.3, enough = 0;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;
   std::string runs = "none";

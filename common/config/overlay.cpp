@@ -44,6 +44,23 @@ void set(YamlNode& tree, const Overlay::Value& value) {
   *node = yaml_value(value.text);
 }
 
+/// Of a scalar or list without the line's end that a document has.
+std::string text_of(const YamlNode& node) {
+  std::string text = yaml_text(node);
+  text.pop_back();
+  return node.kind == YamlNode::Kind::empty ? "" : text;
+}
+
+void collect(const YamlNode& map, const std::string& path, std::vector<Overlay::Value>& values) {
+  for (const auto& entry : map.entries) {
+    const std::string field = path.empty() ? entry.key : path + "." + entry.key;
+    if (entry.value.kind == YamlNode::Kind::map)
+      collect(entry.value, field, values);
+    else
+      values.push_back({field, text_of(entry.value)});
+  }
+}
+
 std::string relative_to(const fs::path& folder, const fs::path& path) {
   return fs::absolute(path).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal()).string();
 }
@@ -65,6 +82,23 @@ void write_overlay(const fs::path& file, const Overlay& overlay) {
   to << yaml_text(tree);
   to.close();
   if (!to) throw input_error("{}: cannot be written", file.string());
+}
+
+std::vector<Overlay::Value> values_of_overlay(const fs::path& file) {
+  YamlNode tree = read_yaml(file);
+  std::erase_if(tree.entries,
+                [](const auto& entry) { return entry.key == "base" || entry.key == "name" || entry.key == "title"; });
+  std::vector<Overlay::Value> values;
+  collect(tree, {}, values);
+  return values;
+}
+
+void set_value(std::vector<Overlay::Value>& values, const Overlay::Value& value) {
+  const auto known = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.field == value.field; });
+  if (known == values.end())
+    values.push_back(value);
+  else
+    known->text = value.text;
 }
 
 }  // namespace tether

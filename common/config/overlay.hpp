@@ -25,4 +25,10 @@ std::string number_text(double value);
 /// written.
 void write_overlay(const std::filesystem::path& file, const Overlay& overlay);
 
+/// What a case file says beside `base`, `name` and `title`, its base not asked. Throws InputError.
+std::vector<Overlay::Value> values_of_overlay(const std::filesystem::path& file);
+
+/// Sets a field, in the place where the list has it already, else at its end.
+void set_value(std::vector<Overlay::Value>& values, const Overlay::Value& value);
+
 }  // namespace tether

@@ -53,6 +53,28 @@ TEST_F(OverlayTest, IsReadAsItWasWritten) {
   EXPECT_EQ(tree.find("observations")->find("ct")->find("noise")->find("deviation")->text, "0.3 mm");
 }
 
+TEST_F(OverlayTest, GivesItsValuesBackInTheirOrder) {
+  const std::vector<Overlay::Value> values{
+      {"solid.support.a", "0.25"},
+      {"solid.support.b", ""},
+      {"solid.effects.mine.normal", "-k*un"},
+      {"identification.parameters.k.of", "[solid.effects.mine.k, solid.support.a]"},
+      {"time.end", "0.2 s"}};
+  const fs::path file = test_folder() / "values.yaml", copy = test_folder() / "copy.yaml";
+  write_overlay(file, {base, "x", "a title", values});
+  std::vector<Overlay::Value> read = values_of_overlay(file);
+  write_overlay(copy, {base, "x", "a title", read});
+  EXPECT_EQ(yaml_text(read_yaml(copy)), yaml_text(read_yaml(file)));
+  ASSERT_EQ(read.size(), values.size());
+  EXPECT_EQ(read[1].field, "solid.support.b");
+  EXPECT_EQ(read[1].text, "");
+  EXPECT_EQ(read[3].text, "[solid.effects.mine.k, solid.support.a]");
+  set_value(read, {"solid.support.b", "3"});
+  set_value(read, {"solid.support.c", "4"});
+  EXPECT_EQ(read[1].text, "3");
+  EXPECT_EQ(read.back().field, "solid.support.c");
+}
+
 TEST_F(OverlayTest, RefusesWhatCannotBeWritten) {
   EXPECT_EQ(error({{"a..b", "1"}}), "'a..b': a name is missing beside a dot");
   EXPECT_EQ(error({{"", "1"}}), "'': a name is missing beside a dot");

@@ -1,0 +1,117 @@
+/// `tether explain` with the real programs: a coarse configs/tube without the spine's support, against data with it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/child_process.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/case_variant.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* model = R"(base: {}/configs/tube/case.yaml
+name: model
+time: {{step: 4e-3, end: 0.12}}
+mesh: {{swept: {{around: 12, along: 8}}}}
+solid: {{support: {{regions: {{spine: {{stiffness: 0}}}}}}}}
+diagnosis:
+  candidates: [{}]
+  exclude: [vicinity_left, vicinity_right, opposite, fluid.density, solid.density, fluid.rheology.viscosity]
+twin:
+  truth: held.yaml
+  frames: 8
+  image: {{voxel: [0, 0, 0]}}
+  noise: {{deviation: 0.05 mm, correlation_length: 5 mm}}
+  held_out: [3, 6]
+  hidden: {{effects: {{visco_elastic: {{where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}}}}
+)";
+
+class Explain : public testing::Test {
+ protected:
+  Explain() {
+    folder.file("held.yaml",
+                "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n");
+  }
+  static ChildEnd tether(const std::vector<std::string>& words) {
+    std::vector<std::string> line{TETHER_PROGRAM};
+    line.insert(line.end(), words.begin(), words.end());
+    return capture({line, {}});
+  }
+  void make_twin(const std::string& candidates) const {
+    const fs::path file = folder.file("model.yaml", fmt::format(model, TETHER_SOURCE, candidates));
+    const ChildEnd made = tether({"twin", file.string(), "--output", (folder / "twin").string()});
+    ASSERT_EQ(made.exit_code, 0) << made.errors;
+  }
+  Json explained() {
+    const ChildEnd end = tether({"explain", (folder / "twin/case.yaml").string(), "--output", output().string()});
+    EXPECT_EQ(end.exit_code, 0) << end.errors << end.output;
+    said = end.output;
+    return Json::parse(content_of(output() / "explain.json"));
+  }
+  fs::path output() const { return folder / "out"; }
+
+  TemporaryFolder folder;
+  std::string said;
+};
+
+TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
+  make_twin("tissue_mass");
+  const Json found = explained();
+  EXPECT_EQ(found["verdict"], "missing") << said;
+  ASSERT_EQ(found["models"].size(), 2U) << said;
+  const Json &first = found["models"][0], &last = found["models"][1];
+  EXPECT_TRUE(last["accepted"]);
+  EXPECT_LT(last["held_out"]["l2"], 0.5 * first["held_out"]["l2"].get<double>());
+  EXPECT_LT(last["held_out"]["in_noise"], 1.2);
+  EXPECT_GT(last["held_out_gain"]["lower"], 0);
+  const Json& effect = found["effects"][0];
+  EXPECT_EQ(effect["name"], "visco_elastic");
+  EXPECT_EQ(effect["where"], "spine");
+  EXPECT_LT(effect["amplitude"]["lower"], 4e5);
+  EXPECT_GT(effect["amplitude"]["upper"], 4e5);
+  EXPECT_NEAR(effect["amplitude"]["value"], 4e5, 0.1 * 4e5);
+  EXPECT_NE(said.find("MISSING: visco_elastic stiffness at spine"), std::string::npos) << said;
+
+  const fs::path suggested = output() / found["suggested_case"].get<std::string>();
+  EXPECT_EQ(tether({"validate", suggested.string()}).exit_code, 0);
+  const ChildEnd scored = tether({"score", (folder / "twin").string(), "--output", output().string()});
+  EXPECT_NE(scored.output.find("verdict: missing: right"), std::string::npos) << scored.output << scored.errors;
+
+  fs::remove(output() / "model_1/comparison.json");  // as if it had been interrupted there
+  const auto identified = fs::last_write_time(output() / "identification_1/estimate.json");
+  const Json again = explained();
+  EXPECT_EQ(fs::last_write_time(output() / "identification_1/estimate.json"), identified) << "steps are kept";
+  EXPECT_TRUE(fs::exists(output() / "model_1/comparison.json"));
+  EXPECT_EQ(again["effects"], found["effects"]);
+  EXPECT_EQ(again["sentences"], found["sentences"]);
+}
+
+/// The catalogue is cut to what cannot explain the data: the force itself is sought, and looks like a spring.
+TEST_F(Explain, SeeksTheForceThatNoCandidateExplains) {
+  make_twin("tissue_mass");
+  const fs::path blind = folder / "twin/case.yaml";
+  folder.file("twin/other.yaml",
+              "base: case.yaml\nname: other\ndiagnosis: {exclude: [spine, vicinity_left, vicinity_right, opposite, "
+              "solid.support.regions.spine.stiffness, solid.material.young, solid.density, fluid.density, "
+              "fluid.rheology.viscosity]}\n");
+  const ChildEnd end = tether({"explain", (folder / "twin/other.yaml").string(), "--output", output().string()});
+  ASSERT_EQ(end.exit_code, 0) << end.errors << end.output;
+  const Json found = Json::parse(content_of(output() / "explain.json"));
+  EXPECT_EQ(found["verdict"], "not_in_catalogue") << end.output;
+  ASSERT_EQ(found["missing_force"], "force/force.json");
+  const Json force = Json::parse(content_of(output() / "force/force.json"));
+  ASSERT_EQ(force["regions"].size(), 4U);
+  const Json& spine = force["regions"][0];
+  EXPECT_EQ(spine["region"], "spine");
+  EXPECT_EQ(spine["time"].size(), spine["value"].size());
+  const Json comparison = Json::parse(content_of(output() / "force/run/comparison.json"));
+  EXPECT_TRUE(comparison.contains("sources"));
+}
+
+}  // namespace
+}  // namespace tether

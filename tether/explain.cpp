@@ -1,0 +1,310 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
+#include "common/config/output_folder.hpp"
+#include "tether/diagnosed_case.hpp"
+#include "tether/explained_steps.hpp"
+#include "tether/finished_run.hpp"
+#include "tether/missing_force.hpp"
+#include "tether/stored_run.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = OrderedJson;
+
+Json read_json(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file) throw run_error("{}: cannot be read", path.string());
+  return Json::parse(file);
+}
+
+/// The field as a list of words: "[a, b]".
+std::string list_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return "[" + text + "]";
+}
+
+/// Numbers that a case identifies.
+std::vector<std::string> identified_numbers(const fs::path& case_file) {
+  std::vector<std::string> all;
+  const YamlNode tree = read_case_tree(case_file);
+  const YamlNode* section = tree.find("identification");
+  const YamlNode* parameters = section ? section->find("parameters") : nullptr;
+  if (parameters == nullptr) return all;
+  for (const auto& parameter : parameters->entries)
+    if (const YamlNode* of = parameter.value.find("of"))
+      for (const YamlNode& number : of->items) all.push_back(number.text);
+  return all;
+}
+
+/// How far the data of these rows are from a run.
+Misfit misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
+                 const std::vector<Eigen::Index>& rows) {
+  double squares = 0, precision = 0, count = 0;
+  for (const auto& part : evidence.parts())
+    if (!evidence.is_trace(part))
+      for (const Eigen::Index i : rows)
+        if (i >= part.first && i < part.first + part.count) {
+          squares += problem.precision(i) * residual(i) * residual(i);
+          precision += problem.precision(i);
+          count += problem.independent(i);
+        }
+  return precision > 0 ? Misfit{std::sqrt(squares / precision), std::sqrt(squares / count)} : Misfit{};
+}
+
+/// The gain on held-out data between two runs; nothing if hardly any are held out.
+std::optional<Gain> gain_between(const EffectProblem& problem, const VectorXd& before, const VectorXd& after) {
+  const auto& rows = problem.held_out;
+  if (rows.size() < 2) return std::nullopt;
+  std::vector<int> block;
+  for (const Eigen::Index i : rows) block.push_back(problem.block[static_cast<std::size_t>(i)]);
+  return gain_of(problem.precision(rows), block, before(rows), after(rows), problem.independent(rows).sum());
+}
+
+class Explainer {
+ public:
+  Explainer(const CommandLine& command, const DiagnosedCase& given, fs::path output)
+      : command_(command),
+        given_(given),
+        output_(std::move(output)),
+        steps_(output_, newest_file(given.file), command.quiet) {
+    const CommonCase& common = given.file.common();
+    explanation_.case_name = common.name;
+    explanation_.title = common.title;
+    explanation_.case_file = fs::absolute(given.file.path()).lexically_proximate(output_).string();
+    explanation_.length_unit = given.file.units().symbol(dimension::length);
+    explanation_.unexplained = given.diagnosis.unexplained;
+  }
+
+  const Explanation& run() {
+    add_first();
+    while (diagnose_best() && add_model() && !is_settled()) continue;
+    if (verdict_of(explanation_) == "not_in_catalogue") seek_force();
+    explanation_.steps = steps_.all();
+    return explanation_;
+  }
+
+ private:
+  ExplainedModel& best() { return explanation_.models[explanation_.best]; }
+  fs::path case_of(const std::string& name) const { return output_ / (name + ".yaml"); }
+
+  void write_case(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
+    const CommonCase& common = given_.file.common();
+    write_overlay(case_of(name), {given_.file.path(), common.name + "_" + name, common.title + title, values});
+  }
+
+  CommandLine command_for(const std::string& name, const std::string& folder) const {
+    CommandLine command = command_;
+    command.case_file = case_of(name);
+    command.output = output_ / folder;
+    command.overwrite = true;
+    command.resume = false;
+    return command;
+  }
+
+  void add_first() {
+    ExplainedModel model;
+    model.name = "as given";
+    if (given_.file.has("observer")) model.values.push_back({"observer", ""});  // it would hide what is missing
+    simulate_and_compare(model);
+    for (const Json& sentence : read_json(output_ / model.folder() / "comparison.json")["sentences"])
+      if (explanation_.failure.empty()) explanation_.failure.push_back(sentence);
+    first_ = std::make_unique<StoredRun>(output_ / model.folder());
+    first_motion_ = first_->motion();
+    evidence_ = std::make_unique<Evidence>(given_.data, given_.lumen, first_motion_);
+    problem_ = evidence_->problem();
+    residuals_.push_back(problem_.residual);
+    set_misfit(model, problem_.residual);
+    explanation_.models.push_back(model);
+  }
+
+  void simulate_and_compare(const ExplainedModel& model) {
+    write_case(model.folder(), ", " + model.name, model.values);
+    steps_.make(fmt::format("model {}, {}: against the data", model.number, model.name), case_of(model.folder()),
+                model.folder(), "comparison.json",
+                [&](bool) { return compare(command_for(model.folder(), model.folder())); });
+  }
+
+  void set_misfit(ExplainedModel& model, const VectorXd& residual) const {
+    model.training = misfit_of(problem_, *evidence_, residual, problem_.training);
+    if (!problem_.held_out.empty()) model.held_out = misfit_of(problem_, *evidence_, residual, problem_.held_out);
+  }
+
+  /// What the best model lacks. False if nothing more is to be added.
+  bool diagnose_best() {
+    ExplainedModel& model = best();
+    const std::string folder = model.diagnosis_folder();
+    std::vector<Overlay::Value> values = model.values;
+    std::vector<std::string> assumed = given_.diagnosis.assumed;
+    for (const std::string& number : identified_numbers(case_of(model.folder()))) assumed.push_back(number);
+    if (!assumed.empty()) set_value(values, {"diagnosis.assumed", list_text(assumed)});
+    set_value(values, {"diagnosis.most", "1"});  // one at a time, all refitted in between
+    if (model.number > 0) set_value(values, {"diagnosis.enough", number_text(enough())});
+    write_case(folder, ", its diagnosis", values);
+    steps_.make(fmt::format("model {}: what it lacks", model.number), case_of(folder), folder, "diagnosis.json",
+                [&](bool) { return diagnose(command_for(folder, folder)); });
+    model.diagnosis = read_json(output_ / folder / "diagnosis.json");
+    return model.number < given_.diagnosis.most && !accepted_effects(model.diagnosis, false).empty();
+  }
+
+  /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.
+  bool is_settled() const {
+    const Json& diagnosis = explanation_.models[explanation_.best - 1].diagnosis;
+    if (!is_explained(explanation_, diagnosis)) return false;
+    const Json& foreseen = accepted_effects(diagnosis, false)[0]["held_out_gain"];
+    const auto& gain = explanation_.models[explanation_.best].gain;
+    return foreseen.is_null() || !gain || gain->value > 0.8 * foreseen["value"].get<double>();
+  }
+
+  /// What the model as given left beyond noise, times the share that may be left.
+  double enough() const {
+    const Json& before = explanation_.models.front().diagnosis["lack_of_fit"]["before"];
+    return before.is_null() ? 0 : explanation_.unexplained * before["excess"].get<double>();
+  }
+
+  /// The best model with what its diagnosis accepted, refitted, run without correction. False if that is no better.
+  bool add_model() {
+    const Json accepted = accepted_effects(best().diagnosis, false);
+    ExplainedModel model;
+    model.number = best().number + 1;
+    model.name = "with";
+    for (const Json& effect : accepted)
+      model.name += fmt::format("{} {} at {}", model.name == "with" ? "" : " and", effect["name"].get<std::string>(),
+                                effect["where"].get<std::string>());
+    if (accepted[0]["where"] == "") model.name = "with another " + accepted[0]["name"].get<std::string>();
+    identify_into(model, accepted);
+    simulate_and_compare(model);
+    const StoredRun run(output_ / model.folder());
+    const FinishedMotion motion = run.motion();
+    VectorXd residual = evidence_->residuals({&motion}).col(0);
+    residual = residual.array().isFinite().select(residual, problem_.residual);
+    set_misfit(model, residual);
+    model.gain = gain_between(problem_, residuals_.back(), residual);
+    model.reason = objection(model, residual);
+    model.accepted = model.reason.empty();
+    explanation_.models.push_back(model);
+    if (!model.accepted) return false;
+    explanation_.best = explanation_.models.size() - 1;
+    residuals_.push_back(residual);
+    explanation_.held_out = gain_between(problem_, residuals_.front(), residual);
+    return true;
+  }
+
+  /// Why the model is no better than the one before it; empty if it is.
+  std::string objection(const ExplainedModel& model, const VectorXd& residual) const {
+    if (model.gain && !(model.gain->lower > 0)) return "held-out frames do not confirm it";
+    const auto square = [&](const VectorXd& r) {
+      const VectorXd rows = r(problem_.training);
+      return rows.dot(problem_.precision(problem_.training).cwiseProduct(rows));
+    };
+    return square(residual) < square(residuals_.back()) ? "" : "the misfit does not fall";
+  }
+
+  /// Finds the parameters of all that was added, together.
+  void identify_into(ExplainedModel& model, const Json& accepted) {
+    const std::string folder = model.identification_folder();
+    model.values = best().values;
+    for (const auto& value : values_of_overlay(output_ / best().diagnosis_folder() / "suggested.yaml"))
+      set_value(model.values, value);
+    write_case(folder, ", to be identified", model.values);
+    steps_.make(fmt::format("model {}, {}: its parameters", model.number, model.name), case_of(folder), folder,
+                "estimate.json", [&](bool was_begun) {
+                  CommandLine command = command_for(folder, folder);
+                  command.resume = was_begun && fs::exists(output_ / folder / "checkpoint");
+                  return identify(command);
+                });
+    for (const auto& value : values_of_overlay(output_ / folder / "identified.yaml")) set_value(model.values, value);
+    model.identified = true;
+    const Json estimate = read_json(output_ / folder / "estimate.json");
+    for (std::size_t i = 1; i <= explanation_.best; ++i) take_estimates(explanation_.models[i].added, estimate);
+    model.added = accepted;
+    take_estimates(model.added, estimate);
+  }
+
+  /// Amplitudes as the filter found them.
+  static void take_estimates(Json& effects, const Json& estimate) {
+    for (Json& effect : effects) {
+      take_estimate(effect["amplitude"], estimate);
+      for (Json& parameter : effect["parameters"]) take_estimate(parameter, estimate);
+    }
+  }
+  static void take_estimate(Json& amplitude, const Json& estimate) {
+    for (const Json& parameter : estimate["parameters"])
+      for (const Json& set : parameter["sets"])
+        if (set["name"] == amplitude["parameter"]) {
+          const Json& found = parameter["estimate"];
+          amplitude["value"] = set["value"];
+          amplitude["lower"] = found["lower_95"];
+          amplitude["upper"] = found["upper_95"];
+        }
+  }
+
+  void seek_force() {
+    MissingForce force(given_, best().values, output_ / "force");
+    write_case("force_walk", ", with tractions that walk at random", force.identification());
+    steps_.make("a force without a law: a traction in each region, over time", case_of("force_walk"), "force/walk",
+                "estimate.json", [&](bool was_begun) {
+                  CommandLine command = command_for("force_walk", "force/walk");
+                  command.resume = was_begun && fs::exists(output_ / "force/walk/checkpoint");
+                  return identify(command);
+                });
+    write_case("force_run", ", with these tractions", force.with_tractions());
+    steps_.make("the model with these tractions", case_of("force_run"), "force/run", "comparison.json",
+                [&](bool) { return compare(command_for("force_run", "force/run")); });
+    explanation_.force = force.laws();
+    std::ofstream(output_ / "force/force.json") << explanation_.force.dump(1) << std::endl;
+  }
+
+  const CommandLine& command_;
+  const DiagnosedCase& given_;
+  fs::path output_;
+  ExplainedSteps steps_;
+  Explanation explanation_;
+  std::unique_ptr<StoredRun> first_;
+  FinishedMotion first_motion_;
+  std::unique_ptr<Evidence> evidence_;
+  EffectProblem problem_;
+  std::vector<VectorXd> residuals_;  ///< of the accepted models
+};
+
+std::string text_of(const Explanation& explanation, const fs::path& output) {
+  std::string text = "\n";
+  for (const std::string& sentence : sentences_of(explanation)) text += sentence + "\n";
+  text += fmt::format("\n  {:<40} {:>12} {:>12}  in the noise\n", "model", "training", "held out");
+  for (const ExplainedModel& model : explanation.models)
+    text += fmt::format("  {:<40} {:>9.3g} {} {:>12} {:>5.1f} {:>5.1f}{}\n",
+                        fmt::format("{} {}", model.number, model.name), model.training.length, explanation.length_unit,
+                        model.held_out ? fmt::format("{:.3g} {}", model.held_out->length, explanation.length_unit) : "",
+                        model.training.in_noise, model.held_out ? model.held_out->in_noise : 0.0,
+                        model.accepted ? "" : "  not kept");
+  text += fmt::format("\nIn {}:\n  explain.json       the whole path\n", output.string());
+  if (explanation.best > 0)
+    text += fmt::format("  {}.yaml       the case with what was found, ready for tether simulate\n",
+                        explanation.models[explanation.best].folder());
+  return text;
+}
+
+}  // namespace
+
+int explain(const CommandLine& command) {
+  check_case(command);
+  const DiagnosedCase given(command.case_file);
+  CommandLine own = command;
+  if (own.output.empty()) own.output = fs::path("out") / (given.file.common().name + "_explain");
+  const fs::path output = fs::absolute(claim_output(own, given.file));
+  Explainer explainer(own, given, output);
+  const Explanation& explanation = explainer.run();
+  write_json(output / "explain.json", explanation);
+  if (!command.quiet) std::cout << text_of(explanation, own.output);
+  return exit_done;
+}
+
+}  // namespace tether

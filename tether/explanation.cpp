@@ -1,0 +1,202 @@
+#include "tether/explanation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+using Json = OrderedJson;
+
+const ExplainedModel& best_of(const Explanation& e) {
+  return e.models[e.best];
+}
+
+std::string name_of(const Json& effect) {
+  std::string name = effect["name"];
+  if (!effect["parameter"].is_null()) name += " " + effect["parameter"].get<std::string>();
+  const std::string where = effect["where"];
+  return where.empty() ? name : name + " at " + where;
+}
+
+std::string amplitude_text(const Json& effect) {
+  const Json& a = effect["amplitude"];
+  const std::string parameter = a["parameter"];
+  const auto number = [&](const char* key) {
+    return a[key].is_null() ? "?" : fmt::format("{:.3g}", a[key].get<double>());
+  };
+  return fmt::format("{} {} {} ({} .. {})", parameter.substr(parameter.rfind('.') + 1), number("value"),
+                     a["unit"].get<std::string>(), number("lower"), number("upper"));
+}
+
+/// All that was added on the way to the best model, and errors of the data that were named.
+Json found_of(const Explanation& e) {
+  Json all = Json::array();
+  for (std::size_t i = 0; i <= e.best; ++i) {
+    for (const Json& effect : e.models[i].added) all.push_back(effect);
+    if (e.models[i].diagnosis.is_null()) continue;
+    for (const Json& effect : accepted_effects(e.models[i].diagnosis, true)) all.push_back(effect);
+  }
+  return all;
+}
+
+/// The last diagnosis that was made of an accepted model.
+const Json& last_diagnosis(const Explanation& e) {
+  for (std::size_t i = e.best + 1; i-- > 0;)
+    if (!e.models[i].diagnosis.is_null()) return e.models[i].diagnosis;
+  return best_of(e).diagnosis;
+}
+
+bool any_ambiguous(const Explanation& e) {
+  return std::any_of(e.models.begin(), e.models.begin() + static_cast<long>(e.best) + 1, [](const auto& model) {
+    return !model.diagnosis.is_null() && model.diagnosis["verdict"] == "ambiguous";
+  });
+}
+
+std::string ambiguous_sentence(const Explanation& e) {
+  for (const ExplainedModel& model : e.models)
+    if (!model.diagnosis.is_null() && model.diagnosis["verdict"] == "ambiguous") return model.diagnosis["sentences"][0];
+  return {};
+}
+
+std::string verdict_sentence(const Explanation& e) {
+  const std::string verdict = verdict_of(e);
+  std::vector<std::string> found;
+  for (const Json& effect : found_of(e))
+    found.push_back(fmt::format("{}, {}", name_of(effect), amplitude_text(effect)));
+  if (verdict == "missing") return fmt::format("MISSING: {}", fmt::join(found, "; and "));
+  if (verdict == "ambiguous") return ambiguous_sentence(e);
+  if (e.models.size() > e.best + 1)
+    return fmt::format("UNDECIDED: {} stands out, but {}", e.models.back().name, e.models.back().reason);
+  const std::string last = last_diagnosis(e)["sentences"][0];
+  return found.empty() ? last : fmt::format("{}; beside {}", last, fmt::join(found, " and "));
+}
+
+std::string held_out_sentence(const Explanation& e) {
+  const ExplainedModel &first = e.models.front(), &last = best_of(e);
+  return fmt::format(
+      "Held-out frames: {:.3g} {} away from the model as given, {:.3g} {} from the one with what was added: {:.0f} % "
+      "less ({:.0f} .. {:.0f}); {:.1f} times the noise is left",
+      first.held_out->length, e.length_unit, last.held_out->length, e.length_unit, 100 * e.held_out->value,
+      100 * e.held_out->lower, 100 * e.held_out->upper, last.held_out->in_noise);
+}
+
+Json json_of(const Misfit& misfit) {
+  return {{"l2", misfit.length}, {"in_noise", misfit.in_noise}};
+}
+
+Json json_of(const Gain& gain) {
+  return {{"value", gain.value},
+          {"lower", gain.lower},
+          {"upper", gain.upper},
+          {"before", gain.before},
+          {"after", gain.after}};
+}
+
+Json json_of(const ExplainedModel& model) {
+  Json json{{"number", model.number},
+            {"name", model.name},
+            {"case", model.folder() + ".yaml"},
+            {"run", model.folder()},
+            {"diagnosis", model.diagnosis.is_null() ? Json() : Json(model.diagnosis_folder())},
+            {"identification", model.identified ? Json(model.identification_folder()) : Json()}};
+  json["added"] = model.added;
+  json["accepted"] = model.accepted;
+  json["reason"] = model.reason;
+  json["training"] = json_of(model.training);
+  json["held_out"] = model.held_out ? json_of(*model.held_out) : Json();
+  json["held_out_gain"] = model.gain ? json_of(*model.gain) : Json();
+  return json;
+}
+
+/// What was found first, with identified amplitudes, then the others of the last diagnosis by their evidence.
+Json all_effects(const Explanation& e) {
+  Json all = found_of(e);
+  const auto is_known = [&](const Json& effect) {
+    return std::any_of(all.begin(), all.end(), [&](const Json& known) { return name_of(known) == name_of(effect); });
+  };
+  std::vector<Json> others;
+  for (std::size_t i = e.best + 1; i-- > 0;)
+    if (!e.models[i].diagnosis.is_null())
+      for (const Json& effect : e.models[i].diagnosis["effects"])
+        if (!is_known(effect)) all.push_back(effect);
+  return all;
+}
+
+}  // namespace
+
+Json accepted_effects(const Json& diagnosis, bool of_data) {
+  Json all = Json::array();
+  for (const Json& effect : diagnosis["effects"])
+    if (effect["accepted"] && (effect["kind"] == "data") == of_data) all.push_back(effect);
+  return all;
+}
+
+bool is_explained(const Explanation& e, const Json& diagnosis) {
+  const Json &first = e.models.front().diagnosis["lack_of_fit"]["before"], &now = diagnosis["lack_of_fit"]["after"];
+  if (first.is_null() || now.is_null()) return diagnosis["verdict"] != "not_in_catalogue";
+  return now["p"] >= diagnosis["alpha"] || now["excess"] <= e.unexplained * first["excess"].get<double>();
+}
+
+std::string verdict_of(const Explanation& e) {
+  const Json& last = last_diagnosis(e);
+  if (!is_explained(e, last)) return "not_in_catalogue";
+  if (any_ambiguous(e)) return "ambiguous";
+  if (!found_of(e).empty()) return "missing";
+  if (e.models.size() > e.best + 1) return "undecided";  // what a diagnosis accepted was not confirmed
+  return last["verdict"] == "not_in_catalogue" ? "undecided" : last["verdict"].get<std::string>();
+}
+
+std::vector<std::string> sentences_of(const Explanation& e) {
+  std::vector<std::string> all{verdict_sentence(e)};
+  if (e.held_out && e.best > 0) all.push_back(held_out_sentence(e));
+  for (const std::string& sentence : e.failure) all.push_back("The model as given: " + sentence);
+  const Json& last = last_diagnosis(e);
+  for (std::size_t i = 1; i < last["sentences"].size(); ++i) {
+    const std::string sentence = last["sentences"][i];
+    if (!sentence.starts_with("Held-out")) all.push_back(sentence);
+  }
+  if (e.models.size() > e.best + 1)
+    all.push_back(fmt::format("Tried and not kept: {}: {}", e.models.back().name, e.models.back().reason));
+  if (!e.force.is_null())
+    for (const Json& sentence : e.force["sentences"]) all.push_back(sentence);
+  return all;
+}
+
+void write_json(const std::filesystem::path& path, const Explanation& e) {
+  Json json{{"case", e.case_name}, {"title", e.title}, {"case_file", e.case_file}};
+  json["verdict"] = verdict_of(e);
+  json["sentences"] = sentences_of(e);
+  json["models"] = Json::array();
+  for (const ExplainedModel& model : e.models) json["models"].push_back(json_of(model));
+  json["best"] = best_of(e).number;
+  json["effects"] = all_effects(e);
+  json["detectable"] = last_diagnosis(e)["detectable"];
+  json["held_out"] = e.held_out ? json_of(*e.held_out) : Json();
+  json["missing_force"] = e.force.is_null() ? Json() : Json("force/force.json");
+  json["suggested_case"] = e.best > 0 ? Json(best_of(e).folder() + ".yaml") : Json();
+  const auto sum = [&](double ExplainedStep::*part) {
+    return std::accumulate(e.steps.begin(), e.steps.end(), 0.0,
+                           [&](double all, const ExplainedStep& step) { return all + step.*part; });
+  };
+  json["cost"] = {{"cpu_seconds", sum(&ExplainedStep::cpu_seconds)},
+                  {"wall_seconds", sum(&ExplainedStep::wall_seconds)}};
+  json["steps"] = Json::array();
+  for (const ExplainedStep& step : e.steps)
+    json["steps"].push_back({{"name", step.name},
+                             {"folder", step.folder},
+                             {"wall_seconds", step.wall_seconds},
+                             {"cpu_seconds", step.cpu_seconds},
+                             {"key", step.key}});
+  std::ofstream file(path);
+  file << json.dump(1) << std::endl;
+  if (!file) throw run_error("{} cannot be written", path.string());
+}
+
+}  // namespace tether
