@@ -1,14 +1,20 @@
 #include <gtest/gtest.h>
 
 #include "common/mesh/surface.hpp"
-#include "common/observation/lumen_surface.hpp"
+#include "common/observation/observed_case.hpp"
+#include "common/protocol/in_process.hpp"
+#include "observation_manager/server.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "tests/scenarios/coupled_vessel.hpp"
+#include "tests/scenarios/surface_file.hpp"
+#include "twin/noise.hpp"
 
 /// The state observer on a coarse configs/tube: a twin whose wall starts in the wrong place finds back to the truth.
 namespace tether {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Measurements without error: where the lumen of a run was, linear between its steps. Node by node, along its normals.
 class KnownLumen : public ObservationPartner {
@@ -117,6 +123,52 @@ TEST_F(ObservedTube, FindsBackAtLeastAsFastAsItsGain) {
         std::printf("| gamma %g 1/s, after %g s | %.4f of the first distance | exp(-gamma t) %.4f |\n", gain, k * dt,
                     d / first, std::exp(-gain * k * dt));
       EXPECT_LE(d, expected) << "gain " << gain << ", step " << k;
+    }
+  }
+}
+
+/// As users have it: noisy surfaces in files, ten milliseconds apart, through the observation manager's own server.
+TEST_F(ObservedTube, FindsBackToNoisySurfacesDownToTheirNoise) {
+  const double dt = 2e-3, begin = 0.1, apart = 0.01, deviation = 0.01, along = 0.5;
+  const int steps = 60;
+  for (const double gain : {3.0, 15.0, 60.0}) {
+    const Truth known = truth(gain, dt, begin, steps);
+    CoupledVessel model(tube(gain, dt));
+    model.stand_where(*known.start);
+    std::vector<double> times;
+    for (double t = begin; t < begin + steps * dt + apart; t += apart) times.push_back(t);
+    const NoiseSeries noise({deviation, along, 0}, times, 1);
+    std::string list = "file, time [s]\n";
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const Points x = known.lumen->at(times[k]), n = nodal_normals(x, model.triangles());
+      const std::string name = fmt::format("frame_{}_{}.stl", gain, k);
+      write_stl(folder / name, x + n * noise(k, x).asDiagonal(), model.triangles());
+      list += fmt::format("{}, {}\n", name, times[k]);
+    }
+    folder.file("frames.csv", list);
+    const fs::path measured = case_variant(
+        tube(gain, dt), folder / fmt::format("measured_{}", gain),
+        {{"output:", fmt::format("observations: {{surfaces: {{ct: {{file: {}/frames.csv, unit: cm}}}}}}\noutput:",
+                                 folder.path().string())}});
+    const ObservedCase observed(measured);
+    protocol::Partner manager = protocol::in_process_partner<protocol::ToObservation>(
+        "observation_manager",
+        std::make_shared<ObservationServer>(load_observations(observed.observations, observed.lumen(), observed.file),
+                                            model.reference().cols(), "{}"));
+    MessageObservation data(manager);
+    move_away(model, *known.lumen);
+    model.observe(data, Observer::Form::split);
+    const double first = known.lumen->distance(model.time(), model.displacement());
+    ASSERT_GT(first, 2 * deviation);
+    for (int k = 1; k <= steps; ++k) {
+      model.advance();
+      const double left = known.lumen->distance(model.time(), model.displacement());
+      if (k % 20 == 0)
+        std::printf(
+            "| gamma %g 1/s, noisy surfaces, after %g s | %.4f of the first distance | noise %.4f | exp(-gamma t) %.4f "
+            "|\n",
+            gain, k * dt, left / first, deviation / first, std::exp(-gain * k * dt));
+      EXPECT_LE(left, first * std::exp(-gain * k * dt) + deviation) << "gain " << gain << ", step " << k;
     }
   }
 }
