@@ -218,6 +218,11 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
     else
       all.push_back("Not confirmed: no frames are held out");
   }
+  for (const TestedEffect& effect : found.effects)
+    if (found.verdict == "missing" && effect.rival)
+      all.push_back(fmt::format("These data cannot tell it from its variant {}, {}",
+                                name_of(report.problem.candidates[effect.candidate]),
+                                amplitude_text(report.problem, effect)));
   if (found.dispersion > 1.5)
     all.push_back(
         fmt::format("The misfit that is left is {:.1f} times what noise makes: intervals are widened by its root, and "

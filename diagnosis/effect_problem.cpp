@@ -12,6 +12,11 @@ double Amplitude::value(double amplitude) const {
   return std::clamp(value, std::min(least, base), std::max(most, base));
 }
 
+bool is_variant(const Candidate& one, const Candidate& other) {
+  const bool named = one.name.ends_with("_" + other.name) || other.name.ends_with("_" + one.name);
+  return named && one.where == other.where && one.parameter == other.parameter;
+}
+
 ResidualAt linear_residual(const EffectProblem& problem) {
   return [&problem](const MatrixXd& amplitudes) -> MatrixXd {
     return (-problem.changes * amplitudes).colwise() + problem.residual;

@@ -31,6 +31,10 @@ struct Candidate {
   std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
 };
 
+/// Whether one candidate is a special shape of the other at the same place: its name ends with the other's, as
+/// normal_visco_elastic is a visco_elastic support. Which of the two it is is no other verdict.
+bool is_variant(const Candidate& one, const Candidate& other);
+
 /// A way in which data may be off that no effect has to explain: a region at a moment, or over the beat.
 struct Pattern {
   std::string region;

@@ -195,8 +195,9 @@ class Search {
 
   void judge() {
     const bool accepted = !now_.accepted.empty();
-    const bool ambiguous =
-        std::any_of(result_.effects.begin(), result_.effects.end(), [](const auto& e) { return e.rival; });
+    const bool ambiguous = std::any_of(result_.effects.begin(), result_.effects.end(), [&](const auto& e) {
+      return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
+    });
     if (accepted) result_.held_out = held_out_gain(problem_.residual, result_.residual);
     if (leaves_too_much() && !result_.more)
       result_.verdict = "not_in_catalogue";

@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
+#include "report/report.hpp"
 #include "tether/diagnosed_case.hpp"
 #include "tether/explained_steps.hpp"
 #include "tether/finished_run.hpp"
@@ -303,7 +304,10 @@ int explain(const CommandLine& command) {
   Explainer explainer(own, given, output);
   const Explanation& explanation = explainer.run();
   write_json(output / "explain.json", explanation);
-  if (!command.quiet) std::cout << text_of(explanation, own.output);
+  const fs::path page = write_report(output);
+  if (!command.quiet)
+    std::cout << text_of(explanation, own.output)
+              << "  report.html        all of it, to look at and to mail: " << page.string() << "\n";
   return exit_done;
 }
 

@@ -173,6 +173,21 @@ TEST(EffectSearch, AWrongSignIsNoSign) {
     }
 }
 
+TEST(EffectSearch, AVariantOfTheSameEffectIsNoOtherVerdict) {
+  EffectProblem problem = band();
+  add_candidate(problem, "normal_spring_1", response(1, 8.5, beat));
+  problem.candidates.back().where = problem.candidates[2].where;
+  const double right = share(
+      [&](std::mt19937_64& generator) {
+        problem.residual = noise(generator) + 4 * problem.changes.col(2);
+        const SearchResult result = found(problem);
+        return result.verdict == "missing" &&
+               (result.effects[1].rival || result.effects[1].gain < result.effects[0].gain);
+      },
+      50);
+  EXPECT_GE(right, 0.90);
+}
+
 TEST(EffectSearch, TellsWhatItCannotTellApart) {
   EffectProblem problem = band();
   add_candidate(problem, "other_spring", response(1, 8.5, beat));
