@@ -180,7 +180,7 @@ class Explainer {
     for (const Json& effect : accepted)
       model.name += fmt::format("{} {} at {}", model.name == "with" ? "" : " and", effect["name"].get<std::string>(),
                                 effect["where"].get<std::string>());
-    if (accepted[0]["where"] == "") model.name = "with another " + accepted[0]["name"].get<std::string>();
+    if (accepted[0]["where"] == "") model.name = "with other " + accepted[0]["name"].get<std::string>();
     identify_into(model, accepted);
     simulate_and_compare(model);
     const StoredRun run(output_ / model.folder());

@@ -97,7 +97,8 @@ TEST_F(Explain, SeeksTheForceThatNoCandidateExplains) {
   const fs::path blind = folder / "twin/case.yaml";
   folder.file("twin/other.yaml",
               "base: case.yaml\nname: other\ndiagnosis: {exclude: [spine, vicinity_left, vicinity_right, opposite, "
-              "solid.support.regions.spine.stiffness, solid.material.young, solid.density, fluid.density, "
+              "solid.support.regions.spine.stiffness, solid.support.regions.spine.damping, solid.material.young, "
+              "solid.density, fluid.density, "
               "fluid.rheology.viscosity]}\n");
   const ChildEnd end = tether({"explain", (folder / "twin/other.yaml").string(), "--output", output().string()});
   ASSERT_EQ(end.exit_code, 0) << end.errors << end.output;
