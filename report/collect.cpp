@@ -68,6 +68,15 @@ struct ShownRun {
   Json comparison;
 };
 
+/// Units of the case that people in a clinic do not use: {"g/(cm s2)": {"unit": "mmHg", "factor": 0.00075}}.
+Json clinical_units(const UnitSystem& units) {
+  Json json;
+  json[units.symbol(dimension::pressure)] = {{"unit", "mmHg"}, {"factor", units.to_mmhg(1)}};
+  json[units.symbol(dimension::flow)] = {{"unit", "ml/s"}, {"factor", units.to_ml_per_s(1)}};
+  json[units.symbol(dimension::velocity)] = {{"unit", "m/s"}, {"factor", units.in_si(dimension::velocity)}};
+  return json;
+}
+
 class Collector {
  public:
   explicit Collector(fs::path folder) : folder_(std::move(folder)) {
@@ -112,18 +121,19 @@ class Collector {
 
   void take_explained(const Json& explain) {
     const Json& models = explain.at("models");
-    const std::size_t best = explain.value("best", 0U);
-    for (std::size_t k = 0; k < models.size(); ++k) {
-      const Json& model = models[k];
-      const std::string name = "model " + std::to_string(model.value("number", k));
+    const Json *given = &models.at(0), *best = given;
+    for (const Json& model : models) {
+      if (model.at("number") == explain.at("best")) best = &model;
+      const std::string name = fmt::format("model {}", model.at("number").get<int>());
       if (const Json& at = model.at("diagnosis"); at.is_string()) take_diagnosis(at, name);
       if (const Json& at = model.at("identification"); at.is_string()) take_estimate(at, name);
     }
-    take_run("before: " + models.at(0).value("name", "model 0"), models.at(0).value("run", ""));
-    if (best > 0) take_run("after: " + models.at(best).value("name", "best model"), models.at(best).value("run", ""));
+    const std::string before = given->at("name");
+    take_run(best == given ? before : "before: " + before, given->at("run"));
+    if (best != given) take_run("after: " + best->at("name").get<std::string>(), best->at("run"));
     if (const Json& force = explain.value("missing_force", Json()); force.is_string())
       document_["force"] = read_json(folder_ / force.get<std::string>());
-    case_file_ = folder_ / models.at(0).value("case", "model_0.yaml");
+    case_file_ = folder_ / given->at("case").get<std::string>();
     introduce("explain", explain);
     document_["explain"] = explain;
   }
@@ -144,12 +154,13 @@ class Collector {
       return;
     }
     if (name.empty()) introduce("comparison", comparison);
+    const UnitSystem units = UnitSystem::named(comparison.at("units").at("system").get<std::string>());
     shown_.push_back({label, folder, comparison});
-    document_["runs"].push_back(
-        {{"label", label},
-         {"folder", name},
-         {"mm", UnitSystem::named(comparison.at("units").at("system").get<std::string>()).to_mm(1)},
-         {"comparison", regions_only(comparison)}});
+    document_["runs"].push_back({{"label", label},
+                                 {"folder", name},
+                                 {"mm", units.to_mm(1)},
+                                 {"clinical", clinical_units(units)},
+                                 {"comparison", regions_only(comparison)}});
   }
 
   void take_diagnosis(const std::string& name, const std::string& label) {

@@ -95,7 +95,9 @@ function barChart({ rows, title, guide, high }) {
       const begun = y;
       for (const bar of row.bars) {
         svg.append(shape("rect", { x: left, y, width: Math.max(1, x(Math.min(bar.value, high)) - left), height: thick, rx: 2, fill: bar.colour, tip: bar.tip, class: "focus" }));
-        svg.append(label(Math.max(x(bar.value), row.mark ? x(row.mark.value) : 0) + 8, y + thick - 2.5, bar.text, {}));
+        const beside = x(bar.value) + 8, mark = row.mark ? x(row.mark.value) : 0;
+        const hidesMark = mark > beside - 5 && mark < beside + 6.4 * bar.text.length + 5;
+        svg.append(label(hidesMark ? mark + 8 : beside, y + thick - 2.5, bar.text));
         y += thick + 3;
       }
       if (row.mark) svg.append(line(x(row.mark.value), begun - 2, x(row.mark.value), y - 1, { stroke: "var(--yardstick)", "stroke-width": 3, tip: row.mark.tip }));
@@ -111,7 +113,7 @@ function barChart({ rows, title, guide, high }) {
  */
 function heatMap({ rows, columns, values, range, axis, marked, square = false }) {
   return responsive((width) => {
-    const left = Math.min(square ? 210 : 110, width * 0.36);
+    const left = Math.min(square ? 250 : 110, width * 0.36);
     const cell = (width - left - 4) / columns.length;
     const tall = square ? Math.min(34, Math.max(16, cell)) : 34;
     const head = square ? 26 : 4, bottom = head + rows.length * tall;
@@ -163,7 +165,7 @@ function bandChart({ series, title, logarithmic = false, marks = [], height = 22
     }
     for (const mark of marks) {
       svg.append(line(left, y(mark.value), right, y(mark.value), { stroke: "var(--faint)", "stroke-dasharray": "4 3" }));
-      svg.append(label(right, y(mark.value) - 5, mark.text, { "text-anchor": "end", class: "faint" }));
+      svg.append(label(right - 4, y(mark.value) + 14, mark.text, { "text-anchor": "end", class: "faint" }));
     }
     return svg;
   });

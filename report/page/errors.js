@@ -79,15 +79,21 @@ function heatMaps(runs, index) {
     const moments = run.comparison.sources[index].moments;
     return element("div", {}, element("h3", {}, run.label), heatMap({ ...tables[i], columns: moments.map((m) => number(m.time)), range, axis: i + 1 === runs.length ? "time [s]" : null, marked: moments.map((m) => m.held_out) }));
   });
-  return element("div", {}, ...maps, element("div", { class: "scale" }, colourBar(range, unit, "data inside the model", "data outside the model")),
+  return element("div", {}, element("div", { class: "lines" }, maps), element("div", { class: "scale" }, colourBar(range, unit, "data inside the model", "data outside the model")),
     runs[0].comparison.sources[index].moments.some((m) => m.held_out) ? legend([{ text: "held-out frame", mark: "ring", colour: "var(--soft)" }]) : null);
 }
 
 function heatSection(runs) {
   const sources = runs[0].comparison.sources.filter((s) => s.moments.length);
   if (!sources.length) return null;
-  return section("heat", "Where and when", "Mean signed distance of each region at each frame, in units of the measurement's noise (σ). Red: the data lie outside the model, which is too far inward there. Blue: the model is too far outward.",
+  return section("heat", "Where and when", `Mean signed distance of each region at each frame${sources[0].noise.deviation > 0 ? ", in units of the measurement's noise (σ)" : ", in mm"}. Red: the data lie outside the model, which is too far inward there. Blue: the model is too far outward.`,
     ...tabs(sources.map((source) => ({ label: words(source.name), show: () => heatMaps(runs, runs[0].comparison.sources.indexOf(source)) }))));
+}
+
+/** A value in the unit that people use, where there is one: "1.1 mmHg". */
+function clinical(run, value, symbol) {
+  const known = run.clinical[symbol];
+  return known ? `${number(known.factor * value)} ${known.unit}` : withUnit(number(value), unitText(symbol));
 }
 
 /** Measured pressures, flows and velocities: what is left, before and after. */
@@ -96,11 +102,11 @@ function traceSection(runs) {
     const others = runs.map((run) => run.comparison.traces[k]);
     return element("tr", {}, element("td", {}, element("span", { class: "name" }, words(trace.name)), trace.held_out ? element("div", { class: "minor" }, "held out") : null),
       element("td", {}, trace.observable),
-      others.map((t) => element("td", { class: "number" }, t && isNumber(t.l2) ? withUnit(number(t.l2), unitText(t.unit)) : "–", t && t.in_noise ? element("div", { class: "minor" }, `${fixed(t.in_noise.l2, 1)} σ`) : null)));
+      others.map((t, i) => element("td", { class: "number" }, t && isNumber(t.l2) ? clinical(runs[i], t.l2, t.unit) : "–", t && t.in_noise ? element("div", { class: "minor" }, `${fixed(t.in_noise.l2, 1)} σ`) : null)));
   });
   for (const [k, velocity] of (runs[0].comparison.velocities || []).entries())
     rows.push(element("tr", {}, element("td", {}, element("span", { class: "name" }, words(velocity.name))), element("td", {}, "velocity"),
-      runs.map((run) => element("td", { class: "number" }, withUnit(number(run.comparison.velocities[k].training.l2), unitText(velocity.unit))))));
+      runs.map((run) => element("td", { class: "number" }, clinical(run, run.comparison.velocities[k].training.l2, velocity.unit)))));
   if (!rows.length) return null;
   return section("traces", "Pressures, flows, velocities", "Root mean square difference between the run and what was measured, in its unit and in units of its noise.",
     element("div", { class: "scroll" }, element("table", {}, element("thead", {}, element("tr", {}, element("th", {}, "measurement"), element("th", {}, "compared with"), runs.map((run) => element("th", { class: "number" }, run.label)))), element("tbody", {}, rows))));

@@ -1,7 +1,7 @@
 "use strict";
 // What the diagnosis found: ranking, look-alikes, what these data would show, what was tried.
 
-const kindText = { effect: "effect of wall or tissue", input: "number of the model", data: "error of the data" };
+const kindText = { input: "a number of the model", data: "an error of the data" };
 
 /** An amplitude with its interval, from the value without the effect: a small drawing. */
 function amplitudeDrawing(a) {
@@ -29,9 +29,9 @@ function smallBar(value, high, text, colour = "var(--accent)", range = null) {
 }
 
 function effectStatus(effect) {
-  if (effect.accepted) return element("span", { class: "chip good" }, "accepted");
-  if (effect.group !== null && effect.group !== undefined) return element("span", { class: "chip", tip: `These effects change the model in nearly the same way (group ${effect.group}, cosine ${number(effect.cosine, 2)} with its first): these data can hardly tell one from another.` }, `look-alike ${effect.group}`);
-  return null;
+  const chips = effect.accepted ? [element("span", { class: "chip good" }, "accepted"), " "] : [];
+  if (effect.group !== null && effect.group !== undefined) chips.push(element("span", { class: "chip", tip: `These effects change the model in nearly the same way (group ${effect.group}, cosine ${number(effect.cosine, 2)} with its first): these data can hardly tell one from another.` }, `look-alike ${effect.group}`));
+  return chips;
 }
 
 function rankingRow(effect, rank, strongest) {
@@ -40,7 +40,7 @@ function rankingRow(effect, rank, strongest) {
   return element("tr", { class: [effect.accepted ? "accepted" : "", rank > 12 ? "past" : ""].join(" ").trim() || null, "data-effect": effect.name },
     element("td", { class: "rank" }, String(rank)),
     element("td", {}, element("div", { class: "name" }, effectName(effect)), element("div", { class: "minor" }, [effect.meaning, kindText[effect.kind]].filter(Boolean).join(" · ")), effectStatus(effect)),
-    element("td", {}, isNumber(a.value) ? interval(a) : "–", element("div", { class: "minor" }, `${a.parameter ? words(String(a.parameter).split(".").pop()) : ""}${isNumber(a.without) ? `, in the model ${number(a.without)}` : ""}${effect.confirmed_by_runs ? "" : " · first order"}`), amplitudeDrawing(a)),
+    element("td", { class: "amount" }, isNumber(a.value) ? interval(a) : "–", element("div", { class: "minor" }, `${a.parameter ? words(String(a.parameter).split(".").pop()) : ""}${isNumber(a.without) ? `, in the model ${number(a.without)}` : ""}${effect.confirmed_by_runs ? "" : " · first order"}`), amplitudeDrawing(a)),
     element("td", { class: "number" }, smallBar(effect.z, strongest, signed(effect.z, 1))),
     element("td", { class: "number" }, probability(effect.q)),
     element("td", { class: "number" }, gain ? smallBar(gain.value, 1, percent(gain.value), "var(--good)", gain) : "–", gain ? element("div", { class: "minor" }, `${percent(gain.lower)} … ${percent(gain.upper)}`) : null),
@@ -95,7 +95,7 @@ function lookAlikeSection(report) {
   const drawn = (diagnosis) => {
     const cosines = diagnosis.look_alike, effects = diagnosis.effects.slice(0, cosines.length);
     const values = cosines.map((row, i) => row.map((c, j) => (isNumber(c) ? { value: c, text: fixed(c, 2).replace("0.", "."), tip: i === j ? effectName(effects[i]) : `${effectName(effects[i])}\n${effectName(effects[j])}\ncosine ${fixed(c, 2)}` } : null)));
-    return element("div", {}, heatMap({ rows: effects.map((e, i) => `${effectName(e)}  ${i + 1}`), columns: effects.map((_, i) => String(i + 1)), values, range: 1, square: true }),
+    return element("div", {}, heatMap({ rows: effects.map((e, i) => `${i + 1}  ${effectName(e)}`), columns: effects.map((_, i) => String(i + 1)), values, range: 1, square: true }),
       element("div", { class: "scale" }, colourBar(1, "", "opposite", "the same")));
   };
   return section("look-alikes", "What looks alike", "How similar the strongest candidates' effects on the measurements are. A cosine of 1: both change the model in the same way, and no analysis of these data can tell them apart; a further measurement could. Above 0.9 they are reported as a group. Near 0: independent.",
@@ -114,7 +114,7 @@ function detectableChart(list) {
     svg.append(line(x(1), top - 6, x(1), bottom, { stroke: "var(--good)", "stroke-width": 1.5 }));
     svg.append(label(x(1) - 6, top - 11, "would be seen", { "text-anchor": "end", style: "fill:var(--good)" }), label(x(1) + 6, top - 11, "may go unseen", {}));
     list.forEach((d, i) => {
-      const y = top + (i + 0.5) * tall, name = effectName(d), room = Math.floor(left / 6.3);
+      const y = top + (i + 0.5) * tall, name = placedName(d), room = Math.floor(left / 6.3);
       svg.append(label(left - 10, y + 4, name.length > room ? name.slice(0, room - 1) + "…" : name, { "text-anchor": "end" }));
       svg.append(line(left, y, x(d.in_scale), y, { stroke: "var(--line)", "stroke-width": 2 }));
       svg.append(shape("circle", { cx: x(d.in_scale), cy: y, r: 5, fill: d.in_scale <= 1 ? "var(--good)" : "var(--faint)", tip: `${name}\nseen from ${withUnit(number(d.value), unitText(d.unit))} on (in the model ${number(d.without)})\n${number(d.in_scale, 2)} of the size that it may have in a patient` }));

@@ -39,8 +39,7 @@ function number(x, digits = 3) {
   const size = Math.abs(x);
   if (size >= 1e5 || size < 1e-3) {
     const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
-    const power = [...String(Number(exponent))].map((c) => superscripts[c]).join("");
-    return minus(`${Number(mantissa)} × 10`) + power;
+    return minus(`${Number(mantissa)} × `) + powerOfTen(Number(exponent));
   }
   return minus(String(Number(x.toPrecision(digits))));
 }
@@ -50,8 +49,17 @@ const fixed = (x, places) => (isNumber(x) ? minus(x.toFixed(places)).replace(/^�
 const signed = (x, places) => (isNumber(x) ? (x > 0 && Number(x.toFixed(places)) > 0 ? "+" : "") + fixed(x, places) : "–");
 const percent = (x) => (isNumber(x) ? minus(String(Math.round(100 * x))) + " %" : "–");
 const withUnit = (text, unit) => (unit && unit !== "1" ? `${text} ${unit}` : text);
-/** "1.0 × 10⁶ (0.9 × 10⁶ … 1.1 × 10⁶) g/(cm² s²)" */
-const interval = (a) => withUnit(`${number(a.value)} (${number(a.lower)} … ${number(a.upper)})`, unitText(a.unit));
+const powerOfTen = (exponent) => `10${[...String(exponent)].map((c) => superscripts[c]).join("")}`;
+/** "1.02 (0.91 … 1.13) × 10⁶ g/(cm² s²)": the same power of ten for all three. */
+function interval(a) {
+  const exponent = isNumber(a.value) && a.value !== 0 ? Math.floor(Math.log10(Math.abs(a.value))) : 0;
+  const common = exponent >= 5 || exponent < -3 ? exponent : 0;
+  const [value, lower, upper] = [a.value, a.lower, a.upper].map((x) => (isNumber(x) ? number(x / 10 ** common) : "–"));
+  return withUnit(`${value} (${lower} … ${upper})${common ? ` × ${powerOfTen(common)}` : ""}`, unitText(a.unit));
+}
+/** A sentence of the results as people write numbers, units and names. */
+const prose = (sentence) => sentence.replace(/(\d)e([+-]?)0*(\d+)/g, (all, digit, sign, power) => `${digit} × ${powerOfTen((sign === "-" ? "-" : "") + power)}`)
+  .replace(/\(([a-z]+[a-z0-9 ]*)\)|(?<=[0-9⁰¹²³⁴⁵⁶⁷⁸⁹] )[a-z]+[0-9]?\/(?:[a-z0-9]+|\([a-z0-9 ]+\))/gi, (unit) => unitText(unit)).replace(/_/g, " ").replace(/ \.\. /g, " … ");
 /** Powers in a unit: "g/(cm2 s2)" as people write it. */
 const unitText = (unit) => (unit || "").replace(/([a-zA-Z])(-?\d)/g, (all, letter, power) => letter + [...power].map((c) => superscripts[c]).join(""));
 const words = (name) => String(name ?? "").replace(/_/g, " ");
@@ -67,8 +75,14 @@ function duration(seconds) {
 
 /** What an effect is called: "visco elastic stiffness at spine". */
 function effectName(effect) {
-  const what = [effect.name, effect.parameter && !String(effect.parameter).startsWith(effect.name) ? effect.parameter : null];
+  const what = [effect.name, effect.parameter && !String(effect.name).endsWith(effect.parameter) ? effect.parameter : null];
   return words(what.filter(Boolean).join(" ")) + (effect.where ? ` · ${words(effect.where)}` : "");
+}
+
+/** The same of an entry whose parameter is named by its place in the case. */
+function placedName(entry) {
+  const last = String(entry.parameter || "").split(".").pop();
+  return effectName({ ...entry, parameter: String(entry.name).includes(last) ? null : last });
 }
 
 /** A card of the page. */

@@ -15,7 +15,7 @@ function pathChart(models, mm, noise) {
     axisLeft(svg, y, left, right, "root mean square distance [mm]");
     if (noise) {
       svg.append(shape("rect", { x: left, y: y(noise), width: right - left, height: bottom - y(noise), fill: "var(--noise)", opacity: 0.1 }));
-      svg.append(label(right - 4, y(noise) - 5, "noise of the measurement, 1 σ", { "text-anchor": "end", style: "fill:var(--noise)" }));
+      svg.append(label(left + 8, bottom - 8, "noise of the measurement, 1 σ", { style: "fill:var(--noise)" }));
     }
     svg.append(line(left, bottom, right, bottom, { class: "axis" }));
     for (const [kind, colour] of kinds) {
@@ -32,16 +32,18 @@ function pathChart(models, mm, noise) {
   });
 }
 
+/** An effect that was added: what, where, how much of each of its numbers. */
 function addedText(added) {
-  return element("div", {}, element("span", { class: "name" }, `${words(added.name)}${added.where ? ` · ${words(added.where)}` : ""}`),
-    element("div", {}, interval(added)), element("div", { class: "minor" }, `${added.parameter ? words(String(added.parameter).split(".").pop()) : ""}${isNumber(added.without) ? `, before ${number(added.without)}` : ""}`));
+  const amounts = added.parameters && added.parameters.length ? added.parameters : [added.amplitude || added];
+  const one = (a) => element("div", {}, interval(a), element("div", { class: "minor" }, `${a.parameter ? words(String(a.parameter).split(".").pop()) : ""}${isNumber(a.without) ? `, before ${number(a.without)}` : ""}`));
+  return element("div", {}, element("span", { class: "name" }, effectName(added.amplitude ? added : { ...added, parameter: null })), amounts.map(one));
 }
 
 function modelRow(model, mm) {
   const distance = (d) => (d ? [`${fixed(mm * d.l2, 2)} mm`, isNumber(d.in_noise) ? element("div", { class: "minor" }, `${fixed(d.in_noise, 1)} σ`) : null] : "–");
   const gain = model.held_out_gain;
   return element("tr", {}, element("td", {}, element("span", { class: "name" }, modelName(model)), element("div", { class: "minor" }, model.case || "")),
-    element("td", {}, (model.added || []).length ? model.added.map(addedText) : "–"),
+    element("td", { class: "amount" }, (model.added || []).length ? model.added.map(addedText) : "–"),
     element("td", { class: "number" }, distance(model.training)), element("td", { class: "number" }, distance(model.held_out)),
     element("td", { class: "number" }, gain ? [percent(gain.value), element("div", { class: "minor" }, `${percent(gain.lower)} … ${percent(gain.upper)}`)] : "–"),
     element("td", {}, model.accepted ? element("span", { class: "chip good" }, model.number === 0 ? "start" : "accepted") : [element("span", { class: "chip bad" }, "rejected"), element("div", { class: "minor" }, model.reason || "")]));
@@ -83,13 +85,13 @@ function estimateSection(report) {
 
 function lawText(law) {
   const terms = (law.terms || []).map((t) => `${words(t.term)}: ${withUnit(number(t.coefficient), unitText(t.unit))}${isNumber(t.share) ? ` (${percent(t.share)} of it)` : ""}`);
-  return element("p", { class: "note" }, element("strong", {}, law.text || "no simple law"), isNumber(law.r2) ? ` explains ${percent(law.r2)} of the force. ` : " ", terms.join("; "));
+  return element("p", { class: "note" }, element("strong", {}, law.text ? minus(prose(law.text)) : "no simple law"), isNumber(law.r2) ? ` explains ${percent(law.r2)} of the force. ` : " ", terms.join("; "));
 }
 
 function forceSection(report) {
   if (!report.force) return null;
   return section("force", "The force that is missing", "No effect of the catalogue explains what is left. This is the force on each region of the wall that would, as the data ask for it, and the simplest law that follows it.",
-    ...(report.force.sentences || []).map((s) => element("p", {}, s)),
+    ...(report.force.sentences || []).map((s) => element("p", {}, prose(s))),
     element("div", { class: "pair" }, (report.force.regions || []).map((region) => element("div", {}, element("h3", {}, words(region.region)),
       bandChart({ series: [{ time: region.time, value: region.value, lower: region.lower, upper: region.upper, colour: "var(--accent)" }], title: `force per area [${unitText(region.unit)}]`, marks: [{ value: 0, text: "" }] }), region.law ? lawText(region.law) : null))));
 }

@@ -11,7 +11,15 @@ const verdictChips = {
 const kindNames = { explain: "explanation", comparison: "comparison", diagnosis: "diagnosis", estimate: "identification" };
 
 /** Without the shouted first word, which the chip says. */
-const plain = (sentence) => sentence.replace(/^(MISSING|NOTHING MISSING|NOT IN THE CATALOGUE|AMBIGUOUS|UNDECIDED): /, "").replace(/^[a-z](?![^ ]*_)/, (c) => c.toUpperCase());
+const plain = (sentence) => sentence.replace(/^(MISSING|NOTHING MISSING|NOT IN THE CATALOGUE|AMBIGUOUS|UNDECIDED): /, "").replace(/^[a-z](?![^ ]*_)/, (c) => c.toUpperCase()).replace(/^.*$/s, prose);
+
+/** The first sentence large; the list of what cannot be told apart as a list. */
+function headline(first, verdict) {
+  const sentence = plain(first), alike = verdict === "ambiguous" ? sentence.match(/^(.*cannot tell) (.+)$/s) : null;
+  const names = alike ? alike[2].split(" from ") : [];
+  if (names.length > 2) return [element("p", { class: "verdict" }, `${alike[1]} ${names.length} effects from each other`), furtherSentences(names)];
+  return [element("p", { class: sentence.length > 110 ? "verdict long" : "verdict" }, sentence)];
+}
 
 /** What an identification says of itself, in sentences. */
 function estimateSentences(estimate) {
@@ -43,14 +51,17 @@ function tiles(report) {
   return all.length > 1 ? element("div", { class: "tiles" }, all) : null;
 }
 
+const furtherSentences = (sentences) => (sentences.length ? element("ul", { class: "further" }, sentences.map((s) => element("li", {}, plain(s)))) : null);
+
 function head(report) {
   const sentences = report.sentences.length ? report.sentences : report.estimates.length ? estimateSentences(report.estimates[0].estimate) : [];
   const [name, colour] = verdictChips[report.verdict] || [kindNames[report.kind] || report.kind, ""];
   return [
     element("h1", {}, report.title, element("span", { class: "kind" }, ` — ${kindNames[report.kind] || "results"} · ${report.case}`)),
     element("span", { class: `chip ${colour}` }, name),
-    element("p", { class: "verdict" }, sentences.length ? plain(sentences[0]) : "Results"),
-    sentences.length > 1 ? element("ul", { class: "further" }, sentences.slice(1).map((s) => element("li", {}, plain(s)))) : null,
+    ...headline(sentences[0] || "Results", report.verdict),
+    furtherSentences(sentences.slice(1, 5)),
+    sentences.length > 5 ? element("details", {}, element("summary", {}, `${sentences.length - 5} more`), furtherSentences(sentences.slice(5))) : null,
     tiles(report),
   ].filter(Boolean);
 }
@@ -86,6 +97,7 @@ function drawn(part) {
 
 function start() {
   const report = JSON.parse(document.getElementById("data").textContent);
+  for (const run of report.runs) run.label = words(run.label);
   document.getElementById("head").replaceChildren(...head(report));
   document.getElementById("parts").replaceChildren(...parts(report).map(drawn).filter(Boolean));
   document.getElementById("foot").replaceChildren(`Made by Tether ${report.made.version} on ${report.made.date}. All figures are those of the JSON files beside this page.`);

@@ -269,10 +269,13 @@ class WallView {
 
 const dataLineColour = "#ffd23f", dataLineEdge = "#20262d";
 
-/** 95 % of all measured distances are smaller, over all runs and moments of a source: the range of the scale. */
+/** The range of the scale: at every moment of every run at least 95 % of the measured places are on it. */
 function rangeOf(source) {
-  const all = source.moments.flatMap((m) => m.states.flatMap((s) => Array.from(s.distances))).filter((d) => !Number.isNaN(d)).map(Math.abs).sort((a, b) => a - b);
-  return niceAbove(all.length ? all[Math.floor(0.98 * (all.length - 1))] : 1);
+  const p95 = (state) => {
+    const all = Array.from(state.distances).filter((d) => !Number.isNaN(d)).map(Math.abs).sort((a, b) => a - b);
+    return all.length ? all[Math.floor(0.95 * (all.length - 1))] : 0;
+  };
+  return niceAbove(Math.max(...source.moments.flatMap((m) => m.states.map(p95))));
 }
 
 /** Drag turns, wheel and two fingers zoom, shift and drag shifts, double click goes back. */
@@ -391,7 +394,7 @@ function wallPanel(wall, source, runs, index) {
     views.forEach((view) => (view.withLines = on));
     redraw();
   });
-  const stage = element("div", { class: "walls" }, runs.map((run, i) => element("div", { class: "stage" }, canvases[i], element("div", { class: "label" }, run.label), figures[i])));
+  const stage = element("div", { class: "walls" }, runs.map((run, i) => element("div", {}, element("div", { class: "caption" }, element("strong", {}, run.label), figures[i]), element("div", { class: "stage" }, canvases[i]))));
   requestAnimationFrame(start);
   return element("div", {}, stage, element("div", { class: "controls" }, play, slider, when, withLines), readout,
     element("div", { class: "scale" }, colourBar(range, "mm", "data inside the model", "data outside the model")),

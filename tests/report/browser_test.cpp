@@ -49,35 +49,41 @@ Json found_in(const fs::path& page, const std::string& script) {
   return Json::parse(browser.output.substr(first, browser.output.find("</pre>", first) - first));
 }
 
-/// Two models of a beat's first steps; the second is softer, and what was measured is its lumen.
+constexpr const char* model = R"(base: {}/configs/tube/case.yaml
+name: model_0
+time: {{step: 4e-3, end: 0.112}}
+mesh: {{swept: {{around: 12, along: 8}}}}
+solid: {{support: {{regions: {{spine: {{stiffness: 0}}}}}}}}
+)";
+
+/// Two models of a beat's first part; the second is held by the spine, and what was measured is its lumen.
 class ReportPage : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     fs::create_directories(folder);
-    write("model_0.yaml", fmt::format("base: {}/configs/tube/case.yaml\nname: model_0\nmesh: {{swept: {{around: 12, "
-                                      "along: 8}}}}\n",
-                                      TETHER_SOURCE));
-    write("model_1.yaml", "base: model_0.yaml\nname: model_1\nsolid: {material: {young: 1e6}}\n");
+    write("model_0.yaml", fmt::format(model, TETHER_SOURCE));
+    write("model_1.yaml",
+          "base: model_0.yaml\nname: model_1\nsolid: {support: {regions: {spine: {stiffness: 1e6}}}}\n");
     run("simulate", "model_1");
     const LumenMotion truth(folder / "model_1/lumen.motion");
     const auto triangles = ObservedCase(folder / "model_0.yaml").lumen().triangles;
     std::string list = "file, time [s]\n";
-    for (const int k : {2, 5, 8}) {
+    for (const int k : {12, 20, 28}) {
       const std::string name = fmt::format("frame_{}.stl", k);
       write_stl(folder / name, truth.at(step * k), triangles);
       list += fmt::format("{}, {}\n", name, step * k);
     }
     write("frames.csv", list);
     std::ofstream(folder / "model_0.yaml", std::ios::app)
-        << "observations: {surfaces: {ct: {file: frames.csv, unit: cm, held_out: [1], noise: {deviation: 0.02 mm, "
+        << "observations: {surfaces: {ct: {file: frames.csv, unit: cm, held_out: [1], noise: {deviation: 0.1 mm, "
            "correlation_length: 4 mm}}}}\n";
     for (const char* name : {"model_0", "model_1"}) run("compare", name);
   }
   static void TearDownTestSuite() { fs::remove_all(folder); }
   static void write(const std::string& name, const std::string& content) { std::ofstream(folder / name) << content; }
   static void run(const std::string& verb, const std::string& name) {
-    const ChildEnd end = tether({verb, (folder / (name + ".yaml")).string(), "--output", (folder / name).string(),
-                                 "--steps", "8", "--overwrite", "--quiet"});
+    const ChildEnd end = tether(
+        {verb, (folder / (name + ".yaml")).string(), "--output", (folder / name).string(), "--overwrite", "--quiet"});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
   }
   static Json compared(const std::string& name) {
@@ -111,6 +117,31 @@ class ReportPage : public testing::Test {
            {"group", nullptr},
            {"held_out_gain", nullptr}});
     diagnosis["look_alike"] = {{1.0, 0.5}, {0.5, 1.0}};
+    diagnosis["detectable"] = {{{"name", "x"},
+                                {"where", ""},
+                                {"parameter", "a.b"},
+                                {"value", 2.0},
+                                {"unit", "1"},
+                                {"without", 0.0},
+                                {"in_scale", 0.4}}};
+    fs::create_directories(folder / "identification_1");
+    const Json range{{"value", 1e6}, {"lower_95", 9e5}, {"upper_95", 1.1e6}};
+    write(
+        "identification_1/estimate.json",
+        Json{
+            {"parameters",
+             {{{"name", "wall"}, {"unit", "g/(cm s2)"}, {"transform", "log2"}, {"prior", range}, {"estimate", range}}}}}
+            .dump());
+    write("identification_1/estimate.csv",
+          "time [s], wall, wall.lower, wall.upper\n0, 3e6, 1e6, 9e6\n0.1, 1e6, 9e5, 1.1e6\n");
+    const Json force{{"region", "spine"},
+                     {"unit", "g/(cm s2)"},
+                     {"time", {0.0, 0.1}},
+                     {"value", {0.0, -5.0}},
+                     {"lower", {-1.0, -6.0}},
+                     {"upper", {1.0, -4.0}},
+                     {"law", {{"text", "-1e5 y"}, {"r2", 0.9}, {"terms", Json::array()}}}};
+    write("force.json", Json{{"regions", {force}}, {"sentences", {"a force"}}}.dump());
     write("diagnosis_0/diagnosis.json", diagnosis.dump());
     Json models;
     for (const char* name : {"model_0", "model_1"})
@@ -119,7 +150,7 @@ class ReportPage : public testing::Test {
                         {"case", std::string(name) + ".yaml"},
                         {"run", name},
                         {"diagnosis", models.empty() ? Json("diagnosis_0") : Json()},
-                        {"identification", nullptr},
+                        {"identification", models.empty() ? Json() : Json("identification_1")},
                         {"added", Json::array()},
                         {"accepted", true},
                         {"reason", ""},
@@ -129,15 +160,15 @@ class ReportPage : public testing::Test {
     write("explain.json", Json{{"case", "model_0"},
                                {"title", "A tube & its wall"},
                                {"verdict", "missing"},
-                               {"sentences", {"MISSING: a softer wall", "Held-out frames agree"}},
+                               {"sentences", {"MISSING: support by the spine", "Held-out frames agree"}},
                                {"models", models},
                                {"best", 1},
-                               {"missing_force", nullptr},
+                               {"missing_force", "force.json"},
                                {"cost", {{"runs", 2}, {"cpu_seconds", 3.0}, {"wall_seconds", 2.0}}}}
                               .dump());
   }
 
-  static constexpr double step = 2e-3;
+  static constexpr double step = 4e-3;
   static constexpr int candidates = 15;
   static inline const fs::path folder =
       fs::temp_directory_path() / ("tether_report_page_test_" + std::to_string(getpid()));
@@ -176,17 +207,20 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
       seen: [...document.querySelectorAll("#ranking tbody tr")].filter((row) => row.offsetParent).length,
       names: document.querySelector("#ranking .name").textContent, title: document.title, wide: root.scrollWidth,
       first: at(0), last: at(2), models: document.querySelectorAll("#models tbody tr").length,
+      charts: [...document.querySelectorAll(".chart")].filter((chart) => !chart.querySelector("svg")).length,
       sections: [...document.querySelectorAll("section")].map((s) => s.id), tiles: document.querySelector(".tiles").textContent };)js");
   EXPECT_EQ(found["state"], "ready");
   EXPECT_EQ(found["errors"], "");
-  EXPECT_EQ(found["verdict"], "A softer wall");
+  EXPECT_EQ(found["verdict"], "Support by the spine");
   EXPECT_EQ(found["title"], "A tube & its wall");
   EXPECT_EQ(found["names"], "effect 0<i> · spine") << "text, not markup";
   EXPECT_EQ(found["rows"], candidates);
   EXPECT_EQ(found["seen"], 12) << "the others on demand";
   EXPECT_EQ(found["models"], 2);
+  EXPECT_EQ(found["charts"], 0) << "without a drawing";
   EXPECT_LE(found["wide"], 900) << "nothing sticks out";
-  const Json expected{"errors", "wall", "heat", "ranking", "look-alikes", "models", "provenance", "glossary"};
+  const Json expected{"errors", "wall",       "heat",  "ranking",    "look-alikes", "detectable",
+                      "models", "parameters", "force", "provenance", "glossary"};
   EXPECT_EQ(found["sections"], expected);
   const Json before = found["last"][0], after = found["last"][1];
   for (const Json& wall : {before, after}) {
@@ -213,15 +247,15 @@ TEST_F(ReportPage, OfAComparisonAndOfMeasurementsThatHaveChanged) {
   EXPECT_EQ(found["errors"], "");
   EXPECT_EQ(found["walls"], 1);
 
-  fs::copy_file(folder / "frame_8.stl", folder / "kept.stl");
-  fs::copy_file(folder / "frame_2.stl", folder / "frame_8.stl", fs::copy_options::overwrite_existing);
+  fs::copy_file(folder / "frame_28.stl", folder / "kept.stl");
+  fs::copy_file(folder / "frame_12.stl", folder / "frame_28.stl", fs::copy_options::overwrite_existing);
   ASSERT_EQ(tether({"report", run}).exit_code, 0);
   const Json changed = found_in(folder / "model_0/report.html", script);
   EXPECT_EQ(changed["errors"], "");
   EXPECT_EQ(changed["walls"], 0);
   EXPECT_NE(changed["notes"].get<std::string>().find("case or measurements have changed since"), std::string::npos)
       << changed["notes"];
-  fs::rename(folder / "kept.stl", folder / "frame_8.stl");
+  fs::rename(folder / "kept.stl", folder / "frame_28.stl");
 
   const ChildEnd nothing = tether({"report", (folder / "none").string()});
   EXPECT_EQ(nothing.exit_code, 2);
