@@ -121,6 +121,7 @@ MatrixXd Evidence::residuals(const std::vector<const FinishedMotion*>& runs) con
                                     undefined);
   for (const Part& part : parts_)
     for (std::size_t k = 0; k < runs.size(); ++k) {
+      if (runs[k]->failed()) continue;
       auto column = all.col(static_cast<Eigen::Index>(k)).segment(part.first, part.count);
       if (is_trace(part)) {
         const Trace& trace = data_.traces[part.source - data_.lumen.size()];

@@ -9,6 +9,7 @@ namespace tether {
 struct FinishedMotion {
   RunMotion motion;
   std::function<RunTrace(const std::string&)> trace;
+  bool failed() const { return !motion.positions; }  ///< it did not come to its end
 };
 
 /// All that was measured, datum by datum: samples of each frame of each source, then values of each trace. The order is

@@ -79,7 +79,15 @@ double Refinement::later_step(const VectorXd& now) {
   return last_ * std::exp(std::clamp(step, -1.4, 1.4));
 }
 
+/// The model broke down with these amplitudes: nearer to where it did not.
+void Refinement::retreat() {
+  next_ = begun() ? std::sqrt(next_ * last_) : next_ / 2;
+  next_others_ = (next_others_ + others_) / 2;
+  done_ = ++failures_ > 3;
+}
+
 void Refinement::take(const VectorXd& residual) {
+  if (!residual.allFinite()) return retreat();
   const bool first = !begun();
   const VectorXd shift = next_others_ - others_;
   const VectorXd own_change = residual_ - residual - from_.changes * shift;

@@ -24,7 +24,7 @@ class Refinement {
   bool begun() const { return last_ > 0; }
   /// Of the next run.
   VectorXd amplitudes() const { return at(next_, next_others_); }
-  /// The run at `amplitudes` left this residual.
+  /// The run at `amplitudes` left this residual; NaN: it failed.
   void take(const VectorXd& residual);
   /// The smallest misfit so far, and the one that it may come down to if it goes twice as well as to be expected.
   double best() const { return best_; }
@@ -42,6 +42,7 @@ class Refinement {
   VectorXd at(double factor, const VectorXd& others) const;
   /// How far the accepted effects' factors move, in logarithms, if the residual were this.
   VectorXd others_for(const VectorXd& residual) const;
+  void retreat();
   double first_step(const VectorXd& change, const VectorXd& now);
   double later_step(const VectorXd& now);
 
@@ -58,6 +59,7 @@ class Refinement {
   double best_factor_ = 0;
   VectorXd best_others_, best_residual_;
   double start_ = 0, best_ = 0, expected_ = 0;
+  int failures_ = 0;
   bool done_ = false;
 };
 

@@ -1,5 +1,7 @@
 #include "fsi_master/group_server.hpp"
 
+#include <fstream>
+
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "fsi_master/summary.hpp"
@@ -8,6 +10,8 @@ namespace tether {
 namespace {
 
 using protocol::Partner;
+
+constexpr const char* failed_run = "failure.txt";  ///< why a run of a group ended before its end
 
 VectorXd flat(const Points& points) {
   return points.reshaped();
@@ -145,7 +149,12 @@ protocol::Ready GroupServer::operator()(const protocol::Simulate& m) {
   plan.write_series = false;  // the codes of all groups have one folder
   plan.last_step = m.steps;
   std::filesystem::create_directories(plan.output);
-  Simulation(plan, codes_->crew(), master_->coupling.halvings).run();
+  std::filesystem::remove(plan.output / failed_run);
+  try {
+    Simulation(plan, codes_->crew(), master_->coupling.halvings).run();
+  } catch (const StepFailure& failure) {  // these values are too much for the model; others may not be
+    std::ofstream(plan.output / failed_run) << failure.what() << std::endl;
+  }
   loop_->restore(initial_);
   return {};
 }

@@ -43,7 +43,7 @@ void Simulation::run() {
   } catch (const StepFailure& failure) {
     save(step);
     progress_->end_line();
-    throw run_error("{}\n{}", failure.what(), what_is_saved());
+    throw StepFailure(fmt::format("{}\n{}", failure.what(), what_is_saved()));
   } catch (const protocol::Interrupted& interrupted) {
     progress_->end_line();
     throw run_error("{} in step {}\n{}", interrupted.what(), step + 1, what_is_saved());

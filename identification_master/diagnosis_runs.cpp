@@ -94,9 +94,23 @@ bool is_there(const fs::path& folder, const std::string& mark) {
   return std::getline(file, line) && line == mark;
 }
 
+/// Why a run ended before its end; empty if it did not.
+std::string failure_of(const fs::path& folder) {
+  std::ifstream file(folder / "failure.txt");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 std::uint64_t hash_of(const protocol::Hello& model, const CaseFile& file) {
   const std::uint64_t time = hash_case(echo_json("time", file.common().time), hash_case(model.effective_case, 0));
   return hash_case(echo_json("image", file.common().image), time);
+}
+
+/// Without the base there is nothing to compare with; what fails otherwise is left out.
+void tell_failure(const DiagnosisRun& run, const std::string& failure, bool quiet) {
+  if (run.folder == "base") throw run_error("the model as it is: {}", failure);
+  if (!quiet)
+    std::cout << fmt::format("run {} failed, and is left out: {}\n", run.folder, failure.substr(0, failure.find('\n')))
+              << std::flush;
 }
 
 }  // namespace
@@ -159,6 +173,9 @@ void make_runs(GroupPool& pool, const std::vector<DiagnosisRun>& runs, const Cas
           << mark_of(*missing[i], pool.model().parameters, hash, steps) << "\n";
     if (!quiet)
       std::cout << fmt::format("run {} of {}: {}\n", last, missing.size(), missing[last - 1]->folder) << std::flush;
+    for (std::size_t i = first; i < last; ++i)
+      if (const std::string failure = failure_of(folders[i - first]); !failure.empty())
+        tell_failure(*missing[i], failure, quiet);
   }
   Json json{{"steps", steps}, {"groups", pool.size()}, {"made", missing.size()}};
   json["cpu_seconds"] = pool.usage().cpu_seconds - cpu_before;
@@ -170,6 +187,8 @@ void make_runs(GroupPool& pool, const std::vector<DiagnosisRun>& runs, const Cas
     Json one{{"folder", run.folder}, {"parameter", run.parameter.empty() ? Json() : Json(run.parameter)}};
     for (std::size_t i = 0; i < run.values.names.size(); ++i)
       if (run.values.names[i] == run.parameter) one["value"] = run.values.values[i];
+    if (const std::string failure = failure_of(output / "runs" / run.folder); !failure.empty())
+      one["failure"] = failure;
     json["runs"].push_back(one);
   }
   std::ofstream to(output / "runs.json");

@@ -39,7 +39,8 @@ std::vector<FinishedMotion> stored_runs(const fs::path& folder) {
   std::vector<FinishedMotion> all;
   const auto json = nlohmann::json::parse(content_of(folder / "runs.json"));
   for (const auto& run : json["runs"])
-    all.push_back(StoredRun(folder / "runs" / run["folder"].get<std::string>()).motion());
+    all.push_back(run.contains("failure") ? FinishedMotion{}
+                                          : StoredRun(folder / "runs" / run["folder"].get<std::string>()).motion());
   return all;
 }
 
@@ -62,7 +63,10 @@ MatrixXd residuals_of(const Evidence& evidence, const std::vector<FinishedMotion
   std::vector<const FinishedMotion*> all;
   for (const FinishedMotion& motion : motions) all.push_back(&motion);
   const MatrixXd residuals = evidence.residuals(all);
-  return residuals.array().isFinite().select(residuals, otherwise.replicate(1, residuals.cols()));
+  MatrixXd filled = residuals.array().isFinite().select(residuals, otherwise.replicate(1, residuals.cols()));
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    if (motions[k].failed()) filled.col(static_cast<Eigen::Index>(k)).setConstant(undefined);
+  return filled;
 }
 
 std::string content_of(const fs::path& path) {

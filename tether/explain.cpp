@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
@@ -18,7 +19,7 @@ namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = OrderedJson;
+using Json = nlohmann::ordered_json;
 
 Json read_json(const fs::path& path) {
   std::ifstream file(path);
@@ -152,28 +153,28 @@ class Explainer {
     write_case(folder, ", its diagnosis", values);
     steps_.make(fmt::format("model {}: what it lacks", model.number), case_of(folder), folder, "diagnosis.json",
                 [&](bool) { return diagnose(command_for(folder, folder)); });
-    model.diagnosis = read_json(output_ / folder / "diagnosis.json");
-    return model.number < given_.diagnosis.most && !accepted_effects(model.diagnosis, false).empty();
+    model.diagnosis = content_of(output_ / folder / "diagnosis.json");
+    return model.number < given_.diagnosis.most && accepted_effects(model.diagnosis, false) != "[]";
   }
 
   /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.
   bool is_settled() const {
-    const Json& diagnosis = explanation_.models[explanation_.best - 1].diagnosis;
+    const std::string& diagnosis = explanation_.models[explanation_.best - 1].diagnosis;
     if (!is_explained(explanation_, diagnosis)) return false;
-    const Json& foreseen = accepted_effects(diagnosis, false)[0]["held_out_gain"];
+    const Json foreseen = Json::parse(accepted_effects(diagnosis, false))[0]["held_out_gain"];
     const auto& gain = explanation_.models[explanation_.best].gain;
     return foreseen.is_null() || !gain || gain->value > 0.8 * foreseen["value"].get<double>();
   }
 
   /// What the model as given left beyond noise, times the share that may be left.
   double enough() const {
-    const Json& before = explanation_.models.front().diagnosis["lack_of_fit"]["before"];
+    const Json before = Json::parse(explanation_.models.front().diagnosis)["lack_of_fit"]["before"];
     return before.is_null() ? 0 : explanation_.unexplained * before["excess"].get<double>();
   }
 
   /// The best model with what its diagnosis accepted, refitted, run without correction. False if that is no better.
   bool add_model() {
-    const Json accepted = accepted_effects(best().diagnosis, false);
+    const Json accepted = Json::parse(accepted_effects(best().diagnosis, false));
     ExplainedModel model;
     model.number = best().number + 1;
     model.name = "with";
@@ -225,17 +226,18 @@ class Explainer {
     for (const auto& value : values_of_overlay(output_ / folder / "identified.yaml")) set_value(model.values, value);
     model.identified = true;
     const Json estimate = read_json(output_ / folder / "estimate.json");
-    for (std::size_t i = 1; i <= explanation_.best; ++i) take_estimates(explanation_.models[i].added, estimate);
-    model.added = accepted;
-    take_estimates(model.added, estimate);
+    for (std::size_t i = 1; i <= explanation_.best; ++i)
+      explanation_.models[i].added = with_estimates(Json::parse(explanation_.models[i].added), estimate);
+    model.added = with_estimates(accepted, estimate);
   }
 
   /// Amplitudes as the filter found them.
-  static void take_estimates(Json& effects, const Json& estimate) {
+  static std::string with_estimates(Json effects, const Json& estimate) {
     for (Json& effect : effects) {
       take_estimate(effect["amplitude"], estimate);
       for (Json& parameter : effect["parameters"]) take_estimate(parameter, estimate);
     }
+    return effects.dump();
   }
   static void take_estimate(Json& amplitude, const Json& estimate) {
     for (const Json& parameter : estimate["parameters"])
@@ -261,7 +263,7 @@ class Explainer {
     steps_.make("the model with these tractions", case_of("force_run"), "force/run", "comparison.json",
                 [&](bool) { return compare(command_for("force_run", "force/run")); });
     explanation_.force = force.laws();
-    std::ofstream(output_ / "force/force.json") << explanation_.force.dump(1) << std::endl;
+    std::ofstream(output_ / "force/force.json") << explanation_.force << std::endl;
   }
 
   const CommandLine& command_;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
 #include "common/base/progress_line.hpp"
@@ -17,6 +18,7 @@ namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
@@ -52,7 +54,7 @@ ExplainedSteps::ExplainedSteps(fs::path output, fs::file_time_type data, bool qu
     : output_(std::move(output)), data_(data), quiet_(quiet) {
   std::ifstream file(output_ / "steps.json");
   if (!file) return;
-  const auto json = OrderedJson::parse(file, nullptr, false);
+  const auto json = Json::parse(file, nullptr, false);
   if (json.is_discarded()) return;
   for (const auto& step : json)
     before_.push_back({step["name"], step["folder"], step["wall_seconds"], step["cpu_seconds"], step["key"]});
@@ -82,7 +84,7 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
 }
 
 void ExplainedSteps::save() const {
-  OrderedJson json = OrderedJson::array();
+  Json json = Json::array();
   for (const ExplainedStep& step : done_)
     json.push_back({{"name", step.name},
                     {"folder", step.folder},

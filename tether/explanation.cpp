@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "common/base/error.hpp"
@@ -12,7 +13,18 @@
 namespace tether {
 namespace {
 
-using Json = OrderedJson;
+using Json = nlohmann::ordered_json;
+
+bool is_diagnosed(const ExplainedModel& model) {
+  return model.diagnosis != "null";
+}
+
+Json accepted(const Json& diagnosis, bool of_data) {
+  Json all = Json::array();
+  for (const Json& effect : diagnosis["effects"])
+    if (effect["accepted"] && (effect["kind"] == "data") == of_data) all.push_back(effect);
+  return all;
+}
 
 const ExplainedModel& best_of(const Explanation& e) {
   return e.models[e.best];
@@ -39,29 +51,31 @@ std::string amplitude_text(const Json& effect) {
 Json found_of(const Explanation& e) {
   Json all = Json::array();
   for (std::size_t i = 0; i <= e.best; ++i) {
-    for (const Json& effect : e.models[i].added) all.push_back(effect);
-    if (e.models[i].diagnosis.is_null()) continue;
-    for (const Json& effect : accepted_effects(e.models[i].diagnosis, true)) all.push_back(effect);
+    for (const Json& effect : Json::parse(e.models[i].added)) all.push_back(effect);
+    if (!is_diagnosed(e.models[i])) continue;
+    for (const Json& effect : accepted(Json::parse(e.models[i].diagnosis), true)) all.push_back(effect);
   }
   return all;
 }
 
 /// The last diagnosis that was made of an accepted model.
-const Json& last_diagnosis(const Explanation& e) {
+Json last_diagnosis(const Explanation& e) {
   for (std::size_t i = e.best + 1; i-- > 0;)
-    if (!e.models[i].diagnosis.is_null()) return e.models[i].diagnosis;
-  return best_of(e).diagnosis;
+    if (is_diagnosed(e.models[i])) return Json::parse(e.models[i].diagnosis);
+  return nullptr;
 }
 
 bool any_ambiguous(const Explanation& e) {
   return std::any_of(e.models.begin(), e.models.begin() + static_cast<long>(e.best) + 1, [](const auto& model) {
-    return !model.diagnosis.is_null() && model.diagnosis["verdict"] == "ambiguous";
+    return is_diagnosed(model) && Json::parse(model.diagnosis)["verdict"] == "ambiguous";
   });
 }
 
 std::string ambiguous_sentence(const Explanation& e) {
   for (const ExplainedModel& model : e.models)
-    if (!model.diagnosis.is_null() && model.diagnosis["verdict"] == "ambiguous") return model.diagnosis["sentences"][0];
+    if (const Json diagnosis = Json::parse(model.diagnosis);
+        !diagnosis.is_null() && diagnosis["verdict"] == "ambiguous")
+      return diagnosis["sentences"][0];
   return {};
 }
 
@@ -104,9 +118,9 @@ Json json_of(const ExplainedModel& model) {
             {"name", model.name},
             {"case", model.folder() + ".yaml"},
             {"run", model.folder()},
-            {"diagnosis", model.diagnosis.is_null() ? Json() : Json(model.diagnosis_folder())},
+            {"diagnosis", is_diagnosed(model) ? Json(model.diagnosis_folder()) : Json()},
             {"identification", model.identified ? Json(model.identification_folder()) : Json()}};
-  json["added"] = model.added;
+  json["added"] = Json::parse(model.added);
   json["accepted"] = model.accepted;
   json["reason"] = model.reason;
   json["training"] = json_of(model.training);
@@ -123,30 +137,28 @@ Json all_effects(const Explanation& e) {
   };
   std::vector<Json> others;
   for (std::size_t i = e.best + 1; i-- > 0;)
-    if (!e.models[i].diagnosis.is_null())
-      for (const Json& effect : e.models[i].diagnosis["effects"])
+    if (is_diagnosed(e.models[i]))
+      for (const Json& effect : Json::parse(e.models[i].diagnosis)["effects"])
         if (!is_known(effect)) all.push_back(effect);
   return all;
 }
 
 }  // namespace
 
-Json accepted_effects(const Json& diagnosis, bool of_data) {
-  Json all = Json::array();
-  for (const Json& effect : diagnosis["effects"])
-    if (effect["accepted"] && (effect["kind"] == "data") == of_data) all.push_back(effect);
-  return all;
+std::string accepted_effects(const std::string& diagnosis, bool of_data) {
+  return accepted(Json::parse(diagnosis), of_data).dump();
 }
 
-bool is_explained(const Explanation& e, const Json& diagnosis) {
-  const Json &first = e.models.front().diagnosis["lack_of_fit"]["before"], &now = diagnosis["lack_of_fit"]["after"];
+bool is_explained(const Explanation& e, const std::string& diagnosis_json) {
+  const Json diagnosis = Json::parse(diagnosis_json), original = Json::parse(e.models.front().diagnosis);
+  const Json &first = original["lack_of_fit"]["before"], &now = diagnosis["lack_of_fit"]["after"];
   if (first.is_null() || now.is_null()) return diagnosis["verdict"] != "not_in_catalogue";
   return now["p"] >= diagnosis["alpha"] || now["excess"] <= e.unexplained * first["excess"].get<double>();
 }
 
 std::string verdict_of(const Explanation& e) {
-  const Json& last = last_diagnosis(e);
-  if (!is_explained(e, last)) return "not_in_catalogue";
+  const Json last = last_diagnosis(e);
+  if (!is_explained(e, last.dump())) return "not_in_catalogue";
   if (any_ambiguous(e)) return "ambiguous";
   if (!found_of(e).empty()) return "missing";
   if (e.models.size() > e.best + 1) return "undecided";  // what a diagnosis accepted was not confirmed
@@ -157,15 +169,15 @@ std::vector<std::string> sentences_of(const Explanation& e) {
   std::vector<std::string> all{verdict_sentence(e)};
   if (e.held_out && e.best > 0) all.push_back(held_out_sentence(e));
   for (const std::string& sentence : e.failure) all.push_back("The model as given: " + sentence);
-  const Json& last = last_diagnosis(e);
+  const Json last = last_diagnosis(e);
   for (std::size_t i = 1; i < last["sentences"].size(); ++i) {
     const std::string sentence = last["sentences"][i];
     if (!sentence.starts_with("Held-out")) all.push_back(sentence);
   }
   if (e.models.size() > e.best + 1)
     all.push_back(fmt::format("Tried and not kept: {}: {}", e.models.back().name, e.models.back().reason));
-  if (!e.force.is_null())
-    for (const Json& sentence : e.force["sentences"]) all.push_back(sentence);
+  if (const Json force = Json::parse(e.force); !force.is_null())
+    for (const Json& sentence : force["sentences"]) all.push_back(sentence);
   return all;
 }
 
@@ -179,7 +191,7 @@ void write_json(const std::filesystem::path& path, const Explanation& e) {
   json["effects"] = all_effects(e);
   json["detectable"] = last_diagnosis(e)["detectable"];
   json["held_out"] = e.held_out ? json_of(*e.held_out) : Json();
-  json["missing_force"] = e.force.is_null() ? Json() : Json("force/force.json");
+  json["missing_force"] = e.force == "null" ? Json() : Json("force/force.json");
   json["suggested_case"] = e.best > 0 ? Json(best_of(e).folder() + ".yaml") : Json();
   const auto sum = [&](double ExplainedStep::*part) {
     return std::accumulate(e.steps.begin(), e.steps.end(), 0.0,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +11,6 @@
 /// The path from a model to one that explains its measurements, as explain.json tells it (docs/explain.md).
 namespace tether {
 
-using OrderedJson = nlohmann::ordered_json;
-
 /// How far measured lumens are from a run, in root mean square.
 struct Misfit {
   double length = 0;    ///< [length]
@@ -23,15 +20,15 @@ struct Misfit {
 /// A model of the path: the case as given, or the one before it with what a diagnosis added.
 struct ExplainedModel {
   int number = 0;
-  std::string name;                          ///< "as given", "with visco_elastic at spine"
-  std::vector<Overlay::Value> values;        ///< what it says otherwise than the case as given
-  OrderedJson added = OrderedJson::array();  ///< entries of `effects` of diagnosis.json, with identified amplitudes
+  std::string name;                    ///< "as given", "with visco_elastic at spine"
+  std::vector<Overlay::Value> values;  ///< what it says otherwise than the case as given
+  std::string added = "[]";            ///< JSON: entries of `effects` of diagnosis.json, with identified amplitudes
   bool accepted = true;
   std::string reason;  ///< why not
   Misfit training;
   std::optional<Misfit> held_out;
-  std::optional<Gain> gain;  ///< on held-out data against the model before it
-  OrderedJson diagnosis;     ///< diagnosis.json; null: none was made
+  std::optional<Gain> gain;        ///< on held-out data against the model before it
+  std::string diagnosis = "null";  ///< diagnosis.json; "null": none was made
   bool identified = false;
 
   std::string folder() const { return "model_" + std::to_string(number); }
@@ -52,17 +49,18 @@ struct Explanation {
   std::vector<ExplainedModel> models;
   std::size_t best = 0;              ///< the last one accepted
   double unexplained = 0.3;          ///< share of the first misfit beyond noise that may be left
-  OrderedJson force;                 ///< force.json; null: none was sought
+  std::string force = "null";        ///< force.json; "null": none was sought
   std::vector<std::string> failure;  ///< where the model as given fails, as comparison.json says
   std::optional<Gain> held_out;      ///< of the best model against the one as given
   std::vector<ExplainedStep> steps;
 };
 
-/// Entries of `effects` that a diagnosis accepted: of the model, or errors of the data.
-OrderedJson accepted_effects(const OrderedJson& diagnosis, bool of_data);
+/// The entries of `effects` that a diagnosis accepted, of the model or errors of the data: JSON of JSON.
+std::string accepted_effects(const std::string& diagnosis, bool of_data);
 
-/// Whether what a diagnosis leaves is small against what the model as given left: within `unexplained` of it, or noise.
-bool is_explained(const Explanation& explanation, const OrderedJson& diagnosis);
+/// Whether what a diagnosis (diagnosis.json) leaves is small against what the model as given left: within `unexplained`
+/// of it, or noise.
+bool is_explained(const Explanation& explanation, const std::string& diagnosis);
 
 /// missing, nothing_missing, ambiguous, not_in_catalogue or undecided: of the whole path.
 std::string verdict_of(const Explanation& explanation);

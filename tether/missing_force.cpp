@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/base/csv.hpp"
@@ -14,7 +15,7 @@ namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = OrderedJson;
+using Json = nlohmann::ordered_json;
 
 constexpr int knots = 24;              ///< of a traction over a run
 constexpr double of_pulse = 0.25;      ///< a traction's deviation, over the range of the blood's pressure
@@ -146,7 +147,7 @@ std::vector<Overlay::Value> MissingForce::with_tractions() {
   return values;
 }
 
-Json MissingForce::law_of_traction(const Traction& traction, const StoredRun& run) const {
+std::string MissingForce::law_of_traction(const Traction& traction, const StoredRun& run) const {
   const auto n = static_cast<Eigen::Index>(traction.time.size());
   const LumenSurface& lumen = given_.lumen;
   const Points normals = nodal_normals(lumen);
@@ -179,17 +180,18 @@ Json MissingForce::law_of_traction(const Traction& traction, const StoredRun& ru
   Json terms = Json::array();
   for (const LawTerm& term : law.terms)
     terms.push_back({{"term", term.name}, {"coefficient", term.coefficient}, {"deviation", term.deviation}});
-  return {{"text", law.formula()}, {"terms", terms}, {"r2", law.explained}, {"is_expression", law.is_expression}};
+  return Json{{"text", law.formula()}, {"terms", terms}, {"r2", law.explained}, {"is_expression", law.is_expression}}
+      .dump();
 }
 
-Json MissingForce::laws() const {
+std::string MissingForce::laws() const {
   const StoredRun run(folder_ / "run");
   const std::string unit = given_.file.units().symbol(dimension::pressure);
   Json json{{"regions", Json::array()}, {"sentences", Json::array()}};
   std::vector<Overlay::Value> values = values_;
   bool any = false;
   for (const Traction& traction : tractions_) {
-    const Json law = law_of_traction(traction, run);
+    const Json law = Json::parse(law_of_traction(traction, run));
     const auto [low, high] = std::minmax_element(traction.value.begin(), traction.value.end());
     const bool has_law = !law["terms"].empty();
     json["sentences"].push_back(
@@ -216,7 +218,7 @@ Json MissingForce::laws() const {
   if (any)
     write_overlay(folder_ / "suggested.yaml", {given_.file.path(), common.name + "_with_law",
                                                common.title + ", with laws suggested for a missing force", values});
-  return json;
+  return json.dump(1);
 }
 
 }  // namespace tether

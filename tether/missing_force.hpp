@@ -21,16 +21,17 @@ class MissingForce {
   /// FOLDER/walk/estimate.csv.
   std::vector<Overlay::Value> with_tractions();
 
-  /// force.json: tractions over time and their laws, from the motion of the run in FOLDER/run; and writes
+  /// The text of force.json: tractions over time and their laws, from the motion of the run in FOLDER/run; and writes
   /// FOLDER/suggested.yaml, the case with those laws that a formula can state.
-  OrderedJson laws() const;
+  std::string laws() const;
 
  private:
   struct Traction {
     std::string region, name;  ///< of the wall, empty: all of it; of the effect and its parameter
     std::vector<double> time, value, lower, upper;
   };
-  OrderedJson law_of_traction(const Traction& traction, const StoredRun& run) const;
+  /// JSON.
+  std::string law_of_traction(const Traction& traction, const StoredRun& run) const;
   double prior_deviation() const;
 
   const DiagnosedCase& given_;
