@@ -131,11 +131,17 @@ class Collector {
     const std::string before = given->at("name");
     take_run(best == given ? before : "before: " + before, given->at("run"));
     if (best != given) take_run("after: " + best->at("name").get<std::string>(), best->at("run"));
-    if (const Json& force = explain.value("missing_force", Json()); force.is_string())
-      document_["force"] = read_json(folder_ / force.get<std::string>());
+    if (const Json& force = explain.value("missing_force", Json()); force.is_string()) take_force(force);
     case_file_ = folder_ / given->at("case").get<std::string>();
     introduce("explain", explain);
     document_["explain"] = explain;
+  }
+
+  /// A force without a law, and the model with it.
+  void take_force(const std::string& name) {
+    document_["force"] = read_json(folder_ / name);
+    const fs::path run = fs::path(name).parent_path() / "run";
+    if (fs::exists(folder_ / run / "comparison.json")) take_run("with the force that is missing", run.string());
   }
 
   /// What the whole is called and what it says.

@@ -1,13 +1,15 @@
 "use strict";
 // How far model and data are apart: per region over all frames, and per region and moment.
 
+/** Of the model as given, the best one, and that with a force without a law. */
+const runColour = (i, count) => (count === 1 ? "var(--after)" : ["var(--before)", "var(--after)", "var(--noise)"][i]);
 const allRegions = (group) => group.region === null;
 const regionLabel = (group) => (allRegions(group) ? "whole wall" : words(group.region));
 
 /** "0.38 mm · 2.5 σ" */
 function distanceText(group, mm, key = "l2") {
   const noise = group.in_noise ? ` · ${fixed(group.in_noise[key], 1)} σ` : "";
-  return `${fixed(mm * group[key], 2)} mm${noise}`;
+  return `${millimetres(mm * group[key])} mm${noise}`;
 }
 
 /** The group of another run, of the same region. */
@@ -21,13 +23,13 @@ function errorRows(sources, runs, kind) {
       const mm = runs[i].mm;
       return {
         value: mm * group.l2,
-        colour: i === 0 && runs.length > 1 ? "var(--before)" : "var(--after)",
+        colour: runColour(i, runs.length),
         text: distanceText(group, mm),
         tip: `${regionLabel(group)}, ${runs[i].label}\nroot mean square ${distanceText(group, mm)}\nmean, signed ${distanceText(group, mm, "mean")}\n95 % of the wall below ${distanceText(group, mm, "p95")}\nlargest ${distanceText(group, mm, "linf")}\n${group.samples} places`,
       };
     }).filter(Boolean);
     const own = first.apparent && isNumber(first.apparent.l2) ? runs[0].mm * first.apparent.l2 : null;
-    return { name: regionLabel(first), bars, mark: own === null ? null : { value: own, tip: `The vessel's own motion in these images: ${fixed(own, 2)} mm. A model that never moved would be off by this much.` } };
+    return { name: regionLabel(first), bars, mark: own === null ? null : { value: own, tip: `The vessel's own motion in these images: ${millimetres(own)} mm. A model that never moved would be off by this much.` } };
   });
 }
 
@@ -49,7 +51,7 @@ function errorSection(runs) {
   const sources = runs[0].comparison.sources;
   if (!sources.length) return null;
   const keys = legend([
-    ...runs.map((run, i) => ({ text: run.label, mark: "bar", colour: i === 0 && runs.length > 1 ? "var(--before)" : "var(--after)" })),
+    ...runs.map((run, i) => ({ text: run.label, mark: "bar", colour: runColour(i, runs.length) })),
     { text: "motion of the vessel in the images (yardstick)", mark: "rule", colour: "var(--yardstick)" },
     sources.some((s) => s.noise.deviation > 0) ? { text: "noise of the measurement, 1 σ", mark: "dashed", colour: "var(--noise)" } : null,
   ]);

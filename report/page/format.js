@@ -47,6 +47,8 @@ function number(x, digits = 3) {
 /** So many places behind the point. */
 const fixed = (x, places) => (isNumber(x) ? minus(x.toFixed(places)).replace(/^−(0(?:\.0*)?)$/, "$1") : "–");
 const signed = (x, places) => (isNumber(x) ? (x > 0 && Number(x.toFixed(places)) > 0 ? "+" : "") + fixed(x, places) : "–");
+/** A length in mm: two places, three below a tenth. */
+const millimetres = (x) => fixed(x, Math.abs(x) < 0.0995 ? 3 : 2);
 const percent = (x) => (isNumber(x) ? minus(String(Math.round(100 * x))) + " %" : "–");
 const withUnit = (text, unit) => (unit && unit !== "1" ? `${text} ${unit}` : text);
 const powerOfTen = (exponent) => `10${[...String(exponent)].map((c) => superscripts[c]).join("")}`;
@@ -58,8 +60,8 @@ function interval(a) {
   return withUnit(`${value} (${lower} … ${upper})${common ? ` × ${powerOfTen(common)}` : ""}`, unitText(a.unit));
 }
 /** A sentence of the results as people write numbers, units and names. */
-const prose = (sentence) => sentence.replace(/(\d)e([+-]?)0*(\d+)/g, (all, digit, sign, power) => `${digit} × ${powerOfTen((sign === "-" ? "-" : "") + power)}`)
-  .replace(/\(([a-z]+[a-z0-9 ]*)\)|(?<=[0-9⁰¹²³⁴⁵⁶⁷⁸⁹] )[a-z]+[0-9]?\/(?:[a-z0-9]+|\([a-z0-9 ]+\))/gi, (unit) => unitText(unit)).replace(/_/g, " ").replace(/ \.\. /g, " … ");
+const prose = (sentence) => sentence.replace(/(\d)e([+-]?)0*(\d+)/g, (all, digit, sign, power) => `${digit}\u00a0×\u00a0${powerOfTen((sign === "-" ? "-" : "") + power)}`)
+  .replace(/\(([a-z]+[a-z0-9 ]*)\)|(?<=[0-9⁰¹²³⁴⁵⁶⁷⁸⁹] )[a-z]+[0-9]?\/(?:[a-z0-9]+|\([a-z0-9 ]+\))/gi, (unit) => unitText(unit)).replace(/_/g, " ").replace(/ \.\. /g, " … ").replace(/(^|[ (])-(?=\d)/g, "$1−");
 /** Powers in a unit: "g/(cm2 s2)" as people write it. */
 const unitText = (unit) => (unit || "").replace(/([a-zA-Z])(-?\d)/g, (all, letter, power) => letter + [...power].map((c) => superscripts[c]).join(""));
 const words = (name) => String(name ?? "").replace(/_/g, " ");

@@ -22,9 +22,9 @@ function pathChart(models, mm, noise) {
       const kept = models.map((m, i) => [m, i]).filter(([m]) => m[kind]);
       svg.append(shape("path", { d: pathOf(kept.filter(([m]) => m.accepted).map(([m, i]) => [x(i), y(mm * m[kind].l2)])), fill: "none", stroke: colour, "stroke-width": 2 }));
       for (const [m, i] of kept) {
-        const tip = `${modelName(m)}\n${kind === "held_out" ? "held-out" : "training"} frames: ${fixed(mm * m[kind].l2, 2)} mm${isNumber(m[kind].in_noise) ? ` · ${fixed(m[kind].in_noise, 1)} σ` : ""}${m.accepted ? "" : `\nrejected: ${m.reason}`}`;
+        const tip = `${modelName(m)}\n${kind === "held_out" ? "held-out" : "training"} frames: ${millimetres(mm * m[kind].l2)} mm${isNumber(m[kind].in_noise) ? ` · ${fixed(m[kind].in_noise, 1)} σ` : ""}${m.accepted ? "" : `\nrejected: ${m.reason}`}`;
         svg.append(shape("circle", { cx: x(i), cy: y(mm * m[kind].l2), r: 5.5, fill: m.accepted ? colour : "var(--card)", stroke: colour, "stroke-width": 2, tip }));
-        if (kind === "held_out" || !m.held_out) svg.append(label(x(i) + 10, y(mm * m[kind].l2) - 8, fixed(mm * m[kind].l2, 2), { class: "strong" }));
+        if (kind === "held_out" || !m.held_out) svg.append(label(x(i) + 10, y(mm * m[kind].l2) - 8, millimetres(mm * m[kind].l2), { class: "strong" }));
       }
     }
     models.forEach((m, i) => svg.append(label(x(i), bottom + 18, `model ${m.number}`, { "text-anchor": "middle", class: "strong" }), label(x(i), bottom + 34, m.accepted ? "" : "rejected", { "text-anchor": "middle" })));
@@ -40,7 +40,7 @@ function addedText(added) {
 }
 
 function modelRow(model, mm) {
-  const distance = (d) => (d ? [`${fixed(mm * d.l2, 2)} mm`, isNumber(d.in_noise) ? element("div", { class: "minor" }, `${fixed(d.in_noise, 1)} σ`) : null] : "–");
+  const distance = (d) => (d ? [`${millimetres(mm * d.l2)} mm`, isNumber(d.in_noise) ? element("div", { class: "minor" }, `${fixed(d.in_noise, 1)} σ`) : null] : "–");
   const gain = model.held_out_gain;
   return element("tr", {}, element("td", {}, element("span", { class: "name" }, modelName(model)), element("div", { class: "minor" }, model.case || "")),
     element("td", { class: "amount" }, (model.added || []).length ? model.added.map(addedText) : "–"),

@@ -11,7 +11,7 @@ const verdictChips = {
 const kindNames = { explain: "explanation", comparison: "comparison", diagnosis: "diagnosis", estimate: "identification" };
 
 /** Without the shouted first word, which the chip says. */
-const plain = (sentence) => sentence.replace(/^(MISSING|NOTHING MISSING|NOT IN THE CATALOGUE|AMBIGUOUS|UNDECIDED): /, "").replace(/^[a-z](?![^ ]*_)/, (c) => c.toUpperCase()).replace(/^.*$/s, prose);
+const plain = (sentence) => sentence.replace(/^(MISSING|NOTHING MISSING|NOT IN THE CATALOGUE|AMBIGUOUS|UNDECIDED): /, "").replace(/^.*$/s, prose).replace(/^[a-z]/, (c) => c.toUpperCase());
 
 /** The first sentence large; the list of what cannot be told apart as a list. */
 function headline(first, verdict) {
@@ -37,13 +37,13 @@ function tiles(report) {
   const all = [];
   const wholes = (kind) => report.runs.map((run) => ({ run, group: run.comparison.sources.length ? run.comparison.sources[0][kind].all_frames.find(allRegions) : null })).filter((w) => w.group && isNumber(w.group.l2));
   for (const [kind, name] of [["held_out", "Distance, held-out frames"], ["training", "Distance, training frames"]]) {
-    const found = wholes(kind);
+    const found = wholes(kind).slice(0, 2);
     if (!found.length) continue;
-    const texts = found.map((w) => fixed(w.run.mm * w.group.l2, 2)), sigmas = found.filter((w) => w.group.in_noise).map((w) => fixed(w.group.in_noise.l2, 1));
-    all.push(tile(name, [change(texts[0], texts.length > 1 ? texts.at(-1) : null), " mm"].flat(), sigmas.length ? `${sigmas.join(" → ")} σ of noise` : ""));
+    const texts = found.map((w) => millimetres(w.run.mm * w.group.l2)), sigmas = found.filter((w) => w.group.in_noise).map((w) => fixed(w.group.in_noise.l2, 1));
+    all.push(tile(name, [change(texts[0], texts.length > 1 ? texts.at(-1) : null), " mm"].flat(), sigmas.length ? `${sigmas.join(" → ")} σ of noise${found.length > 1 && found[1].run.folder.startsWith("force") ? ", with the missing force" : ""}` : ""));
   }
   const own = wholes("training")[0];
-  if (own && own.group.apparent && isNumber(own.group.apparent.l2)) all.push(tile("Motion in the images", `${fixed(own.run.mm * own.group.apparent.l2, 2)} mm`, "the yardstick"));
+  if (own && own.group.apparent && isNumber(own.group.apparent.l2)) all.push(tile("Motion in the images", `${millimetres(own.run.mm * own.group.apparent.l2)} mm`, "the yardstick"));
   const diagnosis = report.diagnoses.length ? report.diagnoses[0].diagnosis : null;
   if (diagnosis && diagnosis.effects) all.push(tile("Candidates tried", String(diagnosis.effects.length), isNumber(diagnosis.independent_data) ? `on ${number(diagnosis.independent_data, 3)} independent data` : ""));
   const cost = report.explain ? report.explain.cost : diagnosis ? diagnosis.cost : null;

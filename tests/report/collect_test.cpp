@@ -103,12 +103,14 @@ TEST_F(Collect, AnExplanation) {
   write("diagnosis_0/diagnosis.json", diagnosis);
   write("identification_1/estimate.json", estimate);
   write("force/force.json", R"({"regions": []})");
+  write("force/run/comparison.json", comparison);
   const Json report = document();
   EXPECT_EQ(report["kind"], "explain");
   EXPECT_EQ(report["explain"], Json::parse(explain)) << "as it is";
-  ASSERT_EQ(report["runs"].size(), 2U) << "before, and the best";
+  ASSERT_EQ(report["runs"].size(), 3U) << "before, the best, and with what is still missing";
   EXPECT_EQ(report["runs"][0]["label"], "before: as given");
   EXPECT_EQ(report["runs"][1]["label"], "after: with x");
+  EXPECT_EQ(report["runs"][2]["folder"], "force/run");
   EXPECT_EQ(report["diagnoses"][0]["label"], "model 0");
   EXPECT_EQ(report["estimates"][0]["label"], "model 1");
   EXPECT_TRUE(report["estimates"][0]["over_time"].is_null()) << "there is no table";
