@@ -17,13 +17,13 @@ std::string file_content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-namespace {
-
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
+
+namespace {
 
 MeshFile read_by_extension(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
@@ -70,14 +70,21 @@ void drop_unused_nodes(MeshFile& mesh) {
   }
 }
 
+void check_coordinates(const MeshFile& mesh) {
+  for (Eigen::Index node = 0; node < mesh.points.cols(); ++node)
+    if (const auto x = mesh.points.col(node); !x.allFinite())
+      throw input_error("{}: the point ({}, {}, {}) has a coordinate that is not a finite number", mesh.name, x[0],
+                        x[1], x[2]);
+}
+
 }  // namespace
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (!std::ifstream(path)) throw input_error("{}: cannot be opened", path.string());
   MeshFile mesh = read_by_extension(path);
   drop_unused_nodes(mesh);
+  check_coordinates(mesh);
   turn_prisms(mesh);
-  if (!mesh.points.allFinite()) throw input_error("{}: a coordinate is not a finite number", path.string());
   return mesh;
 }
 

@@ -1,6 +1,12 @@
 #include "common/io/pvd.hpp"
 
-#include <cstdlib>
+#include <vtkObject.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <charconv>
+#include <cmath>
 #include <fstream>
 
 #include "common/base/error.hpp"
@@ -9,28 +15,47 @@ namespace tether {
 
 namespace {
 
-/// The value of name="value" in a line; empty if it is not there.
-std::string attribute(const std::string& line, const std::string& name) {
-  const std::size_t found = line.find(' ' + name + "=\"");
-  if (found == std::string::npos) return {};
-  const std::size_t start = found + name.size() + 3;
-  return line.substr(start, line.find('"', start) - start);
+using Element = vtkSmartPointer<vtkXMLDataElement>;
+
+/// The root of an XML file; null if it is none.
+Element root_of(const std::filesystem::path& path) {
+  vtkObject::GlobalWarningDisplayOff();  // errors are reported by exceptions
+  return Element::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+}
+
+/// Of the DataSet with that number (from 0).
+std::string attribute(vtkXMLDataElement& element, const char* name, const std::filesystem::path& path, int number) {
+  const char* value = element.GetAttribute(name);
+  if (value == nullptr || *value == '\0')
+    throw input_error("{}: DataSet {} (from 0) states no {}", path.string(), number, name);
+  return value;
+}
+
+double time_of(vtkXMLDataElement& element, const std::filesystem::path& path, int number) {
+  const std::string text = attribute(element, "timestep", path, number);
+  double time = 0;
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, time);
+  if (error != std::errc{} || last != end || !std::isfinite(time))
+    throw input_error("{}: DataSet {} (from 0): timestep: '{}' is not a number", path.string(), number, text);
+  return time;
 }
 
 }  // namespace
 
 PvdSeries PvdSeries::resumed(std::filesystem::path path, double last_time) {
   PvdSeries series(path);
-  std::ifstream file(path);
-  if (!file) return series;
-  bool is_collection = false;
-  for (std::string line; std::getline(file, line);) {
-    is_collection = is_collection || attribute(line, "type") == "Collection";
-    if (line.find("<DataSet") == std::string::npos) continue;
-    const double time = std::strtod(attribute(line, "timestep").c_str(), nullptr);
-    if (time <= last_time) series.entries_.emplace_back(time, attribute(line, "file"));
+  if (!std::filesystem::exists(path)) return series;
+  const Element root = root_of(path);
+  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (collection == nullptr) throw input_error("{}: is not a ParaView collection", path.string());
+  for (int i = 0, number = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement& element = *collection->GetNestedElement(i);
+    if (std::string_view(element.GetName()) != "DataSet") continue;
+    const double time = time_of(element, path, number);
+    if (time <= last_time) series.entries_.emplace_back(time, attribute(element, "file", path, number));
+    ++number;
   }
-  if (!is_collection) throw input_error("{}: is not a ParaView collection", path.string());
   return series;
 }
 

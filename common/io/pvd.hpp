@@ -13,7 +13,7 @@ class PvdSeries {
   /// A new, empty series; nothing is written before the first `add`.
   explicit PvdSeries(std::filesystem::path path) : path_(std::move(path)) {}
   /// The series found at `path`, cut after `last_time`; empty if there is none. Throws InputError if the file is no
-  /// series.
+  /// series, or one of its entries has no time or no file.
   static PvdSeries resumed(std::filesystem::path path, double last_time);
 
   /// file: as seen from the series' folder. Throws RunError if the series cannot be written.

@@ -1,7 +1,9 @@
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPLYReader.h>
@@ -26,9 +28,15 @@ using Data = vtkSmartPointer<vtkPointSet>;
 template <class Reader>
 Data read_with(const std::filesystem::path& path) {
   vtkNew<Reader> reader;
+  bool failed = false;  // many errors, as of a word among numbers, have no code
+  vtkNew<vtkCallbackCommand> note;
+  note->SetClientData(&failed);
+  note->SetCallback([](vtkObject*, unsigned long, void* data, void*) { *static_cast<bool*>(data) = true; });
+  reader->AddObserver(vtkCommand::ErrorEvent, note);
   reader->SetFileName(path.c_str());
   reader->Update();
-  if (reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr || reader->GetOutput()->GetNumberOfPoints() == 0)
+  if (failed || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr ||
+      reader->GetOutput()->GetNumberOfPoints() == 0)
     throw input_error("{}: is not a readable VTK file of its kind, or has no points", path.string());
   return reader->GetOutput();
 }
@@ -42,10 +50,12 @@ Data read_legacy(const std::filesystem::path& path) {
 }
 
 Data read(const std::filesystem::path& path) {
-  vtkObject::GlobalWarningDisplayOff();  // errors are reported by exceptions
-  if (path.extension() == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path);
-  if (path.extension() == ".vtp") return read_with<vtkXMLPolyDataReader>(path);
-  if (path.extension() == ".ply") return read_with<vtkPLYReader>(path);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // errors are reported by exceptions
+  vtkObject::GlobalWarningDisplayOn();                      // else no observer hears of them
+  const std::string extension = lower_case(path.extension().string());
+  if (extension == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path);
+  if (extension == ".vtp") return read_with<vtkXMLPolyDataReader>(path);
+  if (extension == ".ply") return read_with<vtkPLYReader>(path);
   return read_legacy(path);
 }
 
@@ -58,12 +68,19 @@ class CellSorter {
     vtkNew<vtkIdList> nodes;
     for (vtkIdType cell = 0; cell < data_.GetNumberOfCells(); ++cell) {
       data_.GetCellPoints(cell, nodes);
+      check_nodes(cell, *nodes);
       add(cell, data_.GetCellType(cell), *nodes);
     }
     return std::move(triangle_cells_);
   }
 
  private:
+  void check_nodes(vtkIdType cell, vtkIdList& list) const {
+    for (vtkIdType i = 0; i < list.GetNumberOfIds(); ++i)
+      if (const vtkIdType node = list.GetId(i); node < 0 || node >= data_.GetNumberOfPoints())
+        throw input_error("{}: cell {} (from 0) names point {}: the file has {}, numbered from 0", mesh_.name, cell,
+                          node, data_.GetNumberOfPoints());
+  }
   void add(vtkIdType cell, int type, vtkIdList& list) {
     const auto node = [&](vtkIdType i) { return static_cast<int>(list.GetId(i)); };
     if (type == VTK_TETRA) {

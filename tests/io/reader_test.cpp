@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "common/base/error.hpp"
 #include "common/io/faces.hpp"
@@ -13,7 +14,15 @@ namespace tether {
 namespace {
 
 void expect_part(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_NE(text.find(part), std::string::npos) << text << "\nhas not: " << part;
+}
+
+/// A surface of three points and one triangle.
+std::string ply(const std::string& nodes) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+         "1\n"
+         "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 " +
+         nodes + "\n";
 }
 
 TEST(Gmsh, AllVersionsGiveTheSameBox) {
@@ -125,6 +134,30 @@ TEST(Stl, MistakesAreNamed) {
   expect_part(message("solid x\nvertex 0 0\n"), "bad.stl:2: three coordinates");
   expect_part(message("solid x\nvertex 0 0 0\n"), "the last facet has 1 corners");
   expect_part(message("solid x\nendsolid\n"), "holds no triangle");
+  expect_part(message("solid x\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"),
+              "bad.stl: ends without \"endsolid\": cut short?");
+}
+
+TEST(Stl, ABinaryFileCutShortOrWithoutANumberIsNamed) {
+  const TemporaryFolder folder;
+  std::string content = binary_stl(box_mesh({1, 1, 1}, {1, 1, 1}));
+  const auto message = [&] { return message_of([&] { read_mesh_file(folder.file("box.stl", content)); }); };
+  const std::string whole = content;
+  content.resize(content.size() - 20);
+  expect_part(message(), fmt::format("12 facets take {} bytes, it has {}: cut short?", whole.size(), content.size()));
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    content = whole;
+    std::memcpy(content.data() + 84 + 3 * 50 + 12 + 4, &bad, sizeof bad);  // y of the first corner of facet 3
+    expect_part(message(), "box.stl: facet 3 (from 0) has a corner (");
+    expect_part(message(), fmt::format(", {}, ", bad));
+  }
+}
+
+TEST(ReadMeshFile, KnowsExtensionsInCapitals) {
+  const TemporaryFolder folder;
+  const BoxMesh box = box_mesh({1, 1, 1}, {1, 1, 1});
+  EXPECT_EQ(read_mesh_file(folder.file("BOX.STL", binary_stl(box))).triangles.size(), 12U);
+  EXPECT_EQ(read_mesh_file(folder.file("A.PLY", ply("0 1 2"))).triangles.size(), 1U);
 }
 
 TEST(Vtk, LegacyFilesAreRead) {
@@ -140,6 +173,41 @@ TEST(Vtk, LegacyFilesAreRead) {
   const MeshFile surface =
       read_mesh_file(folder.file("surface.vtk", head + "DATASET POLYDATA\n" + points + "POLYGONS 1 5\n4 0 1 2 3\n"));
   EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Vtk, ACellThatNamesNoPointIsNamed) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& name, const std::string& content) {
+    return message_of([&] { read_mesh_file(folder.file(name, content)); });
+  };
+  EXPECT_EQ(message("good.ply", ply("0 1 2")), "accepted");
+  expect_part(message("a.ply", ply("0 1 99")),
+              "a.ply: cell 0 (from 0) names point 99: the file has 3, numbered from 0");
+  expect_part(message("a.ply", ply("0 -1 2")), "a.ply: cell 0 (from 0) names point -1");
+  const auto vtp = [](const std::string& nodes) {
+    return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\"3\" "
+           "NumberOfPolys=\"2\"><Points>"
+           "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+           "0</DataArray></Points>"
+           "<Polys><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 " +
+           nodes +
+           "</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray></Polys></Piece>"
+           "</PolyData></VTKFile>\n";
+  };
+  EXPECT_EQ(message("good.vtp", vtp("2 1 0")), "accepted");
+  expect_part(message("a.vtp", vtp("0 1 7000000")), "a.vtp: cell 1 (from 0) names point 7000000: the file has 3");
+  expect_part(message("a.vtk",
+                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0 1 "
+                      "0 0 0 1 0\nCELLS 1 4\n3 0 1 3\nCELL_TYPES 1\n5\n"),
+              "a.vtk: cell 0 (from 0) names point 3: the file has 3");
+  expect_part(message("word.vtk",
+                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 none 0 1 0\n"
+                      "POLYGONS 1 4\n3 0 1 2\n"),
+              "word.vtk: is not a readable VTK file of its kind");
+  std::string without = ply("0 1 2");
+  without.replace(without.find("\n1 0 0\n"), 7, "\n1 0 nan\n");
+  expect_part(message("nan.ply", without),
+              "nan.ply: the point (1, 0, nan) has a coordinate that is not a finite number");
 }
 
 TEST(Vtk, MistakesAreNamed) {

@@ -71,5 +71,28 @@ TEST(PvdSeries, GrowsAndIsCutOnResuming) {
   EXPECT_THROW(PvdSeries::resumed(folder.file("wrong.pvd", "hello"), 1), InputError);
 }
 
+/// As other programs write them: on one line, over several, in single quotes.
+TEST(PvdSeries, IsReadAsXml) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("a.pvd",
+                                "<VTKFile type='Collection'><Collection><DataSet timestep='0' file='a.vtp'/><DataSet "
+                                "timestep=\"0.5\"\n part=\"0\"\n file=\"b &amp; c.vtp\"/><!-- <DataSet/> -->"
+                                "</Collection></VTKFile>");
+  EXPECT_EQ(PvdSeries::resumed(path, 1).entries(),
+            (std::vector<std::pair<double, std::string>>{{0, "a.vtp"}, {0.5, "b & c.vtp"}}));
+  const auto message = [&](const std::string& entry) {
+    const auto bad =
+        folder.file("b.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"a\"/>" + entry +
+                                 "</Collection></VTKFile>");
+    const std::string text = message_of([&] { PvdSeries::resumed(bad, 1); });
+    return text.substr(std::min(text.size(), text.find("b.pvd")));
+  };
+  EXPECT_EQ(message("<DataSet timestep=\"1s\" file=\"a\"/>"),
+            "b.pvd: DataSet 1 (from 0): timestep: '1s' is not a number");
+  EXPECT_EQ(message("<DataSet file=\"a\"/>"), "b.pvd: DataSet 1 (from 0) states no timestep");
+  EXPECT_EQ(message("<DataSet timestep=\"1\"/>"), "b.pvd: DataSet 1 (from 0) states no file");
+  EXPECT_EQ(message("<DataSet"), "b.pvd: is not a ParaView collection");
+}
+
 }  // namespace
 }  // namespace tether
