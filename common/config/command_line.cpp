@@ -1,6 +1,7 @@
 #include "common/config/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -32,6 +33,18 @@ struct Typed {
   std::string describe_format;
 };
 
+/// "--steps: 0: must be a whole number, at least 1"
+CLI::Validator whole_and_positive() {
+  return {[](const std::string& text) {
+            int number = 0;
+            const char* end = text.data() + text.size();
+            const auto [last, error] = std::from_chars(text.data(), end, number);
+            const bool fits = error == std::errc{} && last == end && number >= 1;
+            return fits ? std::string() : text + ": must be a whole number, at least 1";
+          },
+          "", "whole and positive"};
+}
+
 void add_options(CLI::App& app, const Program& program, Typed& typed) {
   CommandLine& c = typed.command;
   app.add_option("case", c.case_file, "the case file")->type_name("CASE.yaml");
@@ -45,10 +58,10 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
   if (program.list_effects)
     app.add_flag("--list-effects", c.list_effects, "list what could be added to the case, as JSON");
   app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
-  app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(CLI::PositiveNumber);
+  app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(whole_and_positive());
   app.add_option("--processes", c.processes, "processes to share the work between")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_and_positive());
   if (!program.roles.empty()) {
     c.role = program.roles.front();
     app.add_option("--role", c.role, "what it is to its master (default " + c.role + ")")

@@ -52,6 +52,17 @@ TEST(CommandLine, HandsOverWhatWasTyped) {
   EXPECT_TRUE(typed.resume && typed.quiet && !typed.overwrite && !typed.validate);
 }
 
+TEST(CommandLine, NamesANumberOfStepsThatIsNone) {
+  const std::string file = write_file("case.yaml", valid_head).string();
+  for (const char* number : {"0", "-3", "1.5", "x"}) {
+    const Outcome end = run({file, std::string("--steps=") + number}, never);
+    EXPECT_EQ(end.code, exit_input_wrong);
+    EXPECT_NE(end.err.find(std::string("--steps: ") + number + ": must be a whole number, at least 1"),
+              std::string::npos)
+        << end.err;
+  }
+}
+
 TEST(CommandLine, TellsWrongInputFromAFailedRun) {
   const std::string file = write_file("case.yaml", valid_head).string();
   const auto input = run({file}, [](const CommandLine&) -> int { throw InputError("case.yaml:3: no"); });
