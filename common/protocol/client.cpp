@@ -17,7 +17,8 @@ static_assert(TETHER_SET_PARAMETERS == kind<SetParameters> && TETHER_GET_STATE =
               TETHER_FLUID_EVALUATE == kind<FluidEvaluate> && TETHER_FLUID_TANGENT == kind<FluidTangent> &&
               TETHER_SOLID_EVALUATE == kind<SolidEvaluate> && TETHER_SOLID_TANGENT == kind<SolidTangent> &&
               TETHER_SOLID_RESIDUAL == kind<SolidResidual> && TETHER_SOLID_PRODUCT == kind<SolidProduct> &&
-              TETHER_SOLID_PRECONDITION == kind<SolidPrecondition> && TETHER_OBSERVE == kind<Observe>);
+              TETHER_SOLID_PRECONDITION == kind<SolidPrecondition> && TETHER_OBSERVE == kind<Observe> &&
+              TETHER_GET_VELOCITY == kind<GetVelocity>);
 static_assert(TETHER_NO_COMMUNICATOR == no_communicator && TETHER_ALL_PROCESSES == all_processes);
 
 thread_local std::string last_error;
@@ -112,6 +113,7 @@ struct Fill {
     request.time = m.time;
     request.values = view(m.points);
   }
+  void operator()(const GetVelocity& m) const { request.values = view(m.points); }
   template <class Other>
   void operator()(const Other&) const {}
 };
@@ -180,6 +182,9 @@ struct CheckSizes {
   void operator()(const SolidPrecondition& m) const {
     require("residual", m.residual, static_cast<std::size_t>(hello.unknowns));
   }
+  void operator()(const GetVelocity& m) const {
+    if (m.points.size() % 3 != 0) throw input_error("{} numbers are not three a point", m.points.size());
+  }
   void operator()(const SetParameters& m) const {
     require("parameter values", m.values, m.names.size());
     for (const auto& name : m.names)
@@ -197,7 +202,7 @@ struct CheckSizes {
 /// Whether a role has to do with a request; a role that is not ours gets them all.
 bool concerns(const std::string& role, const Packet& packet) {
   const auto in = [&packet]<class... Requests>(std::variant<Requests...>*) { return (holds<Requests>(packet) || ...); };
-  if (role == "fluid") return in(static_cast<ToFluid*>(nullptr));
+  if (role == "fluid") return in(static_cast<ToFluid*>(nullptr)) || holds<GetVelocity>(packet);
   if (role == "solid") return in(static_cast<ToSolid*>(nullptr));
   return true;
 }

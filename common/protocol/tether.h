@@ -74,7 +74,8 @@ typedef enum {
   TETHER_SOLID_RESIDUAL = 13,      /* values (correction), load             reply: residual, displacement, velocity */
   TETHER_SOLID_PRODUCT = 14,       /* values (direction)                           reply: product */
   TETHER_SOLID_PRECONDITION = 15,  /* values (residual)                            reply: correction */
-  TETHER_OBSERVE = 16              /* time, values (points)                        reply: the seven arrays of Discrepancy */
+  TETHER_OBSERVE = 16,             /* time, values (points)                        reply: the seven arrays of Discrepancy */
+  TETHER_GET_VELOCITY = 21         /* values (points of space, of a fluid)         reply: velocities, NaN outside the lumen */
 } tether_kind;
 
 typedef struct {

@@ -2,6 +2,7 @@
  * Build: mpicc linear_fluid.c -ltether_client. Case file: coupling.programs.fluid: /path/to/linear_fluid */
 #include <math.h>
 #include <mpi.h>
+#include <stdlib.h>
 #include <tether.h>
 
 enum { around = 6, along = 3, n = 3 * around * along };
@@ -29,6 +30,19 @@ static int reply_load(tether_partner* p, double source, const double* v) {
   return tether_reply(p, &(tether_array){load, n}, 1);
 }
 
+/* The velocity anywhere, as measurements of it need it: along the tube, none outside it. A code may leave this out. */
+static int reply_velocity(tether_partner* p, const double* x, int64_t size) {
+  double* v = malloc(size * sizeof *v);
+  for (int64_t i = 0; i < size; i += 3) {
+    const double r2 = x[i] * x[i] + x[i + 1] * x[i + 1];
+    const int inside = r2 < 1 && x[i + 2] >= 0 && x[i + 2] <= 2;
+    v[i] = v[i + 1] = inside ? 0 : NAN, v[i + 2] = inside ? sin(2 * now) * (1 - r2) : NAN;
+  }
+  const int done = tether_reply(p, &(tether_array){v, size}, 1);
+  free(v);
+  return done;
+}
+
 static int answer(tether_partner* p, const tether_request* r) {
   switch (r->kind) {
     case TETHER_GET_STATE: return tether_reply(p, &(tether_array){&now, 1}, 1);
@@ -40,6 +54,7 @@ static int answer(tether_partner* p, const tether_request* r) {
       if (r->accepted) now = next;
       report = 3 * sin(2 * now);
       return tether_reply(p, &(tether_array){&report, 1}, 1);
+    case TETHER_GET_VELOCITY: return reply_velocity(p, r->values.data, r->values.size);
     case TETHER_WRITE: return tether_reply(p, 0, 0);
     default: return tether_fail(p, "linear_fluid does not know this request");
   }

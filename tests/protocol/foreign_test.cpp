@@ -51,6 +51,15 @@ TEST(Foreign, Examples_conform) {
   }
 }
 
+TEST(Foreign, Fluids_in_c_and_python_tell_their_velocity) {
+  const std::string python_fluid = std::string(TETHER_SOURCE) + "/tests/fakes/velocity_fluid.py";
+  for (const std::string& program : {example("linear_fluid"), python_fluid}) {
+    const auto job = run_job({product_program("tether_conform"), program}, python_path);
+    EXPECT_EQ(job.exit_code, 0) << program << "\n" << job.output << job.errors;
+    EXPECT_NE(job.output.find("PASS  tells its velocity inside, and none outside"), std::string::npos) << job.output;
+  }
+}
+
 TEST(Foreign, Python_with_mpi_of_its_own_conforms) {
   const std::string code =
       "import runpy, tether; from mpi4py import MPI; plain = tether.serve; "

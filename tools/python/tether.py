@@ -21,6 +21,7 @@ Arrays of vectors have the shape (nodes, 3). What the class can do is announced 
              Write                       write(step, time)
     fluid    FluidEvaluate               evaluate(displacement, velocity)           forces
              FluidTangent                tangent(velocity_change)                   change of forces
+             GetVelocity                 velocity(points)                           velocities there, NaN outside
     solid    SolidEvaluate               evaluate(load)                             displacement, velocity
              SolidTangent                tangent(load_change)                       changes of both
              SolidResidual               residual(correction, load)                 residual, displacement, velocity
@@ -165,6 +166,7 @@ def _answer(code, r):
         13: lambda: code.residual(r.values.numpy(), _vectors(r.load)),
         14: lambda: code.product(r.values.numpy()),
         15: lambda: code.precondition(r.values.numpy()),
+        21: lambda: code.velocity(_vectors(r.values)),
     }
     return _several(calls[r.kind]())
 
