@@ -9,6 +9,27 @@
 namespace tether {
 namespace {
 
+/// The plane with its first axis along x of the case as far as it can be, along y in a plane across x: pictures of
+/// neighbouring slices look alike, and a person finds the vessel's sides.
+SlicePlane turned(const SlicePlane& plane) {
+  const Vec3 x = std::abs(plane.normal[0]) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 e1 = (x - x.dot(plane.normal) * plane.normal).normalized();
+  const Vec3 e2 = plane.normal.cross(e1);
+  // Seen from the side on which the second axis leads toward larger coordinates.
+  Eigen::Index main = 0;
+  e2.cwiseAbs().maxCoeff(&main);
+  return {plane.origin, e1, e2[main] < 0 ? Vec3(-e2) : e2, e2[main] < 0 ? Vec3(-plane.normal) : plane.normal};
+}
+
+/// "along x [mm]", or "along (0.8, 0, 0.6) [mm]": a direction in the case's coordinates.
+std::string along(const Vec3& axis) {
+  Eigen::Index main = 0;
+  axis.cwiseAbs().maxCoeff(&main);
+  if (axis[main] > 0.99) return fmt::format("along {} [mm]", "xyz"[main]);
+  const Vec3 shown = (100 * axis).array().round().matrix() / 100;
+  return fmt::format("along ({:g}, {:g}, {:g}) [mm]", shown[0] + 0.0, shown[1] + 0.0, shown[2] + 0.0);  // no -0
+}
+
 /// Lines in the plane's coordinates [mm], an empty line between two of them.
 std::string flat(const Lines& lines, const SlicePlane& plane, const UnitSystem& units) {
   std::string text;
@@ -43,9 +64,10 @@ struct Panel {
   }
 };
 
-Panel panel_of(const SliceView& view, const std::string& suffix, const std::vector<std::string>& regions,
+Panel panel_of(SliceView view, const std::string& suffix, const std::vector<std::string>& regions,
                const UnitSystem& units) {
   Panel panel;
+  view.plane = turned(view.plane);
   panel.line("imaged" + suffix, flat(view.imaged, view.plane, units),
              "lines dashtype 2 linecolor '#888888' title 'imaged lumen'");
   panel.line("data" + suffix, flat(view.data, view.plane, units), "lines linewidth 2 linecolor '#000000' title 'data'");
@@ -55,6 +77,9 @@ Panel panel_of(const SliceView& view, const std::string& suffix, const std::vect
     panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, r, units),
                fmt::format("points pointtype 7 pointsize 0.8 linecolor {} title '{}'", r + 2,
                            regions[static_cast<std::size_t>(r)]));
+  if (!panel.plot.empty())
+    panel.plot =
+        fmt::format("set xlabel '{}'\nset ylabel '{}'\n{}", along(view.plane.e1), along(view.plane.e2), panel.plot);
   return panel;
 }
 
@@ -72,7 +97,7 @@ std::map<std::string, std::vector<Panel>> panels_of(const SourceDiscrepancy& sou
                           : moment == moments[0] ? "farthest off"
                                                  : "largest lumen";
       if (!panel.plot.empty())
-        panel.plot = fmt::format("set title '{}, {:.3f} s: {} [mm]'\n{}\n", view.name, moment->time, which, panel.plot);
+        panel.plot = fmt::format("set title '{}, {:.3f} s: {}'\n{}\n", view.name, moment->time, which, panel.plot);
       of_slice.push_back(std::move(panel));
     }
   return panels;
@@ -98,7 +123,8 @@ std::vector<std::string> draw_slices(const DrawnComparison& drawn) {
       std::string text = gnuplot_head(600 * static_cast<int>(panels.size()), 600), plots;
       for (const Panel& panel : panels) text += panel.data, plots += panel.plot;
       text += fmt::format(
-          "set output 'plots/{}.png'\nset size ratio -1\nset key outside bottom horizontal\nset multiplot layout "
+          "set output 'plots/{}.png'\nset size ratio -1\nset key outside bottom center horizontal samplen 2 font "
+          "',10'\nset multiplot layout "
           "1,{}\n{}unset multiplot\n",
           name, panels.size(), plots);
       run_gnuplot(drawn.output, name + ".gp", text);
