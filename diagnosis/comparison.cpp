@@ -7,7 +7,7 @@ namespace tether {
 Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunResults& run) {
   Comparison comparison;
   for (const auto& source : data.lumen) comparison.sources.push_back(compare(*source, region_names, run.motion));
-  for (const Trace& trace : data.traces) comparison.traces.push_back(compare(trace, run.trace(trace.observable)));
+  for (const Trace& trace : data.traces) comparison.traces.push_back(compare(trace, run.trace(trace)));
   Eigen::Index first = 0;
   for (const VelocitySeries& series : data.velocities) {
     comparison.velocities.push_back(compare(series, run.velocity, first));

@@ -27,7 +27,7 @@ struct Comparison {
 /// What is compared of a run.
 struct RunResults {
   RunMotion motion;
-  std::function<RunTrace(const std::string&)> trace;  ///< the column of its table with that name
+  std::function<RunTrace(const Trace&)> trace;  ///< the column of its table that it is compared with
   RunVelocity velocity;
 };
 
@@ -37,9 +37,11 @@ Comparison compare(const Observations& data, const std::vector<std::string>& reg
 /// What a person should know first, one sentence each: that the run is no evidence, where and when it fails.
 std::vector<std::string> sentences_of(const Comparison& comparison);
 
-/// comparison.json and comparison.csv (docs/comparison.md), in the case's units. Throw RunError if they cannot be
-/// written.
+/// comparison.json, comparison.csv and comparison_blood.csv (docs/comparison.md), in the case's units. Throw RunError
+/// if they cannot be written.
 void write_json(const std::filesystem::path& path, const Comparison& comparison);
 void write_csv(const std::filesystem::path& path, const Comparison& comparison);
+/// Traces and velocities.
+void write_blood_csv(const std::filesystem::path& path, const Comparison& comparison);
 
 }  // namespace tether

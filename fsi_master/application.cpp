@@ -111,6 +111,24 @@ void check_velocities(const FlowObservations& data, FluidPartner& fluid, const C
   }
 }
 
+/// Throws InputError if the run will have no column of a measured trace's name and unit: it could not be compared.
+void check_traces(const FlowObservations& data, const std::vector<Column>& columns, const CaseFile& file) {
+  const UnitSystem& units = file.units();
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(column.name);
+  for (const Trace& trace : data.traces) {
+    const std::string where = file.where("observations.traces." + trace.name + ".observable");
+    const auto found = std::find(names.begin(), names.end(), trace.observable);
+    if (found == names.end())
+      throw input_error("{}: the run has no {}; it has: {}", where, trace.observable, fmt::join(names, ", "));
+    const std::string unit = columns[static_cast<std::size_t>(found - names.begin())].unit,
+                      stated = units.symbol(trace.dimension);
+    if (unit != stated)
+      throw input_error("{}: {} is in {}, the measurement in {}: is its quantity right?", where, trace.observable, unit,
+                        stated);
+  }
+}
+
 /// A direct run.
 void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
@@ -121,6 +139,7 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   check_velocities(master.flow, codes.fluid(), master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, codes.size());
+  check_traces(master.flow, simulation.columns(), master.file);
   const auto before = costs(crew, processes);
   simulation.run();
   RunFacts facts{master.file.common().name,

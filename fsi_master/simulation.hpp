@@ -61,6 +61,8 @@ class Simulation {
   const std::vector<FollowedNode>& followed() const { return followed_; }
   std::int64_t first_step() const { return first_step_; }
   const Observer* observer() const { return crew_.observer; }
+  /// Of timeseries.csv.
+  std::vector<Column> columns() const;
 
  private:
   void begin();
@@ -68,7 +70,6 @@ class Simulation {
   void record(std::int64_t step, const StepRecord& record, double seconds);
   void record_fields(double time);
   std::vector<double> row(std::int64_t step, const StepRecord& record) const;
-  std::vector<Column> columns() const;
   void note_fluid(const std::vector<double>& observables);
   void write_files(std::int64_t step);
   void save(std::int64_t step);

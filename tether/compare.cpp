@@ -25,8 +25,14 @@ struct MeasuredCase : ObservedCase {
   Observations data;
 };
 
-RunTrace trace_of(const CsvTable& table, const std::string& column) {
-  return {table.numbers("time"), table.numbers(column), table.unit(column)};
+/// The column that a trace is compared with. Throws InputError if it is in another unit.
+RunTrace trace_of(const CsvTable& table, const Trace& trace, const CaseFile& file) {
+  const std::string unit = table.unit(trace.observable), stated = file.units().symbol(trace.dimension);
+  if (unit != stated)
+    throw input_error("{}: {} is in {}, the measurement in {}: is its quantity right?",
+                      file.where("observations.traces." + trace.name + ".observable"), trace.observable,
+                      unit.empty() ? "1" : unit, stated);
+  return {table.numbers("time"), table.numbers(trace.observable), unit};
 }
 
 /// The velocity that the run recorded, if any was measured.
@@ -42,7 +48,7 @@ Comparison comparison_of(const MeasuredCase& measured, const FinishedRun& run, c
   const CsvTable table(output / "timeseries.csv");
   Comparison comparison = compare(
       measured.data, measured.surface.region_names,
-      {motion, [&table](const std::string& column) { return trace_of(table, column); }, velocity_of(run, measured)});
+      {motion, [&](const Trace& trace) { return trace_of(table, trace, measured.file); }, velocity_of(run, measured)});
   const CommonCase& common = measured.file.common();
   comparison.units = measured.file.units();
   comparison.run = {common.name, common.title, output.string(), run.steps, motion.start, motion.end, run.observer_gain};
@@ -60,7 +66,7 @@ std::vector<std::string> draw(const DrawnComparison& drawn) {
 std::string where_to_look(const fs::path& output, const std::vector<std::string>& pictures) {
   std::string text = fmt::format(
       "In {}:\n  comparison.json    all figures, per source, time, slice and region\n"
-      "  comparison.csv     the same as a table\n",
+      "  comparison.csv     the lumen's as a table; comparison_blood.csv those of traces and velocities\n",
       output.string());
   for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
   return text;
@@ -79,6 +85,7 @@ int compare(const CommandLine& command) {
   const Comparison comparison = comparison_of(measured, run, motion, output);
   write_json(output / "comparison.json", comparison);
   write_csv(output / "comparison.csv", comparison);
+  write_blood_csv(output / "comparison_blood.csv", comparison);
   const auto pictures = draw({comparison, measured.data, measured.surface, motion, output});
   if (!command.quiet) std::cout << text_of(comparison) << where_to_look(output, pictures);
   return exit_done;

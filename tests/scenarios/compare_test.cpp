@@ -125,6 +125,13 @@ TEST_F(Compare, FindsWhatWasDoneToTheDataAndKeepsTheRun) {
   EXPECT_NE(end.output.find("beside an open rim"), std::string::npos) << "the surfaces end where the model does";
   const CsvTable table(output / "comparison.csv");
   EXPECT_EQ(table.rows(), 4U * 5) << "frames times regions, and the whole wall";
+  const CsvTable blood(output / "comparison_blood.csv");
+  EXPECT_EQ(blood.rows(), 1U + json["traces"][0]["values"].get<std::size_t>());
+  EXPECT_EQ(blood.texts("time")[0], "") << "over all times";
+  for (const std::size_t row : {std::size_t{0}, blood.rows() - 1}) {
+    EXPECT_EQ(blood.texts("kind")[row], "trace");
+    EXPECT_NEAR(blood.numbers("bias")[row], higher, 1e-3);
+  }
   for (const char* name : {"comparison_ct.png", "trace_cuff.png", "contours_ct_plane_2.png"})
     EXPECT_GT(fs::file_size(output / "plots" / name), 5000U) << name;
 }
@@ -168,6 +175,11 @@ TEST_F(Compare, RecordsVelocitiesWhereTheyAreMeasured) {
   EXPECT_EQ(pc_mr["moments"].size(), 3U);
   EXPECT_EQ(pc_mr["moments"][0]["points_outside_the_lumen"], 1);
   EXPECT_NE(end.output.find("pc_mr: velocities are 0.1 m/s off in root mean square"), std::string::npos) << end.output;
+  const CsvTable blood(output / "comparison_blood.csv");
+  EXPECT_EQ(blood.rows(), 2U + 3U) << "training and held-out frames, then each of the three";
+  EXPECT_EQ(blood.texts("held_out"), (std::vector<std::string>{"0", "1", "0", "1", "0"}));
+  EXPECT_NEAR(blood.numbers("l2")[3], 10, 1e-6);
+  EXPECT_EQ(blood.numbers("excluded")[2], 1) << "outside the lumen";
   EXPECT_GT(fs::file_size(output / "plots" / "velocity_pc_mr.png"), 5000U);
 }
 
@@ -197,6 +209,28 @@ TEST_F(Compare, SimulatesWhatIsNotThere) {
       << end.output;
   EXPECT_GT(all_frames(comparison()["sources"][0], "held_out", nullptr)["linf"], 1e-5)
       << "another wall moves otherwise";
+}
+
+/// At the start, not after the whole run.
+TEST_F(Compare, RefusesATraceThatTheRunDoesNotHave) {
+  std::ofstream(folder / "p.csv") << "time [s], pressure [mmHg]\n0, 80\n1, 90\n";
+  const std::string text = content_of(run / "case" / "case.yaml");
+  const auto refused = [&](const std::string& observable, const std::string& quantity) {
+    std::string with = text;
+    with.replace(with.find("output:"), 7,
+                 "observations:\n  traces: {cuff: {observable: " + observable + ", quantity: " + quantity +
+                     ", curve: {file: " + (folder / "p.csv").string() + ", value: pressure}}}\n\noutput:");
+    std::ofstream(compared) << with;
+    fs::remove_all(output);
+    const ChildEnd end = compare();
+    EXPECT_EQ(end.exit_code, 2) << end.output;
+    EXPECT_FALSE(fs::exists(output / "summary.json"));
+    return end.errors;
+  };
+  EXPECT_NE(refused("fluid.exit.volume", "pressure").find("the run has no fluid.exit.volume; it has: time, fluid."),
+            std::string::npos);
+  EXPECT_NE(refused("fluid.volume", "pressure").find("fluid.volume is in cm3, the measurement in g/(cm s2)"),
+            std::string::npos);
 }
 
 TEST_F(Compare, NeedsMeasurements) {
