@@ -1,5 +1,8 @@
 #include "observation_manager/application.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -45,9 +48,32 @@ int run(const CommandLine& command) {
       lumen_role, [&command](const protocol::Welcome&) { return lumen_server(command); });
 }
 
+/// Throws InputError for a trace of an opening that the vessel does not have. What a foreign fluid calls its numbers is
+/// known only when it runs.
+void check_observables(const ObservedCase& observed, const VesselMesh& vessel) {
+  if (observed.file.has("coupling.programs.fluid")) return;
+  std::vector<std::string> openings;
+  for (const auto* patches : {&vessel.fluid.inlets, &vessel.fluid.outlets})
+    for (const Patch& patch : *patches) openings.push_back(patch.name);
+  for (const auto& [name, trace] : observed.observations.traces) {
+    const std::string& observable = trace.observable;
+    const auto first = observable.find('.'), last = observable.rfind('.');
+    if (!observable.starts_with("fluid.") || first == last) continue;
+    const std::string opening = observable.substr(first + 1, last - first - 1);
+    if (std::find(openings.begin(), openings.end(), opening) != openings.end() ||
+        observed.file.has("fluid.probes." + opening))
+      continue;
+    throw input_error("{}: {}: the vessel has no opening or probe {}; its openings are {}",
+                      observed.file.where("observations.traces." + name + ".observable"), observable, opening,
+                      fmt::join(openings, ", "));
+  }
+}
+
 void validate(const CommandLine& command) {
   const ObservedCase observed(command.case_file);
-  const Observations observations = load_observations(observed.observations, observed.lumen(), observed.file);
+  const VesselMesh vessel = observed.vessel();
+  const Observations observations = load_observations(observed.observations, lumen_of(vessel), observed.file);
+  check_observables(observed, vessel);
   if (command.quiet) return;
   for (const std::string& note : observations.notes()) std::cout << note << "\n";
 }

@@ -95,20 +95,4 @@ TriangleSurface rounded(const TriangleSurface& surface, std::uint64_t seed) {
   return fine.surface();
 }
 
-TriangleSurface part_of(const TriangleSurface& surface, const std::vector<bool>& keep) {
-  std::vector<int> number(static_cast<std::size_t>(surface.points.cols()), -1);
-  Growing part;
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    if (!keep[i]) continue;
-    Triangle triangle = surface.triangles[i];
-    for (int& node : triangle) {
-      int& known = number[static_cast<std::size_t>(node)];
-      if (known < 0) known = part.add(surface.points.col(node));
-      node = known;
-    }
-    part.triangles.push_back(triangle);
-  }
-  return part.surface();
-}
-
 }  // namespace tether

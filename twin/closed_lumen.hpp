@@ -12,7 +12,4 @@ TriangleSurface closed_lumen(const TriangleSurface& lumen, double margin);
 /// points at seeded places of the cubic curves that keep the normals at both ends of an edge (T.4).
 TriangleSurface rounded(const TriangleSurface& surface, std::uint64_t seed);
 
-/// The triangles that `keep` says, with their points.
-TriangleSurface part_of(const TriangleSurface& surface, const std::vector<bool>& keep);
-
 }  // namespace tether

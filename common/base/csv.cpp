@@ -41,6 +41,16 @@ bool skipped(const std::string& line) {
   return content.empty() || content.front() == '#';
 }
 
+/// What spreadsheets write in front of UTF-8.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// One column whose heading has semicolons is a table of another dialect.
+void check_separator(const std::string& file, int line, const std::vector<std::string>& headings) {
+  if (headings.size() == 1 && headings.front().find_first_of(";\t") != std::string::npos)
+    throw input_error("{}:{}: columns are separated by {}: must be commas, and numbers have points (0.5)", file, line,
+                      headings.front().find(';') != std::string::npos ? "semicolons" : "tabulators");
+}
+
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
@@ -48,9 +58,11 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
   if (!in || std::filesystem::is_directory(file)) throw input_error("{}: cannot be read", file_);
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
+    if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
     if (skipped(text)) continue;
     auto cells = split(text);
     if (columns_.empty()) {
+      check_separator(file_, line, cells);
       for (const auto& heading : cells) {
         auto [name, unit] = name_and_unit(heading);
         columns_.push_back(std::move(name));
@@ -59,7 +71,8 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
       continue;
     }
     if (cells.size() != columns_.size())
-      throw input_error("{}:{}: cells in this row: {}, columns: {}", file_, line, cells.size(), columns_.size());
+      throw input_error("{}:{}: cells in this row: {}, columns: {}{}", file_, line, cells.size(), columns_.size(),
+                        cells.size() > columns_.size() ? " (numbers have points, not commas: 0.5)" : "");
     lines_.push_back(line);
     cells_.push_back(std::move(cells));
   }

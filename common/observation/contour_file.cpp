@@ -1,6 +1,6 @@
 #include "common/observation/contour_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/observation/stated_unit.hpp"
 
 namespace tether {
 namespace {
@@ -29,6 +30,11 @@ class Table {
         frame_(table_.numbers("frame")),
         time_(table_.quantities("time", units, dimension::time)),
         closed_(table_.has("closed") ? table_.numbers("closed") : std::vector<double>(table_.rows(), 1.0)) {
+    check_unit_of_time(table_, given.beat.has_value());
+    for (std::size_t row = 0; row < closed_.size(); ++row)
+      if (closed_[row] != 0 && closed_[row] != 1)
+        throw input_error("{}: closed: {:g}: must be 1 (closed) or 0 (a line with two ends)", table_.where(row),
+                          closed_[row]);
     for (const char* axis : {"x", "y", "z"}) {
       const std::string unit = given.unit == "heading" ? table_.unit(axis) : given.unit;
       if (unit.empty())
@@ -62,6 +68,8 @@ class Table {
       if (time_[i] != one.time)
         throw input_error("{}: slice {}, frame {:g} has two times, {:g} and {:g}", table_.where(i), one.slice,
                           one.frame, one.time, time_[i]);
+      if (closed_[i] != closed_[begin])
+        throw input_error("{}: slice {}, frame {:g} is both closed and not", table_.where(i), one.slice, one.frame);
       one.points.col(static_cast<Eigen::Index>(i - begin)) << x_[0][i], x_[1][i], x_[2][i];
     }
     return one;
@@ -81,7 +89,7 @@ SlicePlane plane_of(const std::string& slice, const std::vector<const Drawn*>& d
     count -= one->points.cols();
     all.middleCols(count, one->points.cols()) = one->points;
   }
-  const auto [plane, deviation] = fitted_plane("slice " + slice, all);
+  const auto [plane, deviation] = fitted_plane(drawn.front()->where + ": slice " + slice, all);
   const double size = (all.colwise() - plane.origin).colwise().norm().maxCoeff();
   if (deviation > 0.02 * size)
     throw input_error("{}: slice {} is not flat: its points lie up to {:.3g} off a plane, its size is {:.3g}",
@@ -130,12 +138,31 @@ void add(ContourTrack& track, const Drawn& one, const SlicesCase& given, int& re
   track.held_out.push_back(std::find(out.begin(), out.end(), one.frame) != out.end());
 }
 
+/// Each of them once, in their order.
+template <class Get>
+auto different(const std::vector<Drawn>& drawn, const Get& get) {
+  std::vector<std::decay_t<decltype(get(drawn.front()))>> all;
+  for (const Drawn& one : drawn)
+    if (std::find(all.begin(), all.end(), get(one)) == all.end()) all.push_back(get(one));
+  return all;
+}
+
+void check_held_out(const std::vector<Drawn>& drawn, const SlicesCase& given) {
+  std::vector<double> frames = different(drawn, [](const Drawn& one) { return one.frame; });
+  std::sort(frames.begin(), frames.end());
+  for (const double number : given.data.held_out)
+    if (std::find(frames.begin(), frames.end(), number) == frames.end())
+      throw input_error("{}: held_out: there is no frame {:g}; its frames are {:g}", given.file.string(), number,
+                        fmt::join(frames, ", "));
+}
+
 /// Only the slices that the case names.
 void keep_wanted(std::vector<Drawn>& drawn, const SlicesCase& given) {
   if (given.slices.empty()) return;
   for (const std::string& name : given.slices)
     if (std::none_of(drawn.begin(), drawn.end(), [&](const Drawn& one) { return one.slice == name; }))
-      throw input_error("{}: has no slice {}", given.file.string(), name);
+      throw input_error("{}: has no slice {}; it has {}", given.file.string(), name,
+                        fmt::join(different(drawn, [](const Drawn& one) { return one.slice; }), ", "));
   std::erase_if(drawn, [&](const Drawn& one) {
     return std::find(given.slices.begin(), given.slices.end(), one.slice) == given.slices.end();
   });
@@ -147,6 +174,7 @@ std::vector<ContourTrack> read_contour_tracks(const SlicesCase& given, const Uni
                                               std::vector<std::string>& notes) {
   std::vector<Drawn> drawn = Table(given, units).drawn();
   keep_wanted(drawn, given);
+  check_held_out(drawn, given);
   std::map<std::string, std::vector<const Drawn*>> of_slice;
   for (const Drawn& one : drawn) of_slice[one.slice].push_back(&one);
   std::map<std::string, SlicePlane> planes;

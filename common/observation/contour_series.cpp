@@ -65,6 +65,13 @@ std::vector<CutStation> ContourSeries::stations(const Points& x, std::size_t t) 
   return best == nullptr ? std::vector<CutStation>{} : stations_along(*best, track.plane, samples_);
 }
 
+double ContourSeries::cut_length(const Points& x, std::size_t t) const {
+  const std::vector<CutStation> places = stations(x, t);
+  double length = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) length += (places[i].position - places[i - 1].position).norm();
+  return length;
+}
+
 Sample ContourSeries::unobserved(std::size_t track, Exclusion why) const {
   Sample sample;
   sample.series = static_cast<int>(track);

@@ -33,6 +33,9 @@ class ContourSeries : public LumenSeries {
   const SourceSettings& settings() const override { return settings_; }
   const std::vector<std::string>& notes() const override { return notes_; }
   const std::vector<ContourTrack>& tracks() const { return tracks_; }
+  /// Of the piece of the lumen at x that a track is compared with; 0 if its plane misses it [length].
+  double cut_length(const Points& x, std::size_t track) const;
+  void note(std::string what) { notes_.push_back(std::move(what)); }
 
  private:
   std::vector<CutStation> stations(const Points& x, std::size_t track) const;

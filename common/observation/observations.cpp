@@ -7,6 +7,7 @@
 
 #include "common/base/error.hpp"
 #include "common/observation/contour_file.hpp"
+#include "common/observation/open_ends.hpp"
 #include "common/observation/surface_check.hpp"
 #include "common/observation/surface_files.hpp"
 
@@ -74,10 +75,25 @@ void check_range(double first, double last, double period, const Place& place) {
                     place.file.where(place.field), first, last, run.start, run.end);
 }
 
-/// How far data may be from the model and still be of the same vessel.
+/// How far data may be from the model and still be of the same vessel: as far as they are trusted, or its radius.
 double reach_of(const LumenDataCase& data, const LumenSurface& lumen) {
-  const Vec3 size = lumen.points.rowwise().maxCoeff() - lumen.points.rowwise().minCoeff();
-  return data.trust_distance.value_or(0.25 * size.norm());
+  return data.trust_distance.value_or(mean_radius({lumen.points, lumen.triangles}));
+}
+
+/// Of the places that data face, half must lie within reach, in one frame at least.
+constexpr double least_share = 0.5;
+
+std::string share_text(double share, double reach) {
+  return fmt::format("{:.2g} % of the places of the lumen that it faces lie within {:.3g} of it", 100 * share, reach);
+}
+
+/// Throws InputError if a surface and its width are larger or smaller than the model's by the same power of ten.
+void check_size(const std::string& name, const TriangleSurface& data, const LumenSurface& lumen,
+                const std::string& unit) {
+  const TriangleSurface model{lumen.points, lumen.triangles};
+  const int power = power_of_ten(box_size(data.points) / box_size(model.points));
+  if (power == 0 || power != power_of_ten(mean_radius(data) / mean_radius(model))) return;
+  throw input_error("{}: {} {}", name, guessed_unit(power, unit), placement(data.points, lumen.points));
 }
 
 std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface& lumen, const Place& place) {
@@ -88,10 +104,20 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
   std::vector<std::string> notes;
   std::vector<double> numbers;
   std::vector<bool> held_out;
+  const std::vector<Opening> openings = openings_of(lumen);
+  const double reach = reach_of(given.data, lumen);
+  double best = 0;
   for (const TimedFile& timed : files) {
     const std::string name = timed.file.string();
     CheckedSurface checked = checked_surface(name, read_surface(timed.file, scale));
-    check_overlap(name, checked.surface, lumen, reach_of(given.data, lumen));
+    check_size(name, checked.surface, lumen, given.unit);
+    open_ends(checked, openings);
+    const double share = share_within(checked.surface, lumen, reach);
+    best = std::max(best, share);
+    if (share == 0 || (&timed == &files.back() && best < least_share))
+      throw input_error("{}: does not overlap the model: {}, at least half must in one frame; {}", name,
+                        share_text(share, reach), placement(checked.surface.points, lumen.points));
+    if (share < least_share) checked.notes.push_back("only " + share_text(share, reach));
     for (const std::string& note : checked.notes) notes.push_back(timed.file.filename().string() + ": " + note);
     numbers.push_back(static_cast<double>(frames.size()));
     held_out.push_back(std::find(given.data.held_out.begin(), given.data.held_out.end(), numbers.back()) !=
@@ -104,22 +130,66 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
                                          lumen, std::move(notes));
 }
 
-void check_overlap(const ContourSeries& series, const LumenSurface& lumen, double reach, const std::string& file) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Frame& frame : series.frames())
-    for (const Sample& sample : series.observe(lumen.points, frame)) {
-      if (sample.excluded == Exclusion::none && std::abs(sample.distance) <= reach) return;
-      if (sample.excluded != Exclusion::missed) nearest = std::min(nearest, std::abs(sample.distance));
+/// In space, those of the first frame of each track.
+Points points_of(const std::vector<ContourTrack>& tracks) {
+  Points all(3, 0);
+  for (const ContourTrack& track : tracks)
+    for (const auto& p : track.contours.front().points().colwise()) {
+      all.conservativeResize(3, all.cols() + 1);
+      all.rightCols(1) = track.plane.origin + track.plane.lifted(p);
     }
-  std::vector<Vec3> corners;
-  for (const ContourTrack& track : series.tracks())
-    for (const auto& p : track.contours.front().points().colwise())
-      corners.push_back(track.plane.origin + track.plane.lifted(p));
-  Points data(3, static_cast<Eigen::Index>(corners.size()));
-  for (std::size_t i = 0; i < corners.size(); ++i) data.col(static_cast<Eigen::Index>(i)) = corners[i];
-  const std::string why = std::isfinite(nearest) ? fmt::format("the nearest place is {:.3g} away", nearest)
-                                                 : "no slice cuts the model's lumen";
-  throw input_error("{}: does not overlap the model: {}; {}", file, why, placement(data, lumen.points));
+  return all;
+}
+
+/// The share of a frame's samples within reach, of those that face its contour; nothing if none does.
+std::optional<double> share_within(const std::vector<Sample>& samples, double reach) {
+  int facing = 0, near = 0;
+  for (const Sample& sample : samples) {
+    if (sample.excluded == Exclusion::missed || sample.excluded == Exclusion::rim) continue;
+    ++facing;
+    if (std::abs(sample.distance) <= reach) ++near;
+  }
+  if (facing == 0) return std::nullopt;
+  return static_cast<double>(near) / facing;
+}
+
+/// The same power of ten between closed contours and the model's cuts in all slices is a unit.
+int common_power(const ContourSeries& series, const LumenSurface& lumen) {
+  std::optional<int> common;
+  for (std::size_t t = 0; t < series.tracks().size(); ++t) {
+    const Contour& contour = series.tracks()[t].contours.front();
+    const double cut = series.cut_length(lumen.points, t);
+    if (!contour.closed() || !(cut > 0)) continue;
+    const int power = power_of_ten(contour.length() / cut);
+    if (common && *common != power) return 0;
+    common = power;
+  }
+  return common.value_or(0);
+}
+
+/// Throws InputError if the contours are elsewhere, or in another unit. Notes of slices that are far from the model.
+std::vector<std::string> check_overlap(const ContourSeries& series, const LumenSurface& lumen, double reach,
+                                       const SlicesCase& given) {
+  const auto refused = [&](const std::string& why) {
+    return input_error("{}: does not overlap the model: {}; {}", given.file.string(), why,
+                       placement(points_of(series.tracks()), lumen.points));
+  };
+  if (const int power = common_power(series, lumen); power != 0)
+    throw refused("its contours are " + guessed_unit(power, given.unit));
+  std::vector<std::optional<double>> best(series.tracks().size());
+  for (const Frame& frame : series.frames())
+    if (const auto share = share_within(series.observe(lumen.points, frame), reach)) {
+      auto& of_track = best[static_cast<std::size_t>(frame.series)];
+      of_track = std::max(of_track.value_or(0), *share);
+    }
+  const auto most = *std::max_element(best.begin(), best.end());
+  if (!most) throw refused("no slice cuts the model's lumen");
+  if (*most < least_share) throw refused(share_text(*most, reach) + ", at least half must in one frame");
+  std::vector<std::string> notes;
+  for (std::size_t t = 0; t < best.size(); ++t)
+    if (best[t] && *best[t] < least_share)
+      notes.push_back(fmt::format("{}: at most {}", series.tracks()[t].name, share_text(*best[t], reach)));
+  return notes;
 }
 
 std::unique_ptr<LumenSeries> load(const SlicesCase& given, const LumenSurface& lumen, const Place& place) {
@@ -136,18 +206,24 @@ std::unique_ptr<LumenSeries> load(const SlicesCase& given, const LumenSurface& l
   check_range(first, last, period, place);
   auto series = std::make_unique<ContourSeries>(settings_of(given.data, period, lumen, place), std::move(tracks),
                                                 given.samples, lumen, std::move(notes));
-  check_overlap(*series, lumen, reach_of(given.data, lumen), given.file.string());
+  for (std::string& note : check_overlap(*series, lumen, reach_of(given.data, lumen), given))
+    series->note(std::move(note));
   return series;
 }
 
-/// Some place where a velocity was measured must lie in the box of the lumen.
-void check_overlap(const VelocitySeries& series, const LumenSurface& lumen, const CaseFile& file) {
-  const Vec3 low = lumen.points.rowwise().minCoeff(), high = lumen.points.rowwise().maxCoeff();
-  for (const auto& x : series.points().colwise())
-    if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all()) return;
-  throw input_error("{}: does not overlap the model: {}",
-                    file.where("observations.velocities." + series.settings().name),
-                    placement(series.points(), lumen.points));
+/// Some place where a velocity was measured must lie in the imaged lumen; how many do not is noted.
+void check_overlap(const VelocitySeries& series, const SignedSurface& lumen, const CaseFile& file,
+                   std::vector<std::string>& notes) {
+  const std::vector<Closest> found = lumen.closest(series.points());
+  const auto outside = std::count_if(found.begin(), found.end(), [](const Closest& c) { return c.distance < 0; });
+  const std::string said = fmt::format("{} of {} points lie outside the imaged lumen", outside, found.size());
+  if (outside == static_cast<std::ptrdiff_t>(found.size()))
+    throw input_error("{}: does not overlap the model: {}; {}",
+                      file.where("observations.velocities." + series.settings().name), said,
+                      placement(series.points(), lumen.surface().points));
+  if (outside > 0)
+    notes.push_back(fmt::format("{}: {}: nothing is observed there while the lumen does not reach them",
+                                series.settings().name, said));
 }
 
 /// What is said of several files in the same words, once: "lumen_0.stl and 9 others: ...".
@@ -187,16 +263,19 @@ std::vector<std::string> Observations::notes() const {
   std::vector<std::string> all;
   for (const auto& series : lumen)
     for (const std::string& note : merged(series->notes())) all.push_back(series->settings().name + ": " + note);
+  all.insert(all.end(), flow_notes.begin(), flow_notes.end());
   return all;
 }
 
 Observations load_observations(const ObservationsCase& given, const LumenSurface& lumen, const CaseFile& file) {
-  Observations result{load_flow_observations(given, file), {}};
+  Observations result{load_flow_observations(given, file), {}, {}};
   for (const auto& [name, source] : given.surfaces)
     result.lumen.push_back(load(source, lumen, {file, "observations.surfaces." + name}));
   for (const auto& [name, source] : given.contours)
     result.lumen.push_back(load(source, lumen, {file, "observations.contours." + name}));
-  for (const VelocitySeries& series : result.velocities) check_overlap(series, lumen, file);
+  if (result.velocities.empty()) return result;
+  const SignedSurface closed(closed_by_fans(lumen));
+  for (const VelocitySeries& series : result.velocities) check_overlap(series, closed, file, result.flow_notes);
   return result;
 }
 

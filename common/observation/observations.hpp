@@ -10,6 +10,7 @@ namespace tether {
 /// All that was measured of a case.
 struct Observations : FlowObservations {
   std::vector<std::unique_ptr<LumenSeries>> lumen;
+  std::vector<std::string> flow_notes;  ///< what was found of the velocities
 
   /// The samples of all lumen data at a time, sources one after the other.
   std::vector<Sample> observe(const Points& x, double time) const;

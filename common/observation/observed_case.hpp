@@ -14,7 +14,8 @@ struct ObservedCase {
     file.finish();
   }
   /// The wall's element does not matter: interface nodes are the same.
-  LumenSurface lumen() const { return lumen_of(load_mesh(mesh, file.units(), WallElement::prism)); }
+  VesselMesh vessel() const { return load_mesh(mesh, file.units(), WallElement::prism); }
+  LumenSurface lumen() const { return lumen_of(vessel()); }
 
   CaseFile file;
   MeshCase mesh;

@@ -1,8 +1,10 @@
 #include "common/observation/self_intersection.hpp"
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/box_intersection_d.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 
 namespace tether {
 namespace {
@@ -20,36 +22,33 @@ bool passes_through(const Vec3& p, const Vec3& q, const Corners& t) {
   return u > inside && v > inside && u + v < 1 - inside && at > inside && at < 1 - inside;
 }
 
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
 class Finder {
  public:
   explicit Finder(const TriangleSurface& surface) : surface_(surface) {
-    for (const Triangle& t : surface.triangles) {
-      corners_.emplace_back(surface.points(Eigen::all, t));
-      low_.emplace_back(corners_.back().rowwise().minCoeff());
-      high_.emplace_back(corners_.back().rowwise().maxCoeff());
-    }
+    for (const Triangle& t : surface.triangles) corners_.emplace_back(surface.points(Eigen::all, t));
   }
 
-  /// Sweeps along the longest axis, comparing triangles whose boxes overlap.
-  std::vector<bool> find() {
+  /// Compares triangles whose boxes overlap (Zomorodian and Edelsbrunner 2002, of CGAL).
+  std::vector<bool> find() const {
     std::vector<bool> hit(corners_.size(), false);
-    int axis = 0;
-    (surface_.points.rowwise().maxCoeff() - surface_.points.rowwise().minCoeff()).maxCoeff(&axis);
-    std::vector<std::size_t> order(corners_.size()), active;
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return low_[a][axis] < low_[b][axis]; });
-    for (const std::size_t t : order) {
-      std::erase_if(active, [&](std::size_t other) { return high_[other][axis] < low_[t][axis]; });
-      for (const std::size_t other : active)
-        if (overlap(t, other) && cross(t, other)) hit[t] = hit[other] = true;
-      active.push_back(t);
-    }
+    std::vector<Box> boxes = this->boxes();
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& one, const Box& other) {
+      const std::size_t a = one.info(), b = other.info();
+      if (cross(a, b)) hit[a] = hit[b] = true;
+    });
     return hit;
   }
 
  private:
-  bool overlap(std::size_t a, std::size_t b) const {
-    return (low_[a].array() <= high_[b].array()).all() && (low_[b].array() <= high_[a].array()).all();
+  std::vector<Box> boxes() const {
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+      const Vec3 low = corners_[t].rowwise().minCoeff(), high = corners_[t].rowwise().maxCoeff();
+      boxes.emplace_back(CGAL::Bbox_3(low[0], low[1], low[2], high[0], high[1], high[2]), t);
+    }
+    return boxes;
   }
   bool cross(std::size_t a, std::size_t b) const {
     const Triangle &s = surface_.triangles[a], &t = surface_.triangles[b];
@@ -76,7 +75,6 @@ class Finder {
 
   const TriangleSurface& surface_;
   std::vector<Corners> corners_;
-  std::vector<Vec3> low_, high_;
 };
 
 }  // namespace

@@ -15,15 +15,30 @@ struct CheckedSurface {
   std::vector<std::string> notes;
 };
 
-/// Equal points become one; triangles without area, and loose pieces below a twentieth of the whole area, are left out;
+/// Equal points become one; points far from all others, triangles without area, and loose pieces below a twentieth of
+/// the whole area are left out, never the largest;
 /// a surface whose normals all look inward is turned; all of that is noted, and so are holes and self-intersections.
 /// Throws InputError, beginning with `name`: no triangles, an edge with more than two triangles, normals that disagree
-/// between neighbours, self-intersections in more than a hundredth of the triangles.
+/// between neighbours, open edges that fork, small pieces with more than half of the area, self-intersections in more
+/// than a hundredth of the triangles.
 CheckedSurface checked_surface(const std::string& name, TriangleSurface surface);
 
-/// Throws InputError if no node of the imaged lumen has its closest place on the frame's surface within `reach`: the
-/// data are elsewhere, or in another unit.
-void check_overlap(const std::string& name, const TriangleSurface& surface, const LumenSurface& lumen, double reach);
+/// Volume in a surface, each of its `holes` closed by a fan about its middle; negative if normals look inward
+/// [length^3].
+double enclosed_volume(const TriangleSurface& surface, const std::vector<std::vector<int>>& holes);
+
+/// Of the nodes of the imaged lumen that the surface faces (their closest place is not on its rim), the share that lie
+/// within `reach` of it; 0 if there are none.
+double share_within(const TriangleSurface& surface, const LumenSurface& lumen, double reach);
+
+/// The diagonal of the box around some points [length].
+double box_size(const Points& x);
+
+/// The power of ten that a ratio of two sizes is close to (within a factor 2.2), 0 also if it is close to none.
+int power_of_ten(double ratio);
+
+/// "about 10 times larger than the model: is its unit mm, not cm?"
+std::string guessed_unit(int power, const std::string& stated);
 
 /// Where the model's box and the data's box do not fit together: both of them, and the factor that would make them
 /// equally large if it is a power of ten.

@@ -9,6 +9,7 @@
 #include "common/base/error.hpp"
 #include "common/io/mesh_file.hpp"
 #include "common/io/pvd.hpp"
+#include "common/observation/stated_unit.hpp"
 
 namespace tether {
 namespace {
@@ -19,6 +20,7 @@ bool is_digit(char c) {
 
 std::vector<TimedFile> listed_in_table(const std::filesystem::path& list, const UnitSystem& units) {
   const CsvTable table(list);
+  check_unit_of_time(table, false);
   const std::vector<std::string> names = table.texts("file");
   const std::vector<double> times = table.quantities("time", units, dimension::time);
   std::vector<TimedFile> files;
@@ -50,8 +52,9 @@ std::vector<TimedFile> found_in_folder(const SurfacesCase& given) {
 
 std::vector<TimedFile> listed(const SurfacesCase& given, const UnitSystem& units) {
   if (!given.folder.empty()) return found_in_folder(given);
-  if (given.file.extension() == ".pvd") return listed_in_series(given.file);
-  if (given.file.extension() == ".csv") return listed_in_table(given.file, units);
+  const std::string extension = lower_case(given.file.extension().string());
+  if (extension == ".pvd") return listed_in_series(given.file);
+  if (extension == ".csv") return listed_in_table(given.file, units);
   return {{given.file, std::numeric_limits<double>::quiet_NaN(), given.file.string()}};
 }
 

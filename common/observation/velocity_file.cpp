@@ -8,6 +8,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/observation/stated_unit.hpp"
 
 namespace tether {
 namespace {
@@ -17,6 +18,7 @@ class Table {
  public:
   Table(const VelocitiesCase& given, const UnitSystem& units)
       : file(given.file), times(file.quantities("time", units, dimension::time)) {
+    check_unit_of_time(file, given.beat.has_value());
     for (double& time : times) time = time * given.beat.value_or(1.0) + given.time_shift;
     for (std::size_t i = 0; i < 3; ++i) positions[i] = column(std::array{"x", "y", "z"}[i], dimension::length, units);
     const std::vector<std::string> names =
@@ -33,9 +35,7 @@ class Table {
  private:
   std::vector<double> column(const std::string& name, Dimension dimension, const UnitSystem& units) const {
     std::vector<double> numbers = file.quantities(name, units, dimension);
-    if (file.unit(name).empty())
-      throw input_error("{}: the unit of {} must stand in its heading, as in {} [{}]", file.where(0), name, name,
-                        units.symbol(dimension));
+    check_unit(file, name, units.symbol(dimension));
     return numbers;
   }
 };

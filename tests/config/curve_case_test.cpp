@@ -48,8 +48,14 @@ TEST(CurveCase, NamesWhatIsWrongWithTheTable) {
   EXPECT_EQ(load_error("time, flow\n0,nan\n"), "q.csv:2: flow: 'nan' is not a number");
   EXPECT_EQ(load_error("time, flow\n\n0,\n"), "q.csv:3: flow: '' is not a number");
   EXPECT_EQ(load_error("# measured\ntime, flow\n0,1\n0.2,1\n0.2,3\n"), "q.csv:5: the time 0.2 does not come after 0.2");
-  EXPECT_EQ(load_error("time, flow\n0,1,2\n"), "q.csv:2: cells in this row: 3, columns: 2");
+  EXPECT_EQ(load_error("time, flow\n0,1,2\n"),
+            "q.csv:2: cells in this row: 3, columns: 2 (numbers have points, not commas: 0.5)");
   EXPECT_EQ(load_error("time, flow\n"), "q.csv: has no rows");
+  EXPECT_EQ(load_error("\xEF\xBB\xBFtime, flow\n0,x\n"), "q.csv:2: flow: 'x' is not a number") << "a byte order mark";
+  EXPECT_EQ(load_error("time; flow\n0,5; 1\n"),
+            "q.csv:1: columns are separated by semicolons: must be commas, and numbers have points (0.5)");
+  EXPECT_EQ(load_error("time\tflow\n0\t1\n"),
+            "q.csv:1: columns are separated by tabulators: must be commas, and numbers have points (0.5)");
   EXPECT_EQ(load_error("time, flow [mmHg]\n0,1\n"),
             "q.csv:2: column 'flow': '1 mmHg': mmHg is no unit of this field, which is in m3/s");
   auto periodic = flow_from("time, flow\n0,1\n1.1,1\n");

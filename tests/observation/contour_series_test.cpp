@@ -218,5 +218,29 @@ TEST(ContourSeries, PassesToNodesWhatItSees) {
     }
 }
 
+/// docs/observations.md, facets and chords: what a model on the very vessel reads as.
+TEST(FacetsAndChords, BiasIsThatOfTheDocumentation) {
+  for (const int around : {16, 32, 64}) {
+    const double h = 2 * pi / around, expected = h * h / 12;
+    const TriangleSurface vessel = tube(around, 4, 2, [](double) { return 1.0; });
+    const ContourSeries contours =
+        series(vessel, plane(Vec3(0, 0, 0.9), Vec3::UnitZ()), {0.0}, {circle(Vec2::Zero(), 1, 2048)}, 512);
+    double inward = 0;
+    for (const Sample& s : contours.observe(vessel.points, 0.0)) inward += s.distance / 512;
+    EXPECT_NEAR(inward / expected, 1, 0.05) << around;
+
+    const SignedSurface data(vessel);
+    double outward = 0, most = 0;
+    const int nodes = 1000;
+    for (int i = 0; i < nodes; ++i) {
+      const double angle = 2 * pi * (i + 0.3) / nodes;
+      const double d = data.closest(Vec3(std::cos(angle), std::sin(angle), 0.9)).distance;
+      outward -= d / nodes, most = std::max(most, -d);
+    }
+    EXPECT_NEAR(outward / expected, 1, 0.05) << around;
+    EXPECT_NEAR(most / (h * h / 8), 1, 0.05) << around;
+  }
+}
+
 }  // namespace
 }  // namespace tether::testing

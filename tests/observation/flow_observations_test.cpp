@@ -88,7 +88,7 @@ TEST_F(Flow, HasAlwaysTheSameSamplesAndSaysWhyOneIsNone) {
 }
 
 TEST_F(Flow, NeedsTheColumnThatATraceNames) {
-  folder.file("p.csv", "time, value\n0, 1\n1, 2\n");
+  folder.file("p.csv", "time [s], value [ml/s]\n0, 1\n1, 2\n");
   const FlowObservations data =
       load("  traces: {cuff: {observable: fluid.exit.flow, quantity: flow, curve: {file: p.csv}}}\n");
   try {
@@ -99,6 +99,38 @@ TEST_F(Flow, NeedsTheColumnThatATraceNames) {
         error.what(),
         "observations.traces.cuff.observable: the run has no fluid.exit.flow; it has: time, fluid.outlet.flow");
   }
+}
+
+TEST_F(Flow, BadTracesAreNamed) {
+  const auto of = [&](const std::string& table, const std::string& more = "") {
+    folder.file("p.csv", table);
+    return message("  traces: {cuff: {observable: fluid.outlet.pressure, quantity: pressure, curve: {file: p.csv}" +
+                   more + "}}\n");
+  };
+  const std::string rows = "0, 80\n0.5, 120\n";
+  EXPECT_EQ(of("time [s], value [mmHg]\n" + rows), "no error");
+  EXPECT_EQ(of("time [s], value\n" + rows),
+            "p.csv:2: the unit of value must stand in its heading, as in value [g/(cm s2)]");
+  EXPECT_EQ(of("time, value [mmHg]\n" + rows), "p.csv:2: the unit of time must stand in its heading, as in time [ms]");
+  EXPECT_EQ(of("time [s], value [ml/s]\n" + rows),
+            "p.csv:2: column 'value': '1 ml/s': ml/s is no unit of this field, which is in g/(cm s2)");
+  EXPECT_EQ(message("  traces: {cuff: {observable: fluid.outlet.flow, quantity: pressure, curve: {file: p.csv}}}\n"),
+            "case.yaml:5: observations.traces.cuff.quantity: pressure, but fluid.outlet.flow is a flow");
+  EXPECT_EQ(of("time [s], value [mmHg]\n" + rows, ", time_shift: 3"),
+            "case.yaml:5: observations.traces.cuff: its times are from 3 to 3.5, the run is from 0 to 0.8: period or "
+            "time_shift?");
+}
+
+TEST_F(Flow, TimesOfABeatHaveNoUnit) {
+  folder.file("plane.csv", "time [ms], x [cm], y [cm], z [cm], v [cm/s]\n0, 0, 0, 1, 5\n400, 0, 0, 1, 6\n");
+  EXPECT_EQ(
+      message(std::string(plane) + ", beat: 0.8}}\n"),
+      "plane.csv:2: time is in ms, but with beat in the case times are fractions of a beat: give period instead of "
+      "beat, or leave out the unit");
+  folder.file("plane.csv", "time, x [cm], y [cm], z [cm], v [cm/s]\n0, 0, 0, 1, 5\n0.5, 0, 0, 1, 6\n");
+  EXPECT_EQ(load(std::string(plane) + ", beat: 0.8}}\n").velocities[0].frames()[1].time, 0.4);
+  EXPECT_EQ(message(std::string(plane) + "}}\n"),
+            "plane.csv:2: the unit of time must stand in its heading, as in time [ms]");
 }
 
 TEST_F(Flow, BadVelocitiesAreNamedWithTheirPlace) {

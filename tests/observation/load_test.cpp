@@ -1,11 +1,15 @@
 // Files of measurements as people have them, and what is said of bad ones.
 #include <gtest/gtest.h>
 
+#include <fmt/ranges.h>
+
 #include <cmath>
+#include <sstream>
 
 #include "common/base/error.hpp"
 #include "common/observation/contour_file.hpp"
 #include "common/observation/observations.hpp"
+#include "common/observation/open_ends.hpp"
 #include "common/observation/surface_files.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/observation/lumens.hpp"
@@ -65,6 +69,20 @@ std::string circle_rows(const std::string& slice, int frame, double time, double
     rows += fmt::format("{},{},{},{:.6f},{:.6f},{}\n", slice, frame, time, radius * std::cos(2 * pi * i / points),
                         radius * std::sin(2 * pi * i / points), z);
   return rows;
+}
+
+/// The same farther along x [mm].
+std::string moved_rows(const std::string& rows, double by) {
+  std::istringstream lines(rows);
+  std::string all;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream words(line);
+    for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+    cells[3] = fmt::format("{}", std::stod(cells[3]) + by);
+    all += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return all;
 }
 
 constexpr const char* heading = "slice,frame,time [ms],x [mm],y [mm],z [mm]\n";
@@ -151,6 +169,10 @@ TEST_F(Load, RefusesBadSurfaces) {
   folder.file("long.csv", "file,time [s]\na.stl,0\na.stl,0.8\n");
   folder.file("late.csv", "file,time [s]\na.stl,1\na.stl,2\n");
   folder.file("unit.csv", "file,time [mm]\na.stl,1\n");
+  folder.file("nounit.csv", "file,time\na.stl,1\n");
+  TriangleSurface neighbour = vessel(1);
+  neighbour.points.row(0).array() += 2.1;
+  folder.file("beside.stl", stl(neighbour));
   const auto ct = [&](const std::string& fields) { return message("  surfaces: {ct: {" + fields + "}}\n"); };
   EXPECT_EQ(ct("file: gone.csv, unit: cm"), "gone.csv:2: c.stl does not exist");
   EXPECT_EQ(ct("file: back.csv, unit: cm"), "back.csv:3: the time 0.1 of a.stl does not come after 0.2");
@@ -165,7 +187,15 @@ TEST_F(Load, RefusesBadSurfaces) {
             ": holds no file whose name matches x*.stl");
   EXPECT_EQ(ct("file: a.stl"),
             "case.yaml:5: observations.surfaces.ct.unit: missing: must be given (of the files' coordinates)");
-  EXPECT_NE(ct("file: mm.stl, unit: cm").find("Multiplied by 0.1 they would be about as large"), std::string::npos);
+  EXPECT_EQ(
+      ct("file: mm.stl, unit: cm"),
+      "mm.stl: about 10 times larger than the model: is its unit mm, not cm? the data reach from (-11, -11, 0) to "
+      "(11, 11, 40), the model from (-1, -1, 0) to (1, 1, 4). In another unit? Multiplied by 0.1 they would be about "
+      "as large");
+  EXPECT_EQ(ct("file: beside.stl, unit: cm").substr(0, 75),
+            "beside.stl: does not overlap the model: 44 % of the places of the lumen tha");
+  EXPECT_EQ(ct("file: nounit.csv, unit: cm"),
+            "nounit.csv:2: the unit of time must stand in its heading, as in time [ms]");
   EXPECT_EQ(ct("file: a.stl, unit: cm, held_out: [3]"),
             "case.yaml:5: observations.surfaces.ct.held_out: there is no frame 3; frames are numbered 0 to 0");
 }
@@ -200,7 +230,7 @@ TEST_F(Load, RefusesBadContours) {
     return message("  contours: {mr: {file: c.csv" + fields + "}}\n");
   };
   EXPECT_EQ(csv(heading + good), "accepted");
-  EXPECT_EQ(csv("slice,frame,time,x,y,z\n" + good),
+  EXPECT_EQ(csv("slice,frame,time [ms],x,y,z\n" + good),
             "c.csv: the unit of x is stated neither in its heading (x [mm]) nor in the case (unit)");
   EXPECT_EQ(csv(heading + good + circle_rows("B", 0, 0, 11, 25) + good),
             "c.csv:50: slice A, frame 0 occurs in two places: the rows of a contour must stand together");
@@ -218,8 +248,70 @@ TEST_F(Load, RefusesBadContours) {
       csv(heading + circle_rows("A", 0, 0, 11, 90)),
       "c.csv: does not overlap the model: no slice cuts the model's lumen; the data reach from (-1.1, -1.1, 9) to "
       "(1.1, 1.1, 9), the model from (-1, -1, 0) to (1, 1, 4)");
-  EXPECT_EQ(csv(heading + good, ", slices: [C]"), "c.csv: has no slice C");
+  EXPECT_EQ(csv(heading + good + circle_rows("B", 0, 0, 11, 25), ", slices: [C]"),
+            "c.csv: has no slice C; it has A, B");
+  EXPECT_EQ(csv(heading + good + circle_rows("A", 3, 200, 11, 15), ", held_out: [1]"),
+            "c.csv: held_out: there is no frame 1; its frames are 0, 3");
+  EXPECT_EQ(csv("slice,frame,time,x [mm],y [mm],z [mm]\n" + good),
+            "c.csv:2: the unit of time must stand in its heading, as in time [ms]");
+  EXPECT_EQ(
+      csv(heading + good, ", beat: 0.8"),
+      "c.csv:2: time is in ms, but with beat in the case times are fractions of a beat: give period instead of beat, "
+      "or leave out the unit");
+  EXPECT_EQ(csv("slice,frame,time [ms],x [mm],y [mm],z [mm],closed\nA,0,0,1,1,15,7\n"),
+            "c.csv:2: closed: 7: must be 1 (closed) or 0 (a line with two ends)");
+  EXPECT_EQ(csv(heading + std::string("A,0,0,1,1,15\nA,0,0,2,2,15\nA,0,0,3,3,15\n")).substr(0, 17),
+            "c.csv:2: slice A:");
+  EXPECT_EQ(csv(heading + circle_rows("A", 0, 0, 1, 15)).substr(0, 120),
+            "c.csv: does not overlap the model: its contours are about 10 times smaller than the model: in another "
+            "unit?; the "
+            "data re");
+  folder.file("beside.csv", heading + moved_rows(good, 21));
+  EXPECT_EQ(message("  contours: {mr: {file: beside.csv}}\n").substr(0, 44),
+            "beside.csv: does not overlap the model: 41 %");
   EXPECT_EQ(csv(heading + good + "A,0,0,1,x,15\n"), "c.csv:26: y: 'x' is not a number");
+}
+
+TEST_F(Load, NotesASliceFarFromTheModel) {
+  folder.file("c.csv", heading + circle_rows("A", 0, 0, 11, 15) + moved_rows(circle_rows("B", 0, 0, 11, 25), 80));
+  const std::vector<std::string> notes = load("  contours: {mr: {file: c.csv}}\n").notes();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].substr(0, 83),
+            "mr: slice B: at most 0 % of the places of the lumen that it faces lie within 0.981 ");
+}
+
+/// As voxels show a vessel that ends with the image.
+TEST_F(Load, FlatEndsOfASegmentationAreNoWall) {
+  TriangleSurface closed = vessel(1.1);
+  const LumenSurface as_lumen = lumen(closed);
+  closed = closed_by_fans(as_lumen);
+  folder.file("a.stl", stl(closed));
+  const Observations data = load("  surfaces: {ct: {file: a.stl, unit: cm}}\n");
+  EXPECT_EQ(data.notes(), std::vector<std::string>{
+                              "ct: a.stl: 2 flat ends with 32 triangles at the model's open ends are no wall, and "
+                              "left out; beside them nothing is observed"});
+  for (const Sample& sample : data.observe(model.points, 0)) {
+    const double z = sample.position[2];
+    EXPECT_TRUE(sample.excluded == Exclusion::none || (sample.excluded == Exclusion::rim && (z == 0 || z == 4))) << z;
+    if (sample.excluded == Exclusion::none) {
+      EXPECT_NEAR(sample.distance, 0.1, 3e-3) << z;
+    }
+  }
+}
+
+TEST_F(Load, CountsVelocitiesOutsideTheLumen) {
+  const std::string heading = "time [s], x [cm], y [cm], z [cm], vx [cm/s], vy [cm/s], vz [cm/s]\n";
+  const std::string pc = "  velocities: {pc: {file: v.csv}}\n";
+  folder.file("v.csv", heading + "0,0,0,1,1,1,1\n0,0.5,0,3.9,1,1,1\n");
+  EXPECT_TRUE(load(pc).notes().empty());
+  folder.file("v.csv", heading + "0,0,0,1,1,1,1\n0,0.95,0.95,1,1,1,1\n0,0,0,4.1,1,1,1\n");
+  EXPECT_EQ(load(pc).notes(),
+            std::vector<std::string>{"pc: 2 of 3 points lie outside the imaged lumen: nothing is observed "
+                                     "there while the lumen does not reach them"});
+  folder.file("v.csv", heading + "0,0.95,0.95,1,1,1,1\n");
+  EXPECT_EQ(message(pc).substr(0, 112),
+            "case.yaml:5: observations.velocities.pc: does not overlap the model: 1 of 1 points lie outside the imaged "
+            "lumen;");
 }
 
 TEST_F(Load, LeavesOutRepeatedPointsAndSaysSo) {

@@ -114,6 +114,24 @@ TEST(ObservationManager, ValidatesCasesWithAndWithoutMeasurements) {
   const std::string program = tests::product_program("observation_manager");
   const ChildEnd good = capture({{program, "--validate", case_file}, {}});
   EXPECT_EQ(good.exit_code, 0) << good.errors;
+  const TemporaryFolder folder;
+  folder.file("p.csv", "time [s], value [mmHg]\n0, 100\n1, 120\n");
+  const auto traced = [&](const std::string& observable) {
+    const auto file = folder.file(
+        "case.yaml",
+        "name: blood\nunits: cgs\ntime: {step: 1e-2, end: 1}\nmesh: {source: swept, swept: {radius: 1, length: 3, "
+        "wall_thickness: 0.1, around: 12, along: 6}}\nobservations:\n  traces: {cuff: {observable: " +
+            observable + ", quantity: pressure, curve: {file: p.csv}}}\n");
+    return capture({{program, "--validate", file.string()}, {}});
+  };
+  EXPECT_EQ(traced("fluid.outlet.pressure").exit_code, 0) << traced("fluid.outlet.pressure").errors;
+  const ChildEnd unknown = traced("fluid.exit.pressure");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(
+      unknown.errors.find("case.yaml:6: observations.traces.cuff.observable: fluid.exit.pressure: the vessel has no "
+                          "opening or probe exit; its openings are inlet, outlet"),
+      std::string::npos)
+      << unknown.errors;
   const ChildEnd nothing = capture({{program, "--validate", "configs/tube/case.yaml"}, {}});
   EXPECT_EQ(nothing.exit_code, 0) << nothing.errors;
 }

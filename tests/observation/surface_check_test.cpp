@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "common/base/error.hpp"
+#include "common/observation/open_ends.hpp"
 #include "tests/observation/lumens.hpp"
 
 namespace tether::testing {
@@ -23,6 +24,18 @@ TriangleSurface joined(TriangleSurface a, const TriangleSurface& b) {
 TriangleSurface moved(TriangleSurface surface, const Vec3& by) {
   surface.points.colwise() += by;
   return surface;
+}
+
+/// As STL has it: three points a triangle.
+TriangleSurface loosened(const TriangleSurface& given) {
+  TriangleSurface loose;
+  loose.points.resize(3, static_cast<Eigen::Index>(3 * given.triangles.size()));
+  for (std::size_t t = 0; t < given.triangles.size(); ++t) {
+    const auto at = static_cast<int>(3 * t);
+    loose.points.middleCols(at, 3) = given.points(Eigen::all, given.triangles[t]);
+    loose.triangles.push_back({at, at + 1, at + 2});
+  }
+  return loose;
 }
 
 std::string message_of(const TriangleSurface& surface) {
@@ -91,14 +104,7 @@ TEST(SurfaceCheck, CountsTrianglesWithoutArea) {
 
 TEST(SurfaceCheck, JoinsEqualPoints) {
   const TriangleSurface given = sphere(4);
-  TriangleSurface loose;  // as STL: three points a triangle
-  loose.points.resize(3, static_cast<Eigen::Index>(3 * given.triangles.size()));
-  for (std::size_t t = 0; t < given.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const auto at = static_cast<int>(3 * t) + i;
-      loose.points.col(at) = given.points.col(given.triangles[t][static_cast<std::size_t>(i)]);
-      if (i == 0) loose.triangles.push_back({at, at + 1, at + 2});
-    }
+  const TriangleSurface loose = loosened(given);
   const CheckedSurface checked = checked_surface("a.stl", loose);
   EXPECT_EQ(checked.notes, Notes{});
   EXPECT_EQ(checked.surface.points.cols(), given.points.cols());
@@ -133,24 +139,133 @@ TEST(SurfaceCheck, RefusesASurfaceThatCrossesItself) {
   EXPECT_NE(message.find("more than a hundredth"), std::string::npos);
 }
 
-TEST(SurfaceCheck, RefusesDataElsewhereOrInAnotherUnit) {
+TEST(SurfaceCheck, KeepsTheLargestPieceAlways) {
+  TriangleSurface surface = sphere(6);
+  for (int i = 1; i <= 3; ++i) surface = joined(surface, moved(scaled(sphere(1), 0.05), Vec3(1 + i, 0, 0)));
+  EXPECT_EQ(checked_surface("a.stl", surface).surface.triangles.size(), 6U * 36 * 2);
+  // As STL with corners that differ by rounding: each triangle on its own.
+  TriangleSurface loose = loosened(sphere(4));
+  for (Eigen::Index i = 0; i < loose.points.cols(); ++i) loose.points.col(i) *= 1 + 1e-9 * static_cast<double>(i);
+  EXPECT_EQ(message_of(loose),
+            "a.stl: falls into 192 separate pieces, the largest with 0.63 % of the area: must be one surface. Are the "
+            "corners of neighbouring triangles at slightly different points? Then merge them");
+}
+
+TEST(SurfaceCheck, LeavesOutAPointFarFromAllOthers) {
+  TriangleSurface surface = sphere(8);
+  surface.points.col(surface.triangles[100][0]) = Vec3(0, 1e200, 3);
+  const CheckedSurface checked = checked_surface("a.stl", surface);
+  ASSERT_EQ(checked.notes.size(), 2U);
+  EXPECT_EQ(checked.notes[0],
+            "1 points far from all others, the first at (0, 1e+200, 3), are left out with 6 triangles");
+  EXPECT_EQ(checked.notes[1].substr(0, 12), "1 open rims,");
+}
+
+TEST(SurfaceCheck, NamesWhereHolesTouch) {
+  TriangleSurface surface = sphere(8);  // two triangles that share one node only are taken out
+  const int node = surface.triangles[40][0];
+  std::vector<Triangle> around;
+  std::erase_if(surface.triangles, [&](const Triangle& t) {
+    const bool touches = std::find(t.begin(), t.end(), node) != t.end();
+    const bool apart = std::none_of(around.begin(), around.end(), [&](const Triangle& other) {
+      return std::count_if(t.begin(), t.end(),
+                           [&](int n) { return std::find(other.begin(), other.end(), n) != other.end(); }) > 1;
+    });
+    if (!touches || !apart || around.size() == 2) return false;
+    around.push_back(t);
+    return true;
+  });
+  ASSERT_EQ(around.size(), 2U);
+  EXPECT_NE(message_of(surface).find("a.stl: its open edges fork at 1 points, the first at ("), std::string::npos)
+      << message_of(surface);
+}
+
+TEST(SurfaceCheck, SaysWhichShareOfTheLumenIsNear) {
   const LumenSurface model = lumen(tube(16, 8, 3, [](double) { return 1.0; }));
-  const auto overlap = [&](const TriangleSurface& data) {
-    try {
-      check_overlap("a.stl", data, model, 0.5);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(overlap(tube(20, 9, 3, [](double) { return 1.1; })), "");
-  EXPECT_EQ(
-      overlap(moved(tube(16, 8, 3, [](double) { return 1.1; }), Vec3(20, 0, 0))),
-      "a.stl: does not overlap the model: the nearest place is 17.9 away, at most 0.5 would do; the data reach from "
-      "(18.9, -1.1, 0) to (21.1, 1.1, 3), the model from (-1, -1, 0) to (1, 1, 3)");
-  EXPECT_NE(overlap(scaled(tube(16, 8, 3, [](double) { return 1.1; }), 10))
-                .find("In another unit? Multiplied by 0.1 they would be about as large"),
-            std::string::npos);
+  EXPECT_EQ(share_within(tube(20, 9, 3, [](double) { return 1.1; }), model, 0.5), 1);
+  EXPECT_EQ(share_within(moved(tube(16, 8, 3, [](double) { return 1.1; }), Vec3(20, 0, 0)), model, 0.5), 0);
+  const double touching = share_within(moved(tube(64, 8, 3, [](double) { return 1.0; }), Vec3(2, 0, 0)), model, 1);
+  EXPECT_GT(touching, 0.3) << "the vessel beside it";
+  EXPECT_LT(touching, 0.5);
+}
+
+TEST(SurfaceCheck, GuessesTheUnit) {
+  EXPECT_EQ(power_of_ten(10.5), 1);
+  EXPECT_EQ(power_of_ten(4), 0);
+  EXPECT_EQ(power_of_ten(1.5e-3), -3);
+  EXPECT_EQ(power_of_ten(0), 0);
+  EXPECT_EQ(guessed_unit(1, "cm"), "about 10 times larger than the model: is its unit mm, not cm?");
+  EXPECT_EQ(guessed_unit(-3, "mm"), "about 1000 times smaller than the model: is its unit m, not mm?");
+  EXPECT_EQ(guessed_unit(2, "mm"), "about 100 times larger than the model: in another unit?");
+}
+
+/// A tube of radius r from z = from to z = to, its flat ends of a fan and two rings.
+TriangleSurface capped(double r, double from, double to) {
+  constexpr int around = 32, along = 16, rings = 3;
+  TriangleSurface surface = grid({around, along + 2 * (rings - 1), true, false}, [&](int i, int j) {
+    const int in = std::max(0, std::max(rings - 1 - j, j - (along + rings - 1)));  // rings away from the wall
+    const double share = std::clamp((j - (rings - 1.0)) / along, 0.0, 1.0), radius = r * (rings - in) / rings;
+    const double angle = 2 * std::numbers::pi * i / around;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), from + share * (to - from));
+  });
+  const int columns = along + 2 * (rings - 1) + 1, first = static_cast<int>(surface.points.cols());
+  surface.points.conservativeResize(3, first + 2);
+  surface.points.col(first) = Vec3(0, 0, from), surface.points.col(first + 1) = Vec3(0, 0, to);
+  for (int i = 0; i < around; ++i) {
+    const int a = i * columns, b = (i + 1) % around * columns;
+    surface.triangles.push_back({b, a, first});
+    surface.triangles.push_back({a + columns - 1, b + columns - 1, first + 1});
+  }
+  return surface;
+}
+
+TEST(OpenEnds, FlatEndsOfASegmentationAreNoWall) {
+  const LumenSurface model = lumen(tube(24, 10, 4, [](double) { return 1.0; }));
+  const std::vector<Opening> openings = openings_of(model);
+  ASSERT_EQ(openings.size(), 2U);
+  for (const Opening& opening : openings) {
+    EXPECT_NEAR(opening.radius, 1, 0.01);
+    EXPECT_NEAR(opening.axis[2], opening.centre[2] > 2 ? 1 : -1, 1e-12);
+  }
+  // As long as the model, longer, shorter; wider than it by a fifth.
+  for (const double more : {0.0, 0.4, -0.3}) {
+    CheckedSurface checked = checked_surface("a.stl", capped(1.2, -more, 4 + more));
+    const std::size_t before = checked.surface.triangles.size();
+    open_ends(checked, openings);
+    EXPECT_EQ(before - checked.surface.triangles.size(), 2U * 32 * 5) << "both ends, and no wall";
+    ASSERT_EQ(checked.notes.size(), 1U);
+    EXPECT_EQ(
+        checked.notes[0],
+        "2 flat ends with 320 triangles at the model's open ends are no wall, and left out; beside them nothing is "
+        "observed");
+    for (const Closest& c : SignedSurface(checked.surface).closest(model.points))
+      if (!c.on_rim) {
+        EXPECT_NEAR(c.distance, 0.2, 0.01) << more;
+      }
+  }
+}
+
+TEST(OpenEnds, WhatElseClosesASurfaceIsSaid) {
+  const std::vector<Opening> openings = openings_of(lumen(tube(24, 10, 4, [](double) { return 1.0; })));
+  CheckedSurface longer = checked_surface("a.stl", capped(1.2, -3, 4));
+  open_ends(longer, openings);
+  EXPECT_EQ(longer.notes,
+            (Notes{"is closed, but shows a flat end at 1 of the model's 2 open ends only: what else closes "
+                   "it counts as wall",
+                   "1 flat ends with 160 triangles at the model's open ends are no wall, and left out; "
+                   "beside them nothing is observed"}));
+  CheckedSurface open = checked_surface("a.stl", tube(24, 10, 4, [](double) { return 1.2; }));
+  open_ends(open, openings);
+  EXPECT_EQ(open.surface.triangles.size(), 2U * 24 * 10);
+  EXPECT_EQ(open.notes.size(), 1U) << "its own rims";
+}
+
+TEST(OpenEnds, MeanRadiusIsThatOfATube) {
+  EXPECT_NEAR(mean_radius(tube(256, 10, 7, [](double) { return 1.5; })), 1.5, 1e-3);
+  const LumenSurface model = lumen(tube(24, 10, 4, [](double) { return 1.0; }));
+  const SignedSurface closed(closed_by_fans(model));
+  EXPECT_GT(closed.closest(Vec3(0.2, 0, 0.01)).distance, 0) << "inside, beside the inlet";
+  EXPECT_LT(closed.closest(Vec3(0.2, 0, -0.01)).distance, 0);
 }
 
 }  // namespace
