@@ -120,11 +120,11 @@ std::vector<std::string> draw_slices(const DrawnComparison& drawn) {
     if (source.moments.empty()) continue;
     for (const auto& [slice, panels] : panels_of(source, *drawn.data.lumen[i], drawn)) {
       const std::string name = fmt::format("contours_{}_{}", file_name(source.name), file_name(slice));
-      std::string text = gnuplot_head(600 * static_cast<int>(panels.size()), 600), plots;
+      std::string text = gnuplot_head(600 * static_cast<int>(panels.size()), 640), plots;
       for (const Panel& panel : panels) text += panel.data, plots += panel.plot;
       text += fmt::format(
           "set output 'plots/{}.png'\nset size ratio -1\nset key outside bottom center horizontal samplen 2 font "
-          "',10'\nset multiplot layout "
+          "',10'\nset lmargin 8\nset rmargin 4\nset bmargin 7\nset multiplot layout "
           "1,{}\n{}unset multiplot\n",
           name, panels.size(), plots);
       run_gnuplot(drawn.output, name + ".gp", text);
