@@ -17,7 +17,8 @@ struct Amplitude {
   double base = 0;                             ///< value of the model
   bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
   double lower = -infinite, upper = infinite;  ///< of the value
-  /// Admissible: short of the bounds by a hundredth of the way from the base.
+  /// Admissible: short of the bounds by a hundredth of the way from the base; of what doubles, not beyond four times
+  /// the scale.
   double value(double amplitude) const;
 };
 

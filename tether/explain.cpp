@@ -82,12 +82,13 @@ class Explainer {
     explanation_.case_name = common.name;
     explanation_.title = common.title;
     explanation_.case_file = fs::absolute(given.file.path()).lexically_proximate(output_).string();
-    explanation_.length_unit = given.file.units().symbol(dimension::length);
+    explanation_.millimetres = given.file.units().to_mm(1);
     explanation_.unexplained = given.diagnosis.unexplained;
   }
 
   const Explanation& run() {
     add_first();
+    identify_own();
     while (diagnose_best() && add_model() && !is_settled()) continue;
     if (verdict_of(explanation_) == "not_in_catalogue") seek_force();
     explanation_.steps = steps_.all();
@@ -140,6 +141,17 @@ class Explainer {
     if (!problem_.held_out.empty()) model.held_out = misfit_of(problem_, *evidence_, residual, problem_.held_out);
   }
 
+  /// What the case itself wants to be identified comes first: an effect must show beyond it. Kept if it is better.
+  void identify_own() {
+    if (identified_numbers(given_.file.path()).empty()) return;
+    ExplainedModel model;
+    model.number = best().number + 1;
+    model.name = "with its own parameters identified";
+    model.values = best().values;
+    identify_into(model);
+    judge(model);
+  }
+
   /// What the best model lacks. False if nothing more is to be added.
   bool diagnose_best() {
     ExplainedModel& model = best();
@@ -149,12 +161,12 @@ class Explainer {
     for (const std::string& number : identified_numbers(case_of(model.folder()))) assumed.push_back(number);
     if (!assumed.empty()) set_value(values, {"diagnosis.assumed", list_text(assumed)});
     set_value(values, {"diagnosis.most", "1"});  // one at a time, all refitted in between
-    if (model.number > 0) set_value(values, {"diagnosis.enough", number_text(enough())});
+    set_value(values, {"diagnosis.enough", number_text(enough())});
     write_case(folder, ", its diagnosis", values);
     steps_.make(fmt::format("model {}: what it lacks", model.number), case_of(folder), folder, "diagnosis.json",
                 [&](bool) { return diagnose(command_for(folder, folder)); });
     model.diagnosis = content_of(output_ / folder / "diagnosis.json");
-    return model.number < given_.diagnosis.most && accepted_effects(model.diagnosis, false) != "[]";
+    return effects_added() < given_.diagnosis.most && accepted_effects(model.diagnosis, false) != "[]";
   }
 
   /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.
@@ -166,23 +178,41 @@ class Explainer {
     return foreseen.is_null() || !gain || gain->value > 0.8 * foreseen["value"].get<double>();
   }
 
-  /// What the model as given left beyond noise, times the share that may be left.
+  int effects_added() const {
+    return static_cast<int>(std::count_if(explanation_.models.begin(), explanation_.models.end(),
+                                          [](const auto& model) { return model.accepted && model.added != "[]"; }));
+  }
+
+  /// What the first model left beyond noise, times the share that may be left.
   double enough() const {
-    const Json before = Json::parse(explanation_.models.front().diagnosis)["lack_of_fit"]["before"];
-    return before.is_null() ? 0 : explanation_.unexplained * before["excess"].get<double>();
+    const Json first = Json::parse(first_diagnosis(explanation_));
+    if (first.is_null() || first["lack_of_fit"]["before"].is_null()) return 0;
+    return explanation_.unexplained * first["lack_of_fit"]["before"]["excess"].get<double>();
   }
 
   /// The best model with what its diagnosis accepted, refitted, run without correction. False if that is no better.
   bool add_model() {
     const Json accepted = Json::parse(accepted_effects(best().diagnosis, false));
     ExplainedModel model;
-    model.number = best().number + 1;
+    model.number = explanation_.models.back().number + 1;
+    model.values = best().values;
     model.name = "with";
     for (const Json& effect : accepted)
       model.name += fmt::format("{} {} at {}", model.name == "with" ? "" : " and", effect["name"].get<std::string>(),
                                 effect["where"].get<std::string>());
     if (accepted[0]["where"] == "") model.name = "with other " + accepted[0]["name"].get<std::string>();
-    identify_into(model, accepted);
+    for (const auto& value : values_of_overlay(output_ / best().diagnosis_folder() / "suggested.yaml"))
+      set_value(model.values, value);
+    identify_into(model);
+    const Json estimate = read_json(output_ / model.identification_folder() / "estimate.json");
+    for (std::size_t i = 1; i <= explanation_.best; ++i)
+      explanation_.models[i].added = with_estimates(Json::parse(explanation_.models[i].added), estimate);
+    model.added = with_estimates(accepted, estimate);
+    return judge(model);
+  }
+
+  /// Runs a model without correction, and keeps it if it is better than the best before it.
+  bool judge(ExplainedModel& model) {
     simulate_and_compare(model);
     const StoredRun run(output_ / model.folder());
     const FinishedMotion motion = run.motion();
@@ -210,12 +240,9 @@ class Explainer {
     return square(residual) < square(residuals_.back()) ? "" : "the misfit does not fall";
   }
 
-  /// Finds the parameters of all that was added, together.
-  void identify_into(ExplainedModel& model, const Json& accepted) {
+  /// Finds the parameters of all that was added and of the case itself, together; they become the model's values.
+  void identify_into(ExplainedModel& model) {
     const std::string folder = model.identification_folder();
-    model.values = best().values;
-    for (const auto& value : values_of_overlay(output_ / best().diagnosis_folder() / "suggested.yaml"))
-      set_value(model.values, value);
     write_case(folder, ", to be identified", model.values);
     steps_.make(fmt::format("model {}, {}: its parameters", model.number, model.name), case_of(folder), folder,
                 "estimate.json", [&](bool was_begun) {
@@ -225,10 +252,6 @@ class Explainer {
                 });
     for (const auto& value : values_of_overlay(output_ / folder / "identified.yaml")) set_value(model.values, value);
     model.identified = true;
-    const Json estimate = read_json(output_ / folder / "estimate.json");
-    for (std::size_t i = 1; i <= explanation_.best; ++i)
-      explanation_.models[i].added = with_estimates(Json::parse(explanation_.models[i].added), estimate);
-    model.added = with_estimates(accepted, estimate);
   }
 
   /// Amplitudes as the filter found them.
@@ -278,16 +301,19 @@ class Explainer {
   std::vector<VectorXd> residuals_;  ///< of the accepted models
 };
 
+std::string line_of(const ExplainedModel& model, double millimetres) {
+  const auto text = [&](const std::optional<Misfit>& misfit) {
+    return misfit ? fmt::format("{:.2f} ({:.1f})", millimetres * misfit->length, misfit->in_noise) : std::string("-");
+  };
+  return fmt::format("  {:<48} {:>12} {:>12}{}\n", fmt::format("{} {}", model.number, model.name), text(model.training),
+                     text(model.held_out), model.accepted ? "" : "  not kept");
+}
+
 std::string text_of(const Explanation& explanation, const fs::path& output) {
   std::string text = "\n";
   for (const std::string& sentence : sentences_of(explanation)) text += sentence + "\n";
-  text += fmt::format("\n  {:<40} {:>12} {:>12}  in the noise\n", "model", "training", "held out");
-  for (const ExplainedModel& model : explanation.models)
-    text += fmt::format("  {:<40} {:>9.3g} {} {:>12} {:>5.1f} {:>5.1f}{}\n",
-                        fmt::format("{} {}", model.number, model.name), model.training.length, explanation.length_unit,
-                        model.held_out ? fmt::format("{:.3g} {}", model.held_out->length, explanation.length_unit) : "",
-                        model.training.in_noise, model.held_out ? model.held_out->in_noise : 0.0,
-                        model.accepted ? "" : "  not kept");
+  text += fmt::format("\n  {:<48} {:>12} {:>12}\n", "model: distance in mm (in the noise)", "training", "held out");
+  for (const ExplainedModel& model : explanation.models) text += line_of(model, explanation.millimetres);
   text += fmt::format("\nIn {}:\n  explain.json       the whole path\n", output.string());
   if (explanation.best > 0)
     text += fmt::format("  {}.yaml       the case with what was found, ready for tether simulate\n",

@@ -95,9 +95,10 @@ std::string verdict_sentence(const Explanation& e) {
 std::string held_out_sentence(const Explanation& e) {
   const ExplainedModel &first = e.models.front(), &last = best_of(e);
   return fmt::format(
-      "Held-out frames: {:.3g} {} away from the model as given, {:.3g} {} from the one with what was added: {:.0f} % "
-      "less ({:.0f} .. {:.0f}); {:.1f} times the noise is left",
-      first.held_out->length, e.length_unit, last.held_out->length, e.length_unit, 100 * e.held_out->value,
+      "Held-out frames: {:.2g} mm away from the model as given, {:.2g} mm from the one with what was added: {:.0f} % "
+      "less "
+      "({:.0f} .. {:.0f}); {:.1f} times the noise is left",
+      e.millimetres * first.held_out->length, e.millimetres * last.held_out->length, 100 * e.held_out->value,
       100 * e.held_out->lower, 100 * e.held_out->upper, last.held_out->in_noise);
 }
 
@@ -145,12 +146,17 @@ Json all_effects(const Explanation& e) {
 
 }  // namespace
 
+std::string first_diagnosis(const Explanation& e) {
+  const auto first = std::find_if(e.models.begin(), e.models.end(), is_diagnosed);
+  return first == e.models.end() ? "null" : first->diagnosis;
+}
+
 std::string accepted_effects(const std::string& diagnosis, bool of_data) {
   return accepted(Json::parse(diagnosis), of_data).dump();
 }
 
 bool is_explained(const Explanation& e, const std::string& diagnosis_json) {
-  const Json diagnosis = Json::parse(diagnosis_json), original = Json::parse(e.models.front().diagnosis);
+  const Json diagnosis = Json::parse(diagnosis_json), original = Json::parse(first_diagnosis(e));
   const Json &first = original["lack_of_fit"]["before"], &now = diagnosis["lack_of_fit"]["after"];
   if (first.is_null() || now.is_null()) return diagnosis["verdict"] != "not_in_catalogue";
   return now["p"] >= diagnosis["alpha"] || now["excess"] <= e.unexplained * first["excess"].get<double>();

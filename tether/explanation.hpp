@@ -45,7 +45,7 @@ struct ExplainedStep {
 
 struct Explanation {
   std::string case_name, title, case_file;  ///< case_file: relative to the output folder
-  std::string length_unit;
+  double millimetres = 1;                   ///< in the case's unit of length, for people
   std::vector<ExplainedModel> models;
   std::size_t best = 0;              ///< the last one accepted
   double unexplained = 0.3;          ///< share of the first misfit beyond noise that may be left
@@ -58,7 +58,10 @@ struct Explanation {
 /// The entries of `effects` that a diagnosis accepted, of the model or errors of the data: JSON of JSON.
 std::string accepted_effects(const std::string& diagnosis, bool of_data);
 
-/// Whether what a diagnosis (diagnosis.json) leaves is small against what the model as given left: within `unexplained`
+/// diagnosis.json of the first model that was diagnosed; "null": none was.
+std::string first_diagnosis(const Explanation& explanation);
+
+/// Whether what a diagnosis (diagnosis.json) leaves is small against what the first model left: within `unexplained`
 /// of it, or noise.
 bool is_explained(const Explanation& explanation, const std::string& diagnosis);
 

@@ -34,8 +34,9 @@ void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValu
   overlay.values.push_back({path + ".transform", positive ? "log2" : "linear"});
   overlay.values.push_back({path + ".mean", number_text(found.value)});
   const double half = found.upper - found.value;
-  const double deviation =
-      positive ? std::max(0.5, std::log2(found.upper / found.value)) : std::max(half, 0.25 * std::abs(found.value));
+  constexpr double unknown = 3;  // powers of two: more is no more of a prior
+  const double deviation = positive ? std::clamp(std::log2(found.upper / found.value), 0.5, unknown)
+                                    : std::max(half, 0.25 * std::abs(found.value));
   overlay.values.push_back({path + ".deviation", number_text(deviation)});
 }
 
