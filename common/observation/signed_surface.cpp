@@ -162,6 +162,20 @@ std::vector<Closest> SignedSurface::closest(const Points& x) const {
   return found;
 }
 
+std::vector<Closest> SignedSurface::closest(const Points& x, std::vector<int>& guesses) const {
+  std::vector<Closest> found;
+  if (guesses.size() != static_cast<std::size_t>(x.cols())) {
+    found = closest(x);
+    guesses.resize(found.size());
+  } else {
+    found.reserve(guesses.size());
+    for (std::size_t i = 0; i < guesses.size(); ++i)
+      found.push_back(tree_->closest(x.col(static_cast<Eigen::Index>(i)), guesses[i]));
+  }
+  for (std::size_t i = 0; i < guesses.size(); ++i) guesses[i] = found[i].triangle;
+  return found;
+}
+
 const TriangleSurface& SignedSurface::surface() const {
   return tree_->surface;
 }

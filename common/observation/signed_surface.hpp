@@ -39,6 +39,9 @@ class SignedSurface {
   Closest closest(const Vec3& x) const;
   /// One for each column; faster than one by one if neighbouring columns are close to each other.
   std::vector<Closest> closest(const Points& x) const;
+  /// The same points again, a little moved: `guesses` holds the triangles that were closest, and gets the new ones. Of
+  /// the wrong size they are not used. The result does not depend on them beyond rounding.
+  std::vector<Closest> closest(const Points& x, std::vector<int>& guesses) const;
 
   const TriangleSurface& surface() const;
 

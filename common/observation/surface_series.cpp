@@ -48,7 +48,8 @@ Sample SurfaceSeries::sample_of_node(Eigen::Index node, const Vec3& x) const {
 std::vector<Sample> SurfaceSeries::against(const Points& x, std::size_t frame) const {
   TETHER_ASSERT(x.cols() == areas_.size(), "{} points for a lumen of {}", x.cols(), areas_.size());
   const std::vector<bool>& flawed = frames_[frame].flawed;
-  const std::vector<Closest> found = tree(frame).closest(x);
+  FrameTree& kept = tree(frame);
+  const std::vector<Closest> found = kept.surface.closest(x, kept.closest);
   std::vector<Sample> samples;
   samples.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -94,10 +95,10 @@ std::vector<Frame> SurfaceSeries::frames() const {
   return frames;
 }
 
-const SignedSurface& SurfaceSeries::tree(std::size_t frame) const {
+SurfaceSeries::FrameTree& SurfaceSeries::tree(std::size_t frame) const {
   const auto found = trees_.find(frame);
-  return found != trees_.end() ? found->second
-                               : trees_.emplace(frame, SignedSurface(frames_[frame].surface)).first->second;
+  if (found != trees_.end()) return found->second;
+  return trees_.emplace(frame, FrameTree{SignedSurface(frames_[frame].surface), {}}).first->second;
 }
 
 }  // namespace tether

@@ -34,14 +34,19 @@ class SurfaceSeries : public LumenSeries {
  private:
   std::vector<Sample> against(const Points& x, std::size_t frame) const;
   Sample sample_of_node(Eigen::Index node, const Vec3& x) const;
-  const SignedSurface& tree(std::size_t frame) const;
+  /// A frame in use, and the triangle that was closest to each node when it was last asked.
+  struct FrameTree {
+    SignedSurface surface;
+    std::vector<int> closest;
+  };
+  FrameTree& tree(std::size_t frame) const;
 
   SourceSettings settings_;
   FrameTimes times_;
   std::vector<SurfaceFrame> frames_;
   VectorXd areas_;
   std::vector<std::string> notes_;
-  mutable std::map<std::size_t, SignedSurface> trees_;  ///< of the two frames in use
+  mutable std::map<std::size_t, FrameTree> trees_;  ///< of the two frames in use
 };
 
 }  // namespace tether

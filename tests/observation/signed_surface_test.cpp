@@ -145,5 +145,21 @@ TEST(SignedSurface, GivesTheSameOneByOne) {
     EXPECT_NEAR(surface.closest(Vec3(x.col(i))).distance, found[static_cast<std::size_t>(i)].distance, 1e-15);
 }
 
+/// A wall that moves asks again and again: what was closest before is a guess, a wrong one too.
+TEST(SignedSurface, GuessesChangeNothing) {
+  const SignedSurface surface(cube(4));
+  std::vector<int> guesses;
+  for (int step = 0; step < 5; ++step) {
+    const Points x = random_points(300, 0.5 + 0.4 * step, static_cast<unsigned>(step));
+    const std::vector<Closest> fresh = surface.closest(x), found = surface.closest(x, guesses);
+    ASSERT_EQ(found.size(), fresh.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].distance, fresh[i].distance, 1e-14);
+      EXPECT_LT((found[i].point - fresh[i].point).norm(), 1e-7);
+      EXPECT_EQ(guesses[i], found[i].triangle);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tether::testing
