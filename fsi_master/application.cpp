@@ -167,14 +167,19 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   for (Partner& partner : partners) partner.stop("the run is done");
 }
 
+/// Whether a group's runs are set against measurements while they are made; those of a diagnosis are afterwards.
+bool observes(const CaseFile& file) {
+  const std::string runs = file.given("diagnosis.runs");
+  return (runs.empty() || runs == "none") && (file.has("observations.surfaces") || file.has("observations.contours"));
+}
+
 /// Its life as a group of an identification_master.
 GroupServer serve_as_group(const CommandLine& command, const protocol::Welcome& welcome, protocol::Session& session) {
   auto master = std::make_unique<MasterCase>(command.case_file);
   RunPlan plan = plan_of(*master, command);
   plan.quiet = true;
   plan.write_every = plan.checkpoint_every = std::numeric_limits<int>::max();
-  const bool has_data = master->file.has("observations.surfaces") || master->file.has("observations.contours");
-  const std::span<Partner> partners = session.launch(programs_of(*master, has_data), welcome.output);
+  const std::span<Partner> partners = session.launch(programs_of(*master, observes(master->file)), welcome.output);
   for (Partner& partner : partners) partner.hello();
   return GroupServer(std::move(master), std::move(plan), partners);
 }

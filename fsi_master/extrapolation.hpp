@@ -6,9 +6,10 @@
 
 namespace tether {
 
-/// The first guess of a step's velocity: V0 and a share of the change of V that the step before made. With s the share
-/// that would have been nearest in that step it is 2 s - 1, between 0 and 1: where V rings, nothing is extrapolated.
-/// (C.1)
+/// The first guess of a step's velocity: V0 and a change foreseen from the two changes before, a c1 + b c0, with the
+/// numbers a and b that would have been best in the steps before, later ones counting more. Where V rings a is
+/// negative. If a share of the last change alone foresaw the last step better, that is taken: with s the share that
+/// would have been nearest in that step it is 2 s - 1, between 0 and 1. (C.1)
 class Extrapolation {
  public:
   /// The change to begin a step of this size with; empty if there is none to build on: in the first step, in one of
@@ -22,9 +23,16 @@ class Extrapolation {
   void unpack(const double* begin, const double* end);
 
  private:
-  VectorXd change_;   ///< of the last step that ended; empty if the last one begun has another size
-  double share_ = 0;  ///< of it that the next step begins with
-  double dt_ = 0;     ///< of the last step begun
+  void forget();
+  VectorXd by_share() const { return share_ * change_; }
+  VectorXd by_both() const { return a_ * change_ + b_ * before_; }
+
+  VectorXd change_, before_;  ///< of the last step that ended, and of the one before; empty: none of this size
+  double share_ = 0;          ///< of the last change
+  double a_ = 0, b_ = 0;
+  double products_[5] = {};  ///< of changes, faded: c1 c1, c1 c0, c0 c0, c1 c2, c0 c2 with c2 what was to be foreseen
+  bool uses_both_ = false;   ///< they foresaw the last change better
+  double dt_ = 0;            ///< of the last step begun
   bool ended_ = false;
 };
 

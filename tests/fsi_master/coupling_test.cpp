@@ -214,5 +214,26 @@ TEST(Extrapolation, TakesLessOfAChangeThatRings) {
   EXPECT_DOUBLE_EQ(after(2, -2), 0);
 }
 
+/// Changes that repeat themselves, ring, or do both at once, are foreseen from two of them.
+TEST(Extrapolation, ForeseesTwoModes) {
+  const VectorXd slow = VectorXd::Random(12), ringing = VectorXd::Random(12);
+  const auto change = [&](int k) -> VectorXd { return std::pow(0.95, k) * slow + std::pow(-0.9, k) * ringing; };
+  Extrapolation extrapolation;
+  double worst = 0;
+  for (int k = 0; k < 30; ++k) {
+    const VectorXd guess = extrapolation.begin(0.1);
+    if (k > 10) worst = std::max(worst, (guess - change(k)).norm() / change(k).norm());
+    extrapolation.end(change(k));
+    if (k == 15) {
+      const std::vector<double> kept = extrapolation.packed();
+      Extrapolation other;
+      other.unpack(kept.data(), kept.data() + kept.size());
+      EXPECT_EQ(other.packed(), kept);
+      extrapolation = other;
+    }
+  }
+  EXPECT_LT(worst, 0.01);
+}
+
 }  // namespace
 }  // namespace tether
