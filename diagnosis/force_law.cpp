@@ -95,6 +95,18 @@ ForceLaw law_of(const VectorXd& force, const VectorXd& deviation, const LocalMot
     chosen.push_back(best);
     left = least;
   }
+  const auto alike = [&](std::size_t place) {
+    std::vector<std::string> names;
+    for (Index k = 0; k < columns.cols(); ++k) {
+      if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) continue;
+      std::vector<Index> other = chosen;
+      other[place] = k;
+      const double now = std::max(LeastSquares(columns, target, other).left, floor);
+      if (count * std::log(now / std::max(left, floor)) < convincing)
+        names.push_back(dictionary.names[static_cast<std::size_t>(k)]);
+    }
+    return names;
+  };
   const LeastSquares fit(columns, target, chosen);
   ForceLaw law;
   law.explained = whole > 0 ? 1 - left / whole : 0;
@@ -105,7 +117,7 @@ ForceLaw law_of(const VectorXd& force, const VectorXd& deviation, const LocalMot
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const auto k = static_cast<Index>(i);
     const auto number = static_cast<std::size_t>(chosen[i]);
-    law.terms.push_back({dictionary.names[number], fit.coefficients(k), std::sqrt(variance * inverse(k, k))});
+    law.terms.push_back({dictionary.names[number], fit.coefficients(k), std::sqrt(variance * inverse(k, k)), alike(i)});
     law.is_expression = law.is_expression && dictionary.is_expression[number];
   }
   return law;

@@ -18,9 +18,10 @@ struct LocalMotion {
 
 /// One term of a law. Its sign is that of a traction along the outward normal.
 struct LawTerm {
-  std::string name;        ///< as a formula of a case has it: "un", "vn", "un*abs(un)"
-  double coefficient = 0;  ///< [pressure over the term]
-  double deviation = 0;    ///< of the coefficient
+  std::string name;                     ///< as a formula of a case has it: "un", "vn", "un*abs(un)"
+  double coefficient = 0;               ///< [pressure over the term]
+  double deviation = 0;                 ///< of the coefficient
+  std::vector<std::string> alike = {};  ///< terms that would do as well in its place
 };
 
 struct ForceLaw {

@@ -1,6 +1,7 @@
 #include "tether/missing_force.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,18 @@ std::size_t moments_of(const Observations& data) {
     for (const Frame& frame : source->frames())
       if (!frame.held_out) times.insert(frame.time);
   return times.size();
+}
+
+/// Of a law as JSON.
+std::string law_sentence(const Json& law) {
+  if (law["terms"].empty()) return ", which follows neither displacement nor velocity nor pressure";
+  std::string text =
+      fmt::format(" that follows {} ({:.0f} % of it)", law["text"].get<std::string>(), 100 * law["r2"].get<double>());
+  for (const Json& term : law["terms"])
+    if (const auto alike = term["alike"].get<std::vector<std::string>>(); !alike.empty())
+      text += fmt::format("; instead of {} these data would take {} as well", term["term"].get<std::string>(),
+                          fmt::join(alike, " or "));
+  return text;
 }
 
 std::string effect_path(const std::string& name) {
@@ -179,7 +192,8 @@ std::string MissingForce::law_of_traction(const Traction& traction, const Stored
   const ForceLaw law = law_of(force, deviation, motion, correlated);
   Json terms = Json::array();
   for (const LawTerm& term : law.terms)
-    terms.push_back({{"term", term.name}, {"coefficient", term.coefficient}, {"deviation", term.deviation}});
+    terms.push_back(
+        {{"term", term.name}, {"coefficient", term.coefficient}, {"deviation", term.deviation}, {"alike", term.alike}});
   return Json{{"text", law.formula()}, {"terms", terms}, {"r2", law.explained}, {"is_expression", law.is_expression}}
       .dump();
 }
@@ -194,12 +208,9 @@ std::string MissingForce::laws() const {
     const Json law = Json::parse(law_of_traction(traction, run));
     const auto [low, high] = std::minmax_element(traction.value.begin(), traction.value.end());
     const bool has_law = !law["terms"].empty();
-    json["sentences"].push_back(
-        fmt::format("{}: a traction of {:.3g} .. {:.3g} {} along the outward normal{}",
-                    traction.region.empty() ? "wall" : traction.region, *low, *high, unit,
-                    has_law ? fmt::format(" that follows {} ({:.0f} % of it)", law["text"].get<std::string>(),
-                                          100 * law["r2"].get<double>())
-                            : ", which follows neither displacement nor velocity nor pressure"));
+    json["sentences"].push_back(fmt::format("{}: a traction of {:.3g} .. {:.3g} {} along the outward normal{}",
+                                            traction.region.empty() ? "wall" : traction.region, *low, *high, unit,
+                                            law_sentence(law)));
     if (has_law && law["is_expression"].get<bool>()) {
       place(values, traction.name, traction.region);
       values.push_back({effect_path(traction.name) + ".normal", law["text"]});

@@ -87,5 +87,13 @@ TEST_F(ForceLawTest, FewIndependentMomentsAreCautious) {
   EXPECT_TRUE(law(force, 20).terms.empty()) << "four independent moments show no law";
 }
 
+TEST_F(ForceLawTest, SaysWhichTermsCannotBeToldApart) {
+  motion.pressure = 3e5 * motion.displacement + noise(300);  // a vessel that only fills
+  const ForceLaw found = law(-1e5 * motion.displacement + noise(2000));
+  ASSERT_EQ(found.terms.size(), 1U) << found.formula();
+  const std::string other = found.terms[0].name == "un" ? "pressure" : "un";
+  EXPECT_EQ(found.terms[0].alike, std::vector<std::string>{other});
+}
+
 }  // namespace
 }  // namespace tether
