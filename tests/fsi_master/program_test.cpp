@@ -104,7 +104,12 @@ TEST_F(Program, AStepThatNeverSucceedsEndsWithHistoryAndLastGoodState) {
 
 TEST_F(Program, AnInterruptedRunSaysWhatIsSavedAndContinuesFromThere) {
   write_case("time: {step: 0.01, end: 1000}");
-  launcher_ = {"timeout", "--foreground", "--preserve-status", "--signal=INT", "2.5"};
+  const std::string series = (folder / "out/timeseries.csv").string();
+  const std::string interrupt_after_steps = fmt::format(
+      "set -m; \"$@\" & for i in $(seq 600); do sleep 0.1; [ $(cat {0} 2>/dev/null | wc -l) -gt 8 ] && break; done; "
+      "kill -INT $!; wait $!",
+      series);
+  launcher_ = {"bash", "-c", interrupt_after_steps, "bash"};
   const ChildEnd end = run("out", {"--quiet"});
   launcher_ = {};
   EXPECT_EQ(end.exit_code, 1);

@@ -29,15 +29,19 @@ ChildEnd tether(const std::vector<std::string>& words) {
 Json found_in(const fs::path& page, const std::string& script) {
   std::string text = content_of(page);
   const std::string end = "</body>";
-  text.insert(text.rfind(end), "<script>addEventListener('load', () => setTimeout(() => { let found = {}; " + script +
-                                   " const out = document.createElement('pre'); out.id = 'found'; out.textContent = "
-                                   "JSON.stringify(found).replace(/[<>&]/g, (c) => '\\\\u00' + "
-                                   "c.charCodeAt(0).toString(16)); document.body.append(out); }, 1000));</script>");
+  text.insert(text.rfind(end),
+              "<script>addEventListener('load', () => afterDrawing(() => { let found = {}; " + script +
+                  " const out = document.createElement('pre'); out.id = 'found'; out.textContent = "
+                  "JSON.stringify(found).replace(/[<>&]/g, (c) => '\\\\u00' + "
+                  "c.charCodeAt(0).toString(16)); document.body.append(out); }));"
+                  "function afterDrawing(act, tries = 40) { requestAnimationFrame(() => "
+                  "tries && [...document.querySelectorAll('.chart')].some((c) => !c.querySelector('svg')) "
+                  "? setTimeout(() => afterDrawing(act, tries - 1), 100) : setTimeout(act, 100)); }</script>");
   const fs::path copy = page.parent_path() / "looked_at.html";
   std::ofstream(copy) << text;
   const ChildEnd browser = capture({{"chromium-headless-shell", "--no-sandbox", "--disable-gpu", "--use-gl=angle",
                                      "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=900,1200",
-                                     "--virtual-time-budget=5000", "--dump-dom", "file://" + copy.string()},
+                                     "--virtual-time-budget=6000", "--dump-dom", "file://" + copy.string()},
                                     {}});
   const std::string open = "<pre id=\"found\">";
   const auto at = browser.output.find(open);
