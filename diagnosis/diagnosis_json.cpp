@@ -300,6 +300,7 @@ void write_json(const std::filesystem::path& path, const DiagnosisReport& report
   json["detectable"] = detectable(report.problem, found.effects);
   json["lack_of_fit"] = {{"before", json_of(report.problem, found.before)},
                          {"after", json_of(report.problem, found.after)}};
+  json["more"] = found.more;
   json["split_by"] = split_by(report.splits);
   json["path"] = path_of(report);
   json["suggested_case"] = report.suggested.empty() ? Json() : Json(report.suggested);

@@ -33,7 +33,7 @@ struct Surrogate {
         problem(problem_of(given, evidence, motions, content_of(folder / "candidates/runs.json"),
                            catalogue_of(case_file, given.diagnosis))) {
     const DiagnosisCase& d = given.diagnosis;
-    settings = {d.alpha, d.unexplained, d.most, d.refinements, d.confirmed};
+    settings = {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed};
     const std::vector<TestedEffect> effects =
         test_all(problem, Trained(problem).scores(problem.changes, problem.residual), d.alpha,
                  problem.independent(problem.training).sum());
