@@ -258,14 +258,13 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
   const SearchResult& found = report.found;
   std::vector<std::string> all{verdict_sentence(report)};
   if (found.verdict == "ambiguous" && !report.splits.empty()) all.push_back(split_sentence(report.splits.front()));
-  for (const TestedEffect* effect : accepted_of(found)) {
-    if (effect->held_out)
-      all.push_back(fmt::format("Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with {}",
-                                100 * effect->held_out->value, 100 * effect->held_out->lower,
-                                100 * effect->held_out->upper, name_of(report.problem.candidates[effect->candidate])));
-    else
-      all.push_back("Not confirmed: no frames are held out");
-  }
+  if (found.held_out)
+    all.push_back(fmt::format(
+        "Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with it, {:.2g} times the noise instead of {:.2g}",
+        100 * found.held_out->value, 100 * found.held_out->lower, 100 * found.held_out->upper, found.held_out->after,
+        found.held_out->before));
+  else if (!accepted_of(found).empty())
+    all.push_back("Not confirmed: no frames are held out");
   for (const TestedEffect& effect : found.effects)
     if (found.verdict == "missing" && effect.rival)
       all.push_back(fmt::format("These data cannot tell it from its variant {}, {}",
