@@ -48,8 +48,7 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
                          const std::vector<FinishedMotion>& motions, const std::string& runs_json,
                          const std::vector<PlacedEffect>& effects) {
   const UnitSystem& units = given.file.units();
-  AllowanceCase allowed = given.diagnosis.allowed;
-  if (!allowed.time_shift) allowed.time_shift = 0.5 * given.file.common().time.step;
+  const AllowanceCase& allowed = given.diagnosis.allowed;
   const FinishedMotion& base = motions.front();
   EffectProblem problem = evidence.problem();
   std::vector<const FinishedMotion*> all;
