@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 namespace tether {
 namespace {
@@ -105,7 +106,7 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
                  {{"bias", "along the outward normal", unit_of_length}}, errors.only(ones, part.source, nullptr),
                  allowed.bias.value_or(0.5 * sigma));
       errors.add({"gating_shift", name, "The times of all frames are off", kind, {}, true}, {shift},
-                 errors.only(velocity, part.source, nullptr), allowed.time_shift);
+                 errors.only(velocity, part.source, nullptr), allowed.time_shift.value_or(0));
     }
     if (part.frame.held_out || frames[part.source] < 2) continue;
     const std::string where = fmt::format("{}, {:.4g} s", name, part.frame.time);
@@ -119,31 +120,34 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
 void add_patterns(EffectProblem& problem, const Evidence& evidence, const AllowanceCase& allowed, double start,
                   double end) {
   const auto n = problem.residual.size();
-  const auto region_of = [&](Index i) { return evidence.regions()[static_cast<std::size_t>(i)]; };
-  std::map<std::pair<int, double>, VectorXd> columns;  // a NaN has no order: -1, -2, -3 stand for the beat
-  std::map<std::pair<int, double>, double> deviation;
+  struct Column {
+    VectorXd values;
+    double deviation;
+  };
+  std::map<std::tuple<int, double, int>, Column> columns;  // a NaN has no order: start - 1, - 2, - 3 stand for the beat
   for (const auto& part : evidence.parts()) {
     if (evidence.is_trace(part)) continue;
     const double phase = 2 * std::numbers::pi * (part.time - start) / (end - start);
     const double model = allowed.model.value_or(0.25 * evidence.noise(part).deviation);
-    const auto add = [&](double key, double value) {
+    const auto add = [&](double key, double value, int form) {
       for (Index i = part.first; i < part.first + part.count; ++i) {
-        const std::pair<int, double> place{region_of(i), key};
-        columns.try_emplace(place, VectorXd::Zero(n)).first->second(i) = value;
-        deviation[place] = model;
+        const auto k = static_cast<std::size_t>(i);
+        const double shape = std::cos(form * std::numbers::pi * evidence.along()[k]);
+        columns.try_emplace({evidence.regions()[k], key, form}, Column{VectorXd::Zero(n), model})
+            .first->second.values(i) = value * shape;
       }
     };
-    add(part.time, 1);
-    add(start - 1, 1);
-    add(start - 2, std::cos(phase));
-    add(start - 3, std::sin(phase));
+    for (int form = 0; form < 3; ++form) add(part.time, 1, form);
+    add(start - 1, 1, 0);
+    add(start - 2, std::cos(phase), 0);
+    add(start - 3, std::sin(phase), 0);
   }
   for (const auto& [place, column] : columns) {
-    append_columns(problem.patterns, column);
-    const std::string region =
-        place.first >= 0 ? evidence.region_names()[static_cast<std::size_t>(place.first)] : "wall";
-    problem.pattern_names.push_back({region, place.second < start - 0.5 ? undefined : place.second});
-    allow(problem, column, deviation[place]);
+    const auto& [number, time, form] = place;
+    append_columns(problem.patterns, column.values);
+    const std::string region = number >= 0 ? evidence.region_names()[static_cast<std::size_t>(number)] : "wall";
+    problem.pattern_names.push_back({region, time < start - 0.5 ? undefined : time, static_cast<Pattern::Form>(form)});
+    allow(problem, column.values, column.deviation);
   }
 }
 

@@ -11,8 +11,9 @@ namespace tether {
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
                      const AllowanceCase& allowed, const std::string& unit_of_length, const std::string& unit_of_time);
 
-/// Each region at each moment, and over the beat (constant, cosine, sine): what may be off without any effect's doing
-/// (D.11). As errors of the model's mesh they are allowed.
+/// Each region at each moment (all along the vessel, one end against the other, the ends against the middle), and over
+/// the beat (constant, cosine, sine): what may be off without any effect's doing (D.11). As errors of the model's mesh
+/// they are allowed.
 void add_patterns(EffectProblem& problem, const Evidence& evidence, const AllowanceCase& allowed, double start,
                   double end);
 

@@ -63,6 +63,7 @@ Json json_of(const EffectProblem& problem, const TestedEffect& effect) {
           {"kind", word_of(candidate.kind)},
           {"accepted", effect.accepted},
           {"rival", effect.rival},
+          {"testable", effect.testable},
           {"z", effect.z},
           {"p", effect.p},
           {"q", effect.q},
@@ -76,12 +77,18 @@ Json json_of(const EffectProblem& problem, const TestedEffect& effect) {
           {"held_out_gain", effect.held_out ? json_of(*effect.held_out) : Json()}};
 }
 
+const char* form_of(const Pattern& pattern) {
+  return pattern.form == Pattern::Form::alike ? "alike" : pattern.form == Pattern::Form::ends ? "ends" : "end_to_end";
+}
+
 Json json_of(const EffectProblem& problem, const LackOfFit& lack) {
   if (problem.pattern_names.empty()) return nullptr;
   const Pattern& worst = problem.pattern_names[lack.worst];
   return {{"p", lack.p},
           {"excess", lack.excess},
+          {"beyond_noise", lack.beyond_noise},
           {"worst_region", worst.region},
+          {"worst_form", form_of(worst)},
           {"worst_time", number(worst.time)},
           {"worst_z", lack.z}};
 }
@@ -123,6 +130,31 @@ Json path_of(const DiagnosisReport& report) {
   return all;
 }
 
+Json json_of(const Split& split) {
+  return {{"measurement", split.measurement},
+          {"assuming", split.assuming},
+          {"expected_difference", split.difference},
+          {"tells", split.difference >= telling}};
+}
+
+Json split_by(const std::vector<Split>& splits) {
+  if (splits.empty()) return nullptr;
+  Json json = json_of(splits.front());
+  json["others"] = Json::array();
+  for (std::size_t i = 1; i < splits.size(); ++i) json["others"].push_back(json_of(splits[i]));
+  return json;
+}
+
+std::string split_sentence(const Split& best) {
+  if (best.difference >= telling)
+    return fmt::format("Measuring {} would tell them apart ({}: expected difference of the misfit {:.0f})",
+                       best.measurement, best.assuming, best.difference);
+  return fmt::format(
+      "No pressure, no flow and no more or better frames would tell them apart; most would {} ({}: expected "
+      "difference of the misfit {:.1f} of {:.0f} that it takes)",
+      best.measurement, best.assuming, best.difference, telling);
+}
+
 /// Significant digits that a person reads.
 std::string short_number(double value) {
   return fmt::format("{:.3g}", value);
@@ -140,7 +172,10 @@ std::string amplitude_text(const EffectProblem& problem, const TestedEffect& eff
 std::string where_left(const EffectProblem& problem, const LackOfFit& lack) {
   const Pattern& worst = problem.pattern_names[lack.worst];
   const std::string time = std::isnan(worst.time) ? "over the beat" : fmt::format("at {:.3g} s", worst.time);
-  return fmt::format("{}, {}: the model lies too far {} ({:.1f} sigma)", worst.region, time,
+  const char* form = worst.form == Pattern::Form::end_to_end ? " (inlet end, against the outlet end)"
+                     : worst.form == Pattern::Form::ends     ? " (both ends, against the middle)"
+                                                             : "";
+  return fmt::format("{}{}, {}: the model lies too far {} ({:.1f} sigma)", worst.region, form, time,
                      lack.z < 0 ? "outward" : "inward", std::abs(lack.z));
 }
 
@@ -151,13 +186,25 @@ std::vector<const TestedEffect*> accepted_of(const SearchResult& found) {
   return all;
 }
 
+/// What was accepted, with its amount.
+std::vector<std::string> named_of(const DiagnosisReport& report) {
+  std::vector<std::string> named;
+  for (const TestedEffect* effect : accepted_of(report.found))
+    named.push_back(fmt::format("{}, {}", name_of(report.problem.candidates[effect->candidate]),
+                                amplitude_text(report.problem, *effect)));
+  return named;
+}
+
 std::string verdict_sentence(const DiagnosisReport& report) {
   const EffectProblem& problem = report.problem;
   const SearchResult& found = report.found;
-  std::vector<std::string> named;
-  for (const TestedEffect* effect : accepted_of(found))
-    named.push_back(
-        fmt::format("{}, {}", name_of(problem.candidates[effect->candidate]), amplitude_text(problem, *effect)));
+  const std::vector<std::string> named = named_of(report);
+  const auto accepted = accepted_of(found);
+  const bool is_data = std::all_of(accepted.begin(), accepted.end(), [&](const TestedEffect* effect) {
+    return problem.candidates[effect->candidate].kind == Candidate::Kind::data;
+  });
+  if (found.verdict == "missing" && is_data)
+    return fmt::format("THE DATA are off, the model lacks nothing beside: {}", fmt::join(named, "; and "));
   if (found.verdict == "missing") return fmt::format("MISSING: {}", fmt::join(named, "; and "));
   if (found.verdict == "nothing_missing")
     return "NOTHING MISSING: no candidate explains more than chance, and what is left is within the noise and the "
@@ -210,14 +257,14 @@ FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, In
 std::vector<std::string> sentences_of(const DiagnosisReport& report) {
   const SearchResult& found = report.found;
   std::vector<std::string> all{verdict_sentence(report)};
-  for (const TestedEffect* effect : accepted_of(found)) {
-    if (effect->held_out)
-      all.push_back(fmt::format("Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with {}",
-                                100 * effect->held_out->value, 100 * effect->held_out->lower,
-                                100 * effect->held_out->upper, name_of(report.problem.candidates[effect->candidate])));
-    else
-      all.push_back("Not confirmed: no frames are held out");
-  }
+  if (found.verdict == "ambiguous" && !report.splits.empty()) all.push_back(split_sentence(report.splits.front()));
+  if (found.held_out)
+    all.push_back(fmt::format(
+        "Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with it, {:.2g} times the noise instead of {:.2g}",
+        100 * found.held_out->value, 100 * found.held_out->lower, 100 * found.held_out->upper, found.held_out->after,
+        found.held_out->before));
+  else if (!accepted_of(found).empty())
+    all.push_back("Not confirmed: no frames are held out");
   for (const TestedEffect& effect : found.effects)
     if (found.verdict == "missing" && effect.rival)
       all.push_back(fmt::format("These data cannot tell it from its variant {}, {}",
@@ -228,7 +275,10 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
         fmt::format("The misfit that is left is {:.1f} times what noise makes: intervals are widened by its root, and "
                     "still optimistic",
                     found.dispersion));
-  if (found.verdict == "missing" && found.after.p < report.alpha)
+  if (found.more) all.push_back("More is wanted beside it: no further effect was looked for (diagnosis.most)");
+  if (found.verdict == "not_in_catalogue" && !named_of(report).empty())
+    all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(named_of(report), "; and ")));
+  if (found.verdict == "missing" && found.after.p < report.alpha / 5)
     all.push_back(fmt::format("Something smaller is left: {}", where_left(report.problem, found.after)));
   return all;
 }
@@ -249,9 +299,14 @@ void write_json(const std::filesystem::path& path, const DiagnosisReport& report
   json["detectable"] = detectable(report.problem, found.effects);
   json["lack_of_fit"] = {{"before", json_of(report.problem, found.before)},
                          {"after", json_of(report.problem, found.after)}};
+  json["more"] = found.more;
+  json["split_by"] = split_by(report.splits);
   json["path"] = path_of(report);
   json["suggested_case"] = report.suggested.empty() ? Json() : Json(report.suggested);
-  json["cost"] = {{"runs", report.runs}, {"runs_made", report.runs_made}, {"cpu_seconds", report.cpu_seconds}};
+  json["cost"] = {{"runs", report.runs},
+                  {"sensitivity_runs", report.sensitivity_runs},
+                  {"runs_made", report.runs_made},
+                  {"cpu_seconds", report.cpu_seconds}};
   std::ofstream file(path);
   file << json.dump(1) << std::endl;
   if (!file) throw run_error("{} cannot be written", path.string());

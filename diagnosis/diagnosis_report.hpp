@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "diagnosis/effect_search.hpp"
+#include "diagnosis/further_measurement.hpp"
 
 namespace tether {
 
@@ -11,8 +12,10 @@ struct DiagnosisReport {
   std::string case_name, title, suggested;  ///< suggested: the case with the effect; empty: none
   EffectProblem problem;
   SearchResult found;
+  std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
   double alpha = 0.05;
   int runs = 0, runs_made = 0;  ///< of the model; those that were not there yet
+  int sensitivity_runs = 0;     ///< of these, the case as it is and what each number does to first order
   double cpu_seconds = 0;       ///< of the runs that were made
 };
 

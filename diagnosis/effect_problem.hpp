@@ -40,6 +40,14 @@ bool is_variant(const Candidate& one, const Candidate& other);
 struct Pattern {
   std::string region;
   double time = undefined;  ///< of a moment; undefined: over the whole run
+  /// Along the vessel: all of it alike, its inlet end against its outlet end, both ends against the middle.
+  enum class Form { alike, end_to_end, ends } form = Form::alike;
+};
+
+/// An allowed error that is a number of the model: what a run showed of it.
+struct AllowedRun {
+  Eigen::Index column = 0, run = 0;  ///< of `allowed`; of the sensitivity runs
+  double step = 1;                   ///< amplitude in that run
 };
 
 /// Data set against a model, and all that might change it, to first order.
@@ -55,7 +63,8 @@ struct EffectProblem {
   std::vector<Candidate> candidates;
   MatrixXd allowed;            ///< N [n x k]
   VectorXd allowed_deviation;  ///< [k]
-  MatrixXd patterns;           ///< [n x g]
+  std::vector<AllowedRun> allowed_runs;
+  MatrixXd patterns;  ///< [n x g]
   std::vector<Pattern> pattern_names;
 };
 

@@ -13,8 +13,10 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double convincing = 6;    ///< of BIC
-constexpr double hopeless = 30;     ///< of the misfit, behind the best
+constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
+
+constexpr const char* too_weak = "the misfit does not fall by enough";
 
 class Search {
  public:
@@ -28,7 +30,7 @@ class Search {
 
   SearchResult run() {
     const Scores scores = plain_.scores(problem_.changes, problem_.residual);
-    result_.effects = test_all(problem_, scores, settings_.alpha);
+    result_.effects = test_all(problem_, scores, settings_.alpha, result_.independent);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
     const bool is_enough = result_.before.excess < settings_.enough;
     while (!is_enough && add_one()) continue;
@@ -63,7 +65,7 @@ class Search {
   /// What the data ask for beside what was accepted, the strongest first.
   std::vector<TestedEffect> wanted(const Trained& trained) const {
     std::vector<TestedEffect> all =
-        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha);
+        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
     std::erase_if(all, [&](const TestedEffect& e) { return e.q >= settings_.alpha || was_tried(e.candidate); });
     std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return is_worth_more(a, b); });
     if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
@@ -108,9 +110,14 @@ class Search {
                    problem_.independent(problem_.held_out).sum());
   }
 
+  /// The same without the allowed errors that the training data show of either.
+  std::optional<Gain> confirmation(const VectorXd& before, const VectorXd& after) const {
+    return held_out_gain(plain_.corrected(problem_, before), plain_.corrected(problem_, after));
+  }
+
   /// Whether the data at hand and those held out ask for the effect; else why not.
   std::string objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
-    if (worth_of(effect) < convincing * dispersion) return "the misfit does not fall by enough";
+    if (worth_of(effect) < convincing * dispersion) return too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && effect.held_out && !(effect.held_out->lower > 0)) return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
@@ -138,7 +145,7 @@ class Search {
     const AmplitudeState state = best.state();
     const double spread = dispersion(state.residual), most = worth_of(best.effect());
     TestedEffect chosen = best.effect();
-    chosen.held_out = held_out_gain(before, state.residual);
+    chosen.held_out = confirmation(before, state.residual);
     SearchStep step{chosen.candidate,
                     false,
                     {},
@@ -151,7 +158,8 @@ class Search {
     for (const Refinement& one : all) {
       if (!one.begun()) continue;
       TestedEffect effect = &one == &best ? chosen : one.effect();
-      if (&one != &best) effect.held_out = held_out_gain(before, one.state().residual);
+      effect.run = one.state().amplitudes;
+      if (&one != &best) effect.held_out = confirmation(before, one.state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.rival = step.accepted && &one != &best && worth_of(effect) > most - convincing * spread;
       if (effect.rival) rival_of_[effect.candidate] = chosen.candidate;
@@ -161,7 +169,7 @@ class Search {
     now_ = state;
     result_.after = step.left;
     result_.dispersion = spread;
-    return leaves_too_much();
+    return leaves_something();
   }
 
   /// What is known of an effect now; `visible` stays what it was without any other.
@@ -170,6 +178,7 @@ class Search {
                                        [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
     if (kept.accepted) return;
     effect.visible = kept.visible;
+    effect.testable = kept.testable;
     effect.rival = !effect.accepted && (effect.rival || kept.rival);
     kept = std::move(effect);
   }
@@ -188,9 +197,13 @@ class Search {
     }
   }
 
+  /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
+  bool leaves_something() const { return result_.after.p < settings_.alpha / 5; }
+  /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
-    return result_.after.p < settings_.alpha &&
-           result_.after.excess > std::max(settings_.enough, settings_.unexplained * result_.before.excess);
+    const double removed = plain_.misfit(problem_.residual) - plain_.misfit(now_.residual);
+    return leaves_something() && result_.after.excess > settings_.enough &&
+           result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
   }
 
   void judge() {
@@ -205,10 +218,16 @@ class Search {
       result_.verdict = "ambiguous";
     else if (accepted)
       result_.verdict = "missing";
-    else if (!result_.path.empty() || !sees_anything())
+    else if (stands_out() || !sees_anything())
       result_.verdict = "undecided";
     else
       result_.verdict = "nothing_missing";
+  }
+
+  /// Whether something had the evidence, but was not confirmed.
+  bool stands_out() const {
+    return std::any_of(result_.path.begin(), result_.path.end(),
+                       [](const SearchStep& step) { return step.reason != too_weak; });
   }
 
   /// Whether any effect would be seen at the size that it may have in a patient.

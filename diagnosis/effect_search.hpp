@@ -6,7 +6,7 @@ namespace tether {
 
 struct SearchSettings {
   double alpha = 0.05;       ///< probability of a false alarm over all candidates
-  double unexplained = 0.3;  ///< if more of the misfit beyond noise remains, something else is missing
+  double unexplained = 0.1;  ///< if more of what the data ask for remains, something else is missing
   double enough = 0;         ///< excess (D.11) below which nothing more is looked for
   int most = 3;              ///< effects that are added
   int refinements = 5;       ///< runs at most for an effect's amplitude

@@ -11,6 +11,9 @@ namespace {
 
 using Index = Eigen::Index;
 
+/// What is seen only at so many times the size that it may have is not tested: it could be named by chance only.
+constexpr double beyond_patients = 5;
+
 std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
   std::vector<bool> one_sided;
   for (const Index i : of) one_sided.push_back(problem.amplitudes[static_cast<std::size_t>(i)].one_sided);
@@ -19,16 +22,16 @@ std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& 
 
 /// z of the same probability, for people.
 double as_z(double p) {
-  return p > 1e-300 ? -normal_quantile(std::max(p, 1e-300)) : 37;
+  return p > 1e-300 ? -normal_quantile(std::min(p, 1 - 1e-12)) : 37;
 }
 
-double probability(const Fit& fit, const std::vector<bool>& one_sided) {
+double probability(double gain, const std::vector<bool>& one_sided) {
   const int n = static_cast<int>(one_sided.size());
   const bool any = std::any_of(one_sided.begin(), one_sided.end(), [](bool one) { return one; });
-  return any ? one_sided_tail(fit.gain, n) : chi_square_tail(fit.gain, n);  // (D.10)
+  return any ? one_sided_tail(gain, n) : chi_square_tail(gain, n);  // (D.10)
 }
 
-TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores) {
+TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores, double count) {
   const std::vector<Index>& own = problem.candidates[number].amplitudes;
   const MatrixXd information = scores.information(own, own);
   const std::vector<bool> one_sided = sides(problem, own);
@@ -36,10 +39,11 @@ TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores
   TestedEffect effect;
   effect.candidate = number;
   effect.gain = fit.gain;
-  effect.p = probability(fit, one_sided);
-  effect.z = fit.gain > 0 ? (own.size() == 1 ? std::sqrt(fit.gain) : as_z(effect.p)) : 0;
+  const double spread = std::max(1.0, (scores.misfit - fit.gain) / count);  // noise that is larger than stated
+  effect.p = probability(fit.gain / spread, one_sided);
+  effect.z = fit.gain > 0 ? (own.size() == 1 ? std::sqrt(fit.gain / spread) : as_z(effect.p)) : 0;
   if (own.size() == 1 && scores.response(own[0]) < 0)
-    effect.z = -std::sqrt(scores.response(own[0]) * scores.response(own[0]) / information(0, 0));
+    effect.z = scores.response(own[0]) / std::sqrt(spread * information(0, 0));
   effect.amplitudes = fit.amplitudes;
   effect.deviations = information.diagonal().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
   const double alone = scores.alone(own).sum();
@@ -48,12 +52,20 @@ TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores
 }
 
 /// (D.12)
-double visible(const EffectProblem& problem, const Scores& scores, const TestedEffect& effect, double alpha) {
-  const Index first = problem.candidates[effect.candidate].amplitudes.front();
-  const bool one_sided = problem.amplitudes[static_cast<std::size_t>(first)].one_sided;
+double visible(const EffectProblem& problem, const Scores& scores, Index amplitude, double alpha) {
+  const bool one_sided = problem.amplitudes[static_cast<std::size_t>(amplitude)].one_sided;
   const double tests = static_cast<double>(problem.candidates.size()) * (one_sided ? 1 : 2);
-  const double information = scores.information(first, first);
+  const double information = scores.information(amplitude, amplitude);
   return information > 0 ? (normal_quantile(1 - alpha / tests) + 0.842) / std::sqrt(information) : infinite;
+}
+
+/// Whether any of its amplitudes is seen at a size that it may have.
+bool is_testable(const EffectProblem& problem, const Scores& scores, std::size_t candidate, double alpha) {
+  const auto& own = problem.candidates[candidate].amplitudes;
+  return std::any_of(own.begin(), own.end(), [&](Index i) {
+    const double scale = problem.amplitudes[static_cast<std::size_t>(i)].scale;
+    return !(visible(problem, scores, i, alpha) > beyond_patients * scale);  // errors of the data have no scale
+  });
 }
 
 }  // namespace
@@ -73,24 +85,30 @@ double cosine(const EffectProblem& problem, const Scores& scores, const TestedEf
   return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
 }
 
-std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha) {
+std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha, double count) {
   std::vector<TestedEffect> all;
   std::vector<double> p;
   for (std::size_t i = 0; i < problem.candidates.size(); ++i) {
-    all.push_back(test(problem, i, scores));
-    p.push_back(all.back().p);
+    TestedEffect& effect = all.emplace_back(test(problem, i, scores, count));
+    effect.visible = visible(problem, scores, problem.candidates[i].amplitudes.front(), alpha);
+    effect.testable = is_testable(problem, scores, i, alpha);
+    if (effect.testable) p.push_back(effect.p);
   }
   const std::vector<double> q = holm(p);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].q = q[i];
-    all[i].visible = visible(problem, scores, all[i], alpha);
-  }
+  auto next = q.begin();
+  for (TestedEffect& effect : all)
+    if (effect.testable) effect.q = *next++;
   return all;
 }
 
 double worth(const EffectProblem& problem, const TestedEffect& effect, double count) {
   const double gain = effect.confirmed ? effect.confirmed_gain : effect.gain;
-  return gain - static_cast<double>(problem.candidates[effect.candidate].amplitudes.size()) * std::log(count);
+  const auto& own = problem.candidates[effect.candidate].amplitudes;
+  double price = static_cast<double>(own.size()) * std::log(count);
+  for (std::size_t k = 0; k < own.size(); ++k)
+    if (const double scale = problem.amplitudes[static_cast<std::size_t>(own[k])].scale; scale > 0)
+      price += std::pow(effect.amplitudes(static_cast<Index>(k)) / (beyond_patients * scale), 2);
+  return gain - price;
 }
 
 LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual) {
@@ -98,13 +116,13 @@ LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, cons
   if (problem.patterns.cols() == 0) return lack;
   const Scores scores = trained.scores(problem.patterns, residual);
   double smallest = 1;
-  int seen = 0;
+  int seen = 0, moments = 0;
   for (Index k = 0; k < scores.response.size(); ++k) {
     if (!(scores.information(k, k) > 1e-9 * scores.alone(k)) || scores.alone(k) == 0) continue;
     ++seen;
     const double z = scores.response(k) / std::sqrt(scores.information(k, k));
     const bool is_moment = !std::isnan(problem.pattern_names[static_cast<std::size_t>(k)].time);
-    if (is_moment) lack.excess += z * z - 1;
+    if (is_moment) lack.excess += z * z - 1, ++moments;
     if (const double p = 2 * normal_tail(std::abs(z)); p < smallest) {
       smallest = p;
       lack.worst = static_cast<std::size_t>(k);
@@ -113,6 +131,8 @@ LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, cons
   }
   lack.p = std::min(1.0, seen * smallest);
   lack.excess = std::max(0.0, lack.excess);
+  const double limit = seen > 0 ? -normal_quantile(0.025 / seen) : 0;
+  lack.beyond_noise = std::max({0.0, lack.excess - 1.645 * std::sqrt(2.0 * moments), lack.z * lack.z - limit * limit});
   return lack;
 }
 

@@ -16,27 +16,32 @@ struct TestedEffect {
   double retained = 0;              ///< share of its information that errors allowed cannot explain as well
   bool confirmed = false;           ///< the amplitudes are those of runs
   double confirmed_gain = 0;        ///< of the misfit, by those runs
+  VectorXd run;                     ///< amplitudes of all candidates in the best of those runs [q]
   std::optional<Gain> held_out;
   bool accepted = false;
-  bool rival = false;  ///< by runs, these data cannot tell it from an accepted one
-  int group = -1;      ///< effects that look alike have the same number
-  double cosine = 0;   ///< with the first of the group
-  double visible = 0;  ///< smallest size of its first amplitude that would be seen with 80 % probability (D.12)
+  bool rival = false;    ///< by runs, these data cannot tell it from an accepted one
+  int group = -1;        ///< effects that look alike have the same number
+  double cosine = 0;     ///< with the first of the group
+  bool testable = true;  ///< the data would show it at a size that it may have
+  double visible = 0;    ///< smallest size of its first amplitude that would be seen with 80 % probability (D.12)
 };
 
-/// Every candidate against a residual of which `scores` tell, to first order. (D.8-D.10, D.12)
-std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha);
+/// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10,
+/// D.12)
+std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha, double count);
 
 /// Of the model's changes for two effects, each at its best amplitudes. (D.9)
 double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b);
 
-/// Evidence less what so many amplitudes cost with `count` independent data (BIC).
+/// Evidence less what so many amplitudes cost with `count` independent data (BIC), and what their sizes cost if they
+/// are normal numbers with five times the scale that they may have in a patient as deviation. (D.10)
 double worth(const EffectProblem& problem, const TestedEffect& effect, double count);
 
 /// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.11)
 struct LackOfFit {
-  double p = 1;       ///< that noise alone makes the worst pattern
-  double excess = 0;  ///< of the patterns' squares over what noise makes
+  double p = 1;             ///< that noise alone makes the worst pattern
+  double excess = 0;        ///< of the patterns' squares over what noise makes
+  double beyond_noise = 0;  ///< of them, or of the worst alone, over what noise makes in one of twenty cases
   std::size_t worst = 0;
   double z = 0;  ///< of the worst
 };

@@ -40,14 +40,20 @@ double independent_part(const Noise& noise, int dimension, double observed) {
   return observed > 0 ? std::min(part, observed) : part;
 }
 
+Eigen::Matrix3Xd as_columns(const std::vector<Vec3>& list) {
+  Eigen::Matrix3Xd all(3, static_cast<Eigen::Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = list[i];
+  return all;
+}
+
 }  // namespace
 
 Evidence::Evidence(const Observations& data, const LumenSurface& lumen, const FinishedMotion& base)
-    : data_(data), region_names_(lumen.region_names) {
+    : data_(data), lumen_(lumen), region_names_(lumen.region_names) {
   for (std::size_t s = 0; s < data.lumen.size(); ++s) add_frames(s, base);
   for (std::size_t t = 0; t < data.traces.size(); ++t) add_trace(t, base);
-  normals_.resize(3, static_cast<Eigen::Index>(normal_list_.size()));
-  for (std::size_t i = 0; i < normal_list_.size(); ++i) normals_.col(static_cast<Eigen::Index>(i)) = normal_list_[i];
+  normals_ = as_columns(normal_list_);
+  places_ = as_columns(place_list_);
 }
 
 void Evidence::add_frames(std::size_t source, const FinishedMotion& base) {
@@ -70,13 +76,25 @@ void Evidence::add_frames(std::size_t source, const FinishedMotion& base) {
       const auto [place, is_new] = block_of.try_emplace(patch_of(sample, settings.noise), blocks_);
       if (is_new) ++blocks_;
       residual_.push_back(sample.distance);
+      held_out_.push_back(frame.held_out);
       independent_.push_back(sample.weight / part * share);
       precision_.push_back(independent_.back() / std::pow(settings.noise.deviation, 2));  // (K.5)
       region_.push_back(sample.region);
       block_.push_back(place->second);
       normal_list_.push_back(sample.normal);
+      place_list_.push_back(sample.position);
+      along_.push_back(along_vessel(sample));
     }
   }
+}
+
+double Evidence::along_vessel(const Sample& sample) const {
+  double from = 0, to = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    from += sample.shares(static_cast<Eigen::Index>(k)) * lumen_.from_inlet(sample.nodes[k]);
+    to += sample.shares(static_cast<Eigen::Index>(k)) * lumen_.from_outlet(sample.nodes[k]);
+  }
+  return from + to > 0 && std::isfinite(from + to) ? from / (from + to) : 0.5;
 }
 
 void Evidence::add_trace(std::size_t number, const FinishedMotion& base) {
@@ -91,13 +109,21 @@ void Evidence::add_trace(std::size_t number, const FinishedMotion& base) {
                     seen.times.front(),
                     static_cast<Eigen::Index>(residual_.size()),
                     static_cast<Eigen::Index>(seen.times.size())});
+  const std::size_t frames = parts_.size() - 1;
+  std::size_t last = parts_.size();
   for (std::size_t i = 0; i < seen.times.size(); ++i) {
+    const std::size_t phase = closest_frame(seen.times[i], frames);
+    if (phase != last) ++blocks_;
+    last = phase;
+    held_out_.push_back(trace.held_out || (phase < frames && parts_[phase].frame.held_out));
     residual_.push_back(seen.measured[i] - seen.model[i]);
     independent_.push_back(share);
     precision_.push_back(share / std::pow(trace.noise.deviation, 2));
     region_.push_back(-1);
     block_.push_back(blocks_);
     normal_list_.push_back(Vec3::Zero());
+    place_list_.push_back(Vec3::Zero());
+    along_.push_back(0);
   }
   ++blocks_;
 }
@@ -107,8 +133,14 @@ const Noise& Evidence::noise(const Part& part) const {
                         : data_.lumen[part.source]->settings().noise;
 }
 
-bool Evidence::is_held_out(const Part& part) const {
-  return is_trace(part) ? data_.traces[part.source - data_.lumen.size()].held_out : part.frame.held_out;
+/// The number of the part whose moment is closest, of the first `frames`; `frames` if there are none.
+std::size_t Evidence::closest_frame(double time, std::size_t frames) const {
+  std::size_t best = frames;
+  for (std::size_t k = 0; k < frames; ++k)
+    if (!is_trace(parts_[k]) &&
+        (best == frames || std::abs(parts_[k].time - time) < std::abs(parts_[best].time - time)))
+      best = k;
+  return best;
 }
 
 std::string Evidence::name_of(const Part& part) const {
@@ -148,7 +180,7 @@ EffectProblem Evidence::problem() const {
   for (const Part& part : parts_)
     for (Eigen::Index i = part.first; i < part.first + part.count; ++i)
       if (precision_[static_cast<std::size_t>(i)] > 0)
-        (is_held_out(part) ? problem.held_out : problem.training).push_back(i);
+        (held_out_[static_cast<std::size_t>(i)] ? problem.held_out : problem.training).push_back(i);
   problem.changes.resize(n, 0);
   problem.allowed.resize(n, 0);
   problem.patterns.resize(n, 0);

@@ -13,7 +13,8 @@ struct FinishedMotion {
 };
 
 /// All that was measured, datum by datum: samples of each frame of each source, then values of each trace. The order is
-/// the same for all runs.
+/// the same for all runs. Values of a trace are held out where the closest frame is: a phase of the beat, with all that
+/// was measured in it.
 class Evidence {
  public:
   /// What is the same for a whole frame or trace.
@@ -35,25 +36,32 @@ class Evidence {
 
   const std::vector<Part>& parts() const { return parts_; }
   bool is_trace(const Part& part) const { return part.source >= data_.lumen.size(); }
-  bool is_held_out(const Part& part) const;
   std::string name_of(const Part& part) const;
+  /// Of the data on the lumen at the base, where they are; zero for traces [length].
+  const Eigen::Matrix3Xd& places() const { return places_; }
   /// Of the data on the lumen at the base: n out of the lumen, region (-1: none). Zero for traces.
   const Eigen::Matrix3Xd& normals() const { return normals_; }
   const std::vector<int>& regions() const { return region_; }
+  /// Of the data on the lumen, how far along the vessel they are: 0 at an inlet, 1 at an outlet. Zero for traces.
+  const std::vector<double>& along() const { return along_; }
   const std::vector<std::string>& region_names() const { return region_names_; }
   const Noise& noise(const Part& part) const;
 
  private:
   void add_frames(std::size_t source, const FinishedMotion& base);
+  double along_vessel(const Sample& sample) const;
   void add_trace(std::size_t number, const FinishedMotion& base);
+  std::size_t closest_frame(double time, std::size_t frames) const;
 
   const Observations& data_;
+  const LumenSurface& lumen_;
   std::vector<std::string> region_names_;
   std::vector<Part> parts_;
-  std::vector<double> residual_, precision_, independent_;
+  std::vector<double> residual_, precision_, independent_, along_;
+  std::vector<bool> held_out_;
   std::vector<int> region_, block_;
-  std::vector<Vec3> normal_list_;
-  Eigen::Matrix3Xd normals_;
+  std::vector<Vec3> normal_list_, place_list_;
+  Eigen::Matrix3Xd normals_, places_;
   int blocks_ = 0;
 };
 

@@ -7,8 +7,8 @@
 namespace tether {
 namespace {
 
-constexpr double too_little = 0.25;  ///< of the misfit, to run once more
-constexpr double farthest = 0.7;     ///< logarithm by which an accepted effect's factor moves at most in a step
+constexpr double too_little = 1;  ///< of the misfit, to run once more
+constexpr double farthest = 0.7;  ///< logarithm by which an accepted effect's factor moves at most in a step
 
 double square(const Trained& trained, const VectorXd& all) {
   return trained.misfit(all);
@@ -108,13 +108,13 @@ void Refinement::take(const VectorXd& residual) {
     next_ = later_step(residual);
   }
   const double information = square(trained_, per_factor_);
-  effect_.amplitudes = best_factor_ * direction_(own(effect_.candidate));
+  done_ = !(expected_ >= too_little);  // also if the run changed nothing
+  effect_.amplitudes = (done_ && best_factor_ == last_ ? next_ : best_factor_) * direction_(own(effect_.candidate));
   effect_.deviations = effect_.amplitudes.cwiseAbs() / std::sqrt(std::max(information, 1e-300));
   effect_.confirmed = true;
   effect_.confirmed_gain = start_ - best_;
   const VectorXd left = residual - per_factor_ * std::log(next_ / last_);
   next_others_ = others_ + others_for(left);
-  done_ = !(expected_ >= too_little);  // also if the run changed nothing
 }
 
 double Refinement::hope() const {

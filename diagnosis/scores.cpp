@@ -32,12 +32,14 @@ AllowedErrors::AllowedErrors(VectorXd precision, const MatrixXd& columns, const 
   TETHER_ASSERT(columns.rows() == precision_.size() && columns.cols() == deviations.size(), "{} x {} columns",
                 columns.rows(), columns.cols());
   scaled_ = columns;
+  deviation_.resize(columns.cols());
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
     const double information = columns.col(k).dot(precision_.cwiseProduct(columns.col(k)));
     const double deviation = std::isfinite(deviations(k)) ? deviations(k)
                              : information > 0            ? as_good_as_infinite / std::sqrt(information)
                                                           : 0;
     scaled_.col(k) *= deviation;
+    deviation_(k) = deviation;
   }
   const MatrixXd weighted = precision_.asDiagonal() * scaled_;
   const MatrixXd one = MatrixXd::Identity(columns.cols(), columns.cols());
@@ -47,6 +49,10 @@ AllowedErrors::AllowedErrors(VectorXd precision, const MatrixXd& columns, const 
 
 MatrixXd AllowedErrors::operator()(const MatrixXd& x) const {
   return precision_.asDiagonal() * x - scaled_ * (inverse_ * (scaled_.transpose() * x));  // (D.8)
+}
+
+VectorXd AllowedErrors::amplitudes(const VectorXd& x) const {
+  return deviation_.cwiseProduct(inverse_ * (scaled_.transpose() * x));
 }
 
 Scores scores_of(const AllowedErrors& allowed, const MatrixXd& changes, const VectorXd& residual) {

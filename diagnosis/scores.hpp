@@ -15,9 +15,11 @@ class AllowedErrors {
   /// M x, for each column of x [n x m].
   MatrixXd operator()(const MatrixXd& x) const;
   const VectorXd& precision() const { return precision_; }
+  /// The amplitudes of the columns that are most probable if the data are off by x [k].
+  VectorXd amplitudes(const VectorXd& x) const;
 
  private:
-  VectorXd precision_;
+  VectorXd precision_, deviation_;
   MatrixXd scaled_, inverse_;  ///< W N P^(1/2); (1 + P^(1/2) N'W N P^(1/2))^-1
 };
 

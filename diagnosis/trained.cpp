@@ -28,6 +28,10 @@ double Trained::misfit(const VectorXd& residual) const {
   return r.dot(allowed_(r).col(0));
 }
 
+VectorXd Trained::corrected(const EffectProblem& problem, const VectorXd& residual) const {
+  return residual - problem.allowed * allowed_.amplitudes(rows(residual)).head(problem.allowed.cols());
+}
+
 Scores Trained::scores(const MatrixXd& changes, const VectorXd& residual) const {
   return scores_of(allowed_, rows(changes), rows(residual));
 }

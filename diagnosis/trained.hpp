@@ -16,6 +16,8 @@ class Trained {
   const AllowedErrors& allowed() const { return allowed_; }
   /// r'M r of a residual on all rows.
   double misfit(const VectorXd& residual) const;
+  /// A residual on all rows without the allowed errors that the training part shows. (D.13)
+  VectorXd corrected(const EffectProblem& problem, const VectorXd& residual) const;
   /// S'M S and S'M r of changes and a residual on all rows.
   Scores scores(const MatrixXd& changes, const VectorXd& residual) const;
 

@@ -103,7 +103,8 @@ void write_candidates(const fs::path& file, const CaseFile& from, const std::vec
   overlay.values.push_back({"diagnosis.runs", "sensitivities"});
   overlay.values.push_back({"output.write_every", "1000000"});
   overlay.values.push_back({"output.checkpoint_every", "1000000"});
-  if (from.has("observer")) overlay.values.push_back({"observer", ""});
+  for (const char* section : {"observer", "observations"})  // data pull no run, and are compared when it is over
+    if (from.has(section)) overlay.values.push_back({section, ""});
   write_overlay(file, overlay);
 }
 
@@ -123,7 +124,11 @@ void add_model_changes(EffectProblem& problem, const std::string& runs_json, con
     if (change.dot(problem.precision.cwiseProduct(change)) < no_response * no_response) continue;
     const bool is_absent = amplitude.base == number((*parameter)["absent"]),
                is_assumed = holds(diagnosis.assumed, amplitude.name);
-    if (!is_absent || is_assumed) allow(problem, change / step, allowed_deviation(amplitude, diagnosis));
+    if (!is_absent || is_assumed) {
+      const auto before = problem.allowed.cols();
+      allow(problem, change / step, allowed_deviation(amplitude, diagnosis));
+      if (problem.allowed.cols() > before) problem.allowed_runs.push_back({before, static_cast<Eigen::Index>(i), step});
+    }
     if (is_assumed) continue;
     candidate_of(problem, amplitude, is_absent, effects).amplitudes.push_back(problem.changes.cols());
     append_columns(problem.changes, change / step);

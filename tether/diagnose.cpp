@@ -5,11 +5,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/config/overlay.hpp"
 #include "tether/diagnosed_case.hpp"
 #include "tether/diagnosis_text.hpp"
+#include "tether/further_measurements.hpp"
 #include "tether/programs.hpp"
 #include "tether/suggested_case.hpp"
 #include "tether/verbs.hpp"
@@ -64,16 +66,19 @@ class Job {
     write_candidates(candidates, given_.file, effects_);
     const Json runs = runs_.make(candidates);
     DiagnosisReport report;
+    report.sensitivity_runs = runs_.all;
     report.case_name = given_.file.common().name;
     report.title = given_.file.common().title;
     report.alpha = given_.diagnosis.alpha;
     const std::vector<FinishedMotion> motions = stored_runs(runs_.folder_of(candidates));
+    runs_known_.insert_or_assign({"[]", "[]"}, motions.front());
     const Evidence evidence(given_.data, given_.lumen, motions.front());
     report.problem = problem_of(given_, evidence, motions, runs.dump(), effects_);
     const DiagnosisCase& d = given_.diagnosis;
     report.found =
         search_effects(report.problem, {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed},
                        [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
+    report.splits = splits_of(report, evidence, motions);
     if (write_suggested(output_ / "suggested.yaml", given_.file, report, effects_)) report.suggested = "suggested.yaml";
     report.runs = runs_.all;
     report.runs_made = runs_.made;
@@ -86,12 +91,37 @@ class Job {
   MatrixXd residual_at(const EffectProblem& problem, const Evidence& evidence, const MatrixXd& amplitudes) {
     provide(problem, evidence, amplitudes);
     MatrixXd residuals(problem.residual.size(), amplitudes.cols());
-    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k)
-      residuals.col(k) = known_.at(trial_of(problem, amplitudes.col(k)));
+    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k) residuals.col(k) = residual_with(problem, amplitudes.col(k));
+    return residuals;
+  }
+
+  VectorXd residual_with(const EffectProblem& problem, const VectorXd& amplitudes) const {
+    VectorXd residual = known_.at(trial_of(problem, amplitudes));
     for (const Candidate& candidate : problem.candidates)
       if (candidate.kind == Candidate::Kind::data)
-        for (const Eigen::Index i : candidate.amplitudes) residuals -= problem.changes.col(i) * amplitudes.row(i);
-    return residuals;
+        residual -= problem.changes(Eigen::all, candidate.amplitudes) * amplitudes(candidate.amplitudes);
+    return residual;
+  }
+
+  /// What would tell those apart that these data cannot.
+  std::vector<Split> splits_of(const DiagnosisReport& report, const Evidence& evidence,
+                               std::vector<FinishedMotion> motions) const {
+    std::vector<const TestedEffect*> accepted, rivals;
+    for (const TestedEffect& effect : report.found.effects)
+      if (effect.accepted || effect.rival) (effect.accepted ? accepted : rivals).push_back(&effect);
+    std::vector<Rivals> pairs;
+    const auto with = [&](const TestedEffect& effect) {
+      motions.push_back(runs_known_.at(trial_of(report.problem, effect.run)));
+      return static_cast<Eigen::Index>(motions.size()) - 1;
+    };
+    for (const TestedEffect* rival : rivals)
+      for (const TestedEffect* one : accepted)
+        if (one->group == rival->group)
+          pairs.push_back({residual_with(report.problem, one->run), residual_with(report.problem, rival->run),
+                           with(*one), with(*rival)});
+    if (pairs.empty()) return {};
+    const CsvTable table(runs_.folder_of("candidates.yaml") / "runs/base/timeseries.csv");
+    return splits(report.problem, pairs, further_measurements(given_, evidence, motions, table.columns()));
   }
 
   /// Makes the runs among these that no run before was; errors of the data take none.
@@ -106,8 +136,12 @@ class Job {
     const fs::path file = output_ / "trials.yaml";
     write_trials(file, wanted);
     runs_.make(file);
-    const MatrixXd residuals = residuals_of(evidence, stored_runs(runs_.folder_of(file)), problem.residual);
-    for (std::size_t k = 0; k < wanted.size(); ++k) known_[wanted[k]] = residuals.col(static_cast<Eigen::Index>(k));
+    const std::vector<FinishedMotion> motions = stored_runs(runs_.folder_of(file));
+    const MatrixXd residuals = residuals_of(evidence, motions, problem.residual);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      known_[wanted[k]] = residuals.col(static_cast<Eigen::Index>(k));
+      runs_known_.insert_or_assign(wanted[k], motions[k]);
+    }
   }
 
   /// Names of the model's numbers and their values, as a case file has them.
@@ -140,6 +174,7 @@ class Job {
   Runs runs_;
   std::vector<PlacedEffect> effects_;
   std::map<Trial, VectorXd> known_;  ///< residuals of runs
+  std::map<Trial, FinishedMotion> runs_known_;
   int trials_ = 0;
 };
 

@@ -48,7 +48,8 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
                          const std::vector<FinishedMotion>& motions, const std::string& runs_json,
                          const std::vector<PlacedEffect>& effects) {
   const UnitSystem& units = given.file.units();
-  const AllowanceCase& allowed = given.diagnosis.allowed;
+  AllowanceCase allowed = given.diagnosis.allowed;
+  if (!allowed.time_shift) allowed.time_shift = 0.5 * given.file.common().time.step;
   const FinishedMotion& base = motions.front();
   EffectProblem problem = evidence.problem();
   std::vector<const FinishedMotion*> all;

@@ -172,7 +172,8 @@ class Explainer {
   /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.
   bool is_settled() const {
     const std::string& diagnosis = explanation_.models[explanation_.best - 1].diagnosis;
-    if (!is_explained(explanation_, diagnosis)) return false;
+    const Json said = Json::parse(diagnosis);
+    if (said["more"] || said["verdict"] == "not_in_catalogue") return false;
     const Json foreseen = Json::parse(accepted_effects(diagnosis, false))[0]["held_out_gain"];
     const auto& gain = explanation_.models[explanation_.best].gain;
     return foreseen.is_null() || !gain || gain->value > 0.8 * foreseen["value"].get<double>();

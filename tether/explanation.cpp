@@ -155,20 +155,13 @@ std::string accepted_effects(const std::string& diagnosis, bool of_data) {
   return accepted(Json::parse(diagnosis), of_data).dump();
 }
 
-bool is_explained(const Explanation& e, const std::string& diagnosis_json) {
-  const Json diagnosis = Json::parse(diagnosis_json), original = Json::parse(first_diagnosis(e));
-  const Json &first = original["lack_of_fit"]["before"], &now = diagnosis["lack_of_fit"]["after"];
-  if (first.is_null() || now.is_null()) return diagnosis["verdict"] != "not_in_catalogue";
-  return now["p"] >= diagnosis["alpha"] || now["excess"] <= e.unexplained * first["excess"].get<double>();
-}
-
 std::string verdict_of(const Explanation& e) {
   const Json last = last_diagnosis(e);
-  if (!is_explained(e, last.dump())) return "not_in_catalogue";
+  if (last["verdict"] == "not_in_catalogue") return "not_in_catalogue";
   if (any_ambiguous(e)) return "ambiguous";
   if (!found_of(e).empty()) return "missing";
   if (e.models.size() > e.best + 1) return "undecided";  // what a diagnosis accepted was not confirmed
-  return last["verdict"] == "not_in_catalogue" ? "undecided" : last["verdict"].get<std::string>();
+  return last["verdict"];
 }
 
 std::vector<std::string> sentences_of(const Explanation& e) {

@@ -61,10 +61,6 @@ std::string accepted_effects(const std::string& diagnosis, bool of_data);
 /// diagnosis.json of the first model that was diagnosed; "null": none was.
 std::string first_diagnosis(const Explanation& explanation);
 
-/// Whether what a diagnosis (diagnosis.json) leaves is small against what the first model left: within `unexplained`
-/// of it, or noise.
-bool is_explained(const Explanation& explanation, const std::string& diagnosis);
-
 /// missing, nothing_missing, ambiguous, not_in_catalogue or undecided: of the whole path.
 std::string verdict_of(const Explanation& explanation);
 

@@ -13,7 +13,8 @@ void AllowanceCase::declare(Fields& f) {
            "of all measured lumens as rigid bodies, in each direction; absent: half the noise's deviation");
   f.number("frame_displacement", frame_displacement, dimension::length, range::not_negative,
            "of each frame by itself, in each direction");
-  f.number("time_shift", time_shift, dimension::time, range::not_negative, "of the times of all frames");
+  f.number("time_shift", time_shift, dimension::time, range::not_negative,
+           "of the times of all frames, and of the model: absent: half its time step");
 }
 
 void DiagnosisCase::Trial::declare(Fields& f) {
@@ -30,7 +31,7 @@ void DiagnosisCase::declare(Fields& f) {
            "by how much of its scale an effect is switched on to see what it would do");
   f.number("alpha", alpha, dimension::none, {0, 0.5, true, true}, "probability of a false alarm over all candidates");
   f.number("unexplained", unexplained, dimension::none, {0, 1},
-           "share of the misfit that noise does not explain; if more remains, something else is missing");
+           "share of what the data ask for beyond noise; if more remains, something else is missing");
   f.number("enough", enough, dimension::none, range::not_negative,
            "misfit beyond noise (lack_of_fit.excess) below which nothing more is looked for; written by tether explain");
   f.integer("most", most, {1, 20}, "effects that are added at most, one after the other");

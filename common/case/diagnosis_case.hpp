@@ -9,7 +9,7 @@ struct AllowanceCase {
   double inputs = 0.1;                              ///< of what the model takes for known, relative
   std::optional<double> model, bias, displacement;  ///< [length]; absent: shares of the noise's deviation
   double frame_displacement = 0;                    ///< [length]
-  double time_shift = 0;                            ///< [time]
+  std::optional<double> time_shift;                 ///< absent: half the model's step [time]
   void declare(Fields& f);
 };
 
@@ -22,7 +22,7 @@ struct DiagnosisCase {
     void declare(Fields& f);
   };
   std::vector<std::string> candidates, exclude, assumed;
-  double step = 0.2, alpha = 0.05, unexplained = 0.3, enough = 0;
+  double step = 0.2, alpha = 0.05, unexplained = 0.1, enough = 0;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;
   std::string runs = "none";

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "diagnosis/chances.hpp"
+#include "diagnosis/further_measurement.hpp"
 
 namespace tether {
 namespace {
@@ -264,6 +265,87 @@ TEST(EffectSearch, FindsAnAmplitudeThatSaturates) {
   EXPECT_EQ(result.effects.front().candidate, 0U);
   EXPECT_NEAR(result.effects.front().amplitudes(0) / 12, 1, 3 * result.effects.front().deviations(0) / 12);
   EXPECT_GT(result.effects.front().amplitudes(0), 6) << "first order says 4";
+}
+
+/// The amplitude of the first, found alone, has taken in some of the second: both are refitted.
+TEST(EffectSearch, RefitsWhatWasAcceptedBefore) {
+  EffectProblem problem = band();
+  add_candidate(problem, "late", response(2, 12, [](int m) { return m > 7 ? 1.0 : 0.0; }));
+  int within = 0;
+  const double both = share(
+      [&](std::mt19937_64& generator) {
+        problem.residual = noise(generator) + 8 * problem.changes.col(4) + 8 * problem.changes.col(8);
+        const SearchResult result = found(problem);
+        within += std::abs(result.amplitudes(4) - 8) < 3 ? 1 : 0;
+        return result.verdict == "missing" && result.path.size() == 2 && result.effects[1].accepted;
+      },
+      50);
+  EXPECT_GE(both, 0.80);
+  EXPECT_GE(within, 40);
+}
+
+TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
+  std::mt19937_64 generator(13);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 5 * problem.changes.col(0) + 5 * problem.changes.col(6);
+  SearchSettings settings;
+  settings.most = 1;
+  const SearchResult one = found(problem, settings);
+  EXPECT_NE(one.verdict, "not_in_catalogue");
+  EXPECT_TRUE(one.more);
+  EXPECT_FALSE(found(problem).more);
+}
+
+/// What only a hundred times its size would show is not named, however well it fits.
+TEST(EffectSearch, DoesNotNameWhatTheDataCouldNotShow) {
+  std::mt19937_64 generator(17);
+  EffectProblem problem = band();
+  add_candidate(problem, "tiny", 0.01 * problem.changes.col(2));
+  problem.residual = noise(generator) + 4 * problem.changes.col(2);
+  for (const TestedEffect& effect : found(problem).effects) {
+    if (effect.candidate != 8) continue;
+    EXPECT_FALSE(effect.testable);
+    EXPECT_FALSE(effect.accepted || effect.rival);
+  }
+}
+
+TEST(EffectSearch, RunsNothingThatIsHopeless) {
+  std::mt19937_64 generator(19);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 5 * problem.changes.col(2);
+  int runs = 0;
+  const ResidualAt counted = [&](const MatrixXd& amplitudes) {
+    runs += static_cast<int>(amplitudes.cols());
+    EXPECT_EQ(amplitudes.row(6).norm(), 0) << "far from it";
+    return linear_residual(problem)(amplitudes);
+  };
+  EXPECT_EQ(search_effects(problem, {}, counted).verdict, "missing");
+  EXPECT_LE(runs, 4);
+}
+
+/// Two effects that the data at hand see alike, and a trace that sees the first only.
+TEST(FurtherMeasurement, TellsRivalsApart) {
+  EffectProblem problem = band();
+  problem.residual = 3 * problem.changes.col(2);
+  const Rivals rivals{VectorXd::Zero(problem.residual.size()), VectorXd::Zero(problem.residual.size()), 1, 2};
+  FurtherMeasurement trace{"trace", "", MatrixXd::Zero(10, 3), VectorXd::Constant(10, 0.5), 1};
+  trace.values.col(1).setConstant(2);
+  FurtherMeasurement nothing = trace;
+  nothing.values.setZero();
+  EXPECT_NEAR(expected_difference(problem, rivals, nullptr), 0, 1e-9);
+  EXPECT_NEAR(expected_difference(problem, rivals, &nothing), 0, 1e-9);
+  const double old = problem.residual(problem.training)
+                         .cwiseProduct(problem.precision(problem.training))
+                         .dot(VectorXd(problem.residual(problem.training)));
+  const double alone = 10 * 0.5 * 4;  // the first may be scaled down, at the cost of the old data
+  EXPECT_NEAR(expected_difference(problem, rivals, &trace), alone - alone * alone / (alone + old), 1e-9);
+  const std::vector<Split> all = splits(problem, {rivals}, {nothing, trace});
+  EXPECT_EQ(all.front().measurement, "trace");
+
+  problem.allowed = MatrixXd::Zero(problem.residual.size(), 1);  // an input that shifts the trace
+  problem.allowed_deviation = VectorXd::Constant(1, 100);
+  problem.allowed_runs = {{0, 1, 1.0}};
+  EXPECT_LT(expected_difference(problem, rivals, &trace), 0.1) << "the input explains it as well";
 }
 
 TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {

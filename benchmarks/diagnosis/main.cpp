@@ -1,0 +1,292 @@
+/// The search for a missing effect on the real sensitivities of a case, with drawn data instead of runs: how often it
+/// is right. After tether diagnose CASE.yaml --output DIR:
+///
+///     diagnosis_surrogate CASE.yaml DIR [TRIALS] [ONE SCENARIO]
+///
+/// Data are errors of the stated deviations and correlations, in space and in time, errors of inputs, bias and place as
+/// allowed, and what is hidden; effects saturate at ten times what the data just show.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <map>
+
+#include "diagnosis/diagnosis_report.hpp"
+#include "diagnosis/effect_search.hpp"
+#include "tether/diagnosed_case.hpp"
+#include "twin/noise.hpp"
+
+using namespace tether;
+using Index = Eigen::Index;
+
+namespace {
+
+/// A case whose sensitivity runs are there.
+struct Surrogate {
+  Surrogate(const std::string& case_file, const std::filesystem::path& folder)
+      : given(case_file),
+        motions(stored_runs(folder / "candidates")),
+        evidence(given.data, given.lumen, motions.front()),
+        problem(problem_of(given, evidence, motions, content_of(folder / "candidates/runs.json"),
+                           catalogue_of(case_file, given.diagnosis))) {
+    const DiagnosisCase& d = given.diagnosis;
+    settings = {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed};
+    const std::vector<TestedEffect> effects =
+        test_all(problem, Trained(problem).scores(problem.changes, problem.residual), d.alpha,
+                 problem.independent(problem.training).sum());
+    for (const TestedEffect& effect : effects) {
+      visible.push_back(effect.visible);
+      if (effect.testable && problem.candidates[effect.candidate].kind == Candidate::Kind::effect)
+        shown.push_back(effect.candidate);
+    }
+    saturation = VectorXd::Constant(problem.changes.cols(), infinite);
+    for (const std::size_t c : shown)
+      for (const Index i : problem.candidates[c].amplitudes) saturation(i) = 10 * visible[c];
+  }
+
+  /// Errors of surfaces and traces, and of what the model takes for known.
+  VectorXd errors(std::uint64_t seed) const {
+    VectorXd all(problem.residual.size());
+    std::map<std::size_t, std::vector<const Evidence::Part*>> of_source;
+    for (const auto& part : evidence.parts()) of_source[part.source].push_back(&part);
+    for (const auto& [source, parts] : of_source) {
+      const Noise& noise = evidence.noise(*parts.front());
+      const NoiseScale scale{noise.deviation, noise.correlation_length, noise.correlation_time};
+      if (evidence.is_trace(*parts.front())) {
+        std::vector<double> times;  // of equally spaced values: the share of each tells nothing else
+        for (Index i = 0; i < parts.front()->count; ++i) times.push_back(trace_interval * static_cast<double>(i));
+        all.segment(parts.front()->first, parts.front()->count) = noise_over_time(scale, times, seed * 64 + source);
+        continue;
+      }
+      std::vector<double> times;
+      for (const auto* part : parts) times.push_back(part->time);
+      const NoiseSeries series(scale, times, seed * 64 + source);
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        all.segment(parts[k]->first, parts[k]->count) =
+            series(k, evidence.places().middleCols(parts[k]->first, parts[k]->count));
+    }
+    Random random(seed * 64 + 63, 0);
+    for (Index k = 0; k < problem.allowed.cols(); ++k)
+      if (std::isfinite(problem.allowed_deviation(k)))
+        all += allowed_share * problem.allowed_deviation(k) * random.normal() * problem.allowed.col(k);
+    return all;
+  }
+
+  VectorXd amplitudes(const std::vector<std::pair<std::size_t, double>>& hidden) const {
+    VectorXd all = VectorXd::Zero(problem.changes.cols());
+    for (const auto& [candidate, times] : hidden)
+      all(problem.candidates[candidate].amplitudes.front()) = times * visible[candidate];
+    return all;
+  }
+  VectorXd effect_of(const VectorXd& amplitudes) const {
+    const VectorXd saturated = amplitudes.array() / (1 + amplitudes.array().abs() / saturation.array());
+    return problem.changes * saturated;
+  }
+
+  SearchResult search(const VectorXd& residual, const std::vector<std::size_t>& without = {}) const {
+    EffectProblem drawn = problem;
+    drawn.residual = residual;
+    for (auto c = without.rbegin(); c != without.rend(); ++c) {
+      drawn.changes(Eigen::all, drawn.candidates[*c].amplitudes).setZero();  // it explains nothing
+      for (const Index i : drawn.candidates[*c].amplitudes)
+        drawn.amplitudes[static_cast<std::size_t>(i)].scale = 1e-300;
+    }
+    return search_effects(drawn, settings, [&](const MatrixXd& tried) -> MatrixXd {
+      MatrixXd residuals(residual.size(), tried.cols());
+      for (Index k = 0; k < tried.cols(); ++k) residuals.col(k) = residual - effect_of(tried.col(k));
+      return residuals;
+    });
+  }
+
+  static constexpr double trace_interval = 0.01, allowed_share = 1;
+  DiagnosedCase given;
+  std::vector<FinishedMotion> motions;
+  Evidence evidence;
+  EffectProblem problem;
+  SearchSettings settings;
+  std::vector<double> visible;
+  std::vector<std::size_t> shown;  ///< effects that the data can show
+  VectorXd saturation;
+};
+
+int group_of(const SearchResult& result, std::size_t candidate) {
+  for (const TestedEffect& effect : result.effects)
+    if (effect.candidate == candidate) return effect.group;
+  return -1;
+}
+
+bool accepts(const SearchResult& result, std::size_t candidate) {
+  for (const TestedEffect& effect : result.effects)
+    if (effect.candidate == candidate && effect.accepted) return true;
+  return false;
+}
+
+/// Named itself, or in the group of one that is.
+bool names(const SearchResult& result, std::size_t candidate) {
+  if (accepts(result, candidate)) return true;
+  const int group = group_of(result, candidate);
+  for (const TestedEffect& effect : result.effects)
+    if (effect.accepted && group >= 0 && effect.group == group) return true;
+  return false;
+}
+
+bool names_anything(const SearchResult& result) {
+  return result.verdict == "missing" || result.verdict == "ambiguous";
+}
+
+/// Counts of a scenario's trials, by words.
+struct Tally {
+  std::map<std::string, int> count;
+  int inside = 0, amplitudes = 0;
+  double rms = 0;
+};
+
+void print_head() {
+  std::cout << "| hidden | times | right | alike | careful | missed | in part | wrong | inside 95 % | verdicts |\n"
+               "|---|---|---|---|---|---|---|---|---|---|\n";
+}
+
+void print(const std::string& name, const std::string& times, Tally& tally, int trials) {
+  std::string verdicts;
+  for (const auto& [word, n] : tally.count)
+    if (word.starts_with("=")) verdicts += fmt::format("{}{} {}", verdicts.empty() ? "" : ", ", word.substr(1), n);
+  const auto share = [&](const char* word) { return fmt::format("{:.0f} %", 100.0 * tally.count[word] / trials); };
+  std::cout << fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, times, share("right"),
+                           share("alike"), share("careful"), share("missed"), share("in part"), share("wrong"),
+                           tally.amplitudes > 0 ? fmt::format("{:.0f} %", 100.0 * tally.inside / tally.amplitudes) : "",
+                           verdicts)
+            << std::flush;
+}
+
+/// As benchmarks/diagnosis/run judges.
+std::string judgement(const SearchResult& result, const std::vector<std::size_t>& hidden, const std::string& verdict) {
+  if (!names_anything(result)) {
+    if (hidden.empty() && result.verdict == verdict) return "right";
+    return result.verdict == "nothing_missing" && !(hidden.empty() && verdict == "nothing_missing") ? "missed"
+                                                                                                    : "careful";
+  }
+  if (hidden.empty()) return result.verdict == "ambiguous" ? "careful" : "wrong";
+  std::size_t itself = 0, alike = 0, accepted = 0, fitting = 0;
+  for (const std::size_t h : hidden) {
+    itself += accepts(result, h) ? 1 : 0;
+    alike += names(result, h) ? 1 : 0;
+  }
+  for (const TestedEffect& effect : result.effects) {
+    if (!effect.accepted) continue;
+    ++accepted;
+    for (const std::size_t h : hidden)
+      if (effect.candidate == h || (effect.group >= 0 && effect.group == group_of(result, h))) {
+        ++fitting;
+        break;
+      }
+  }
+  if (itself == hidden.size() && accepted == hidden.size() && result.verdict == "missing") return "right";
+  if (alike == hidden.size() && fitting == accepted) return "alike";
+  if (result.verdict == "ambiguous") return "careful";
+  return hidden.size() > 1 && fitting == accepted ? "in part" : "wrong";
+}
+
+/// Trials of one scenario: what is hidden beside what the catalogue has, and which candidates are taken away.
+struct Scenario {
+  std::string name, times;
+  std::vector<std::pair<std::size_t, double>> hidden;
+  VectorXd beside;
+  std::vector<std::size_t> without;
+  std::string verdict = "missing";
+};
+
+void run(const Surrogate& surrogate, const Scenario& scenario, int trials) {
+  Tally tally;
+  const VectorXd amplitudes = surrogate.amplitudes(scenario.hidden);
+  std::vector<std::size_t> hidden;
+  for (const auto& [candidate, times] : scenario.hidden) hidden.push_back(candidate);
+  const bool is_control = !scenario.without.empty();
+  for (int trial = 0; trial < trials; ++trial) {
+    VectorXd residual = surrogate.errors(static_cast<std::uint64_t>(trial) + 1) + surrogate.effect_of(amplitudes);
+    if (scenario.beside.size() > 0) residual += scenario.beside;
+    const SearchResult result = surrogate.search(residual, scenario.without);
+    ++tally.count[judgement(result, is_control ? std::vector<std::size_t>{} : hidden, scenario.verdict)];
+    ++tally.count["=" + result.verdict];
+    for (const TestedEffect& effect : result.effects)
+      if (effect.accepted && !is_control)
+        for (const auto& [candidate, times] : scenario.hidden)
+          if (candidate == effect.candidate) {
+            const double true_one = times * surrogate.visible[candidate];
+            const FoundValue found = value_of(surrogate.problem, effect, 0);
+            const double value =
+                surrogate.problem
+                    .amplitudes[static_cast<std::size_t>(surrogate.problem.candidates[candidate].amplitudes[0])]
+                    .value(true_one);
+            ++tally.amplitudes;
+            tally.inside += std::min(found.lower, found.upper) <= value && value <= std::max(found.lower, found.upper);
+          }
+  }
+  print(scenario.name, scenario.times, tally, trials);
+}
+
+/// A bulge of the data that no candidate makes: around half the vessel's height, twice a beat.
+VectorXd stranger(const Surrogate& surrogate, double size) {
+  VectorXd all = VectorXd::Zero(surrogate.problem.residual.size());
+  const auto& places = surrogate.evidence.places();
+  const double low = places.row(2).minCoeff(), high = places.row(2).maxCoeff();
+  for (const auto& part : surrogate.evidence.parts())
+    for (Index i = part.first; !surrogate.evidence.is_trace(part) && i < part.first + part.count; ++i) {
+      const double z = (places(2, i) - low) / (high - low);
+      const Vec3 n = surrogate.evidence.normals().col(i);
+      all(i) = size * std::sin(15.2 * part.time) * std::exp(-30 * std::pow(z - 0.5, 2)) * std::max(0.0, n(1));
+    }
+  return all;
+}
+
+std::vector<Scenario> scenarios(const Surrogate& s) {
+  std::vector<Scenario> all{{"nothing", "", {}, {}, {}, "nothing_missing"}};
+  for (const std::size_t c : s.shown)
+    for (const double times : {1.0, 2.0, 4.0})
+      all.push_back({name_of(s.problem.candidates[c]), fmt::format("{}", times), {{c, times}}, {}, {}});
+  for (std::size_t k = 0; k + 1 < s.shown.size(); k += 2)
+    all.push_back({fmt::format("{} and {}", name_of(s.problem.candidates[s.shown[k]]),
+                               name_of(s.problem.candidates[s.shown[s.shown.size() - 1 - k]])),
+                   "4",
+                   {{s.shown[k], 4}, {s.shown[s.shown.size() - 1 - k], 4}},
+                   {},
+                   {}});
+  const double sigma = s.evidence.noise(s.evidence.parts().front()).deviation;
+  for (const double size : {2.0, 4.0, 8.0})
+    all.push_back({"a bulge that nothing makes",
+                   fmt::format("{} noises", size),
+                   {},
+                   stranger(s, size * sigma),
+                   {},
+                   "not_in_catalogue"});
+  std::map<std::string, int> frames;
+  for (std::size_t c = 0; c < s.problem.candidates.size(); ++c)  // of single frames the third
+    if (const Candidate& candidate = s.problem.candidates[c];
+        candidate.kind == Candidate::Kind::data && (candidate.confirmable || ++frames[candidate.name] == 3))
+      for (const double times : {2.0, 4.0})
+        all.push_back({name_of(candidate), fmt::format("{}", times), {{c, times}}, {}, {}});
+  for (const std::size_t c : s.shown)
+    all.push_back({"without " + name_of(s.problem.candidates[c]), "4", {{c, 4}}, {}, {c}, "not_in_catalogue"});
+  return all;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 3) {
+    std::cerr << "diagnosis_surrogate CASE.yaml DIR [TRIALS] [ONE SCENARIO]\n";
+    return 2;
+  }
+  const Surrogate surrogate(words[1], words[2]);
+  const int trials = count > 3 ? std::atoi(words[3]) : 100;
+  std::cout << fmt::format("{} data ({:.0f} independent), {} candidates, of which {} effects can be shown\n\n",
+                           surrogate.problem.training.size(),
+                           surrogate.problem.independent(surrogate.problem.training).sum(),
+                           surrogate.problem.candidates.size(), surrogate.shown.size());
+  print_head();
+  for (const Scenario& scenario : scenarios(surrogate))
+    if (count < 5 || scenario.name.find(words[4]) != std::string::npos) run(surrogate, scenario, trials);
+  return 0;
+}
