@@ -10,7 +10,8 @@ const EffectDeclaration declaration{
     .name = "contact",
     .meaning = "A hard neighbour, such as the spine: pushes the wall back where it comes closer, never holds it back",
     .place = Place::outer_wall,
-    .parameters = {stiffness_parameter("pressure per depth by which the wall has come too close"),
+    // A beat's pressure of 5 kPa presses the wall half a millimetre into it.
+    .parameters = {stiffness_parameter("pressure per depth by which the wall has come too close", 1e7),
                    {.name = "gap",
                     .meaning = "way along its normal that the imaged wall is free to go before it touches",
                     .dimension = dimension::length,

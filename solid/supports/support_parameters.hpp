@@ -4,7 +4,8 @@
 
 namespace tether {
 
-inline Parameter stiffness_parameter(const char* meaning) {
+/// scale: of soft tissue; of what is hard, more [Pa/m].
+inline Parameter stiffness_parameter(const char* meaning, double scale = 1e6) {
   return {.name = "stiffness",
           .meaning = meaning,
           .dimension = dimension::support_stiffness,
@@ -13,7 +14,7 @@ inline Parameter stiffness_parameter(const char* meaning) {
           .absent = 0.0,
           .transform = Transform::log2,
           .prior_deviation = 1.0,
-          .scale = 1e6};
+          .scale = scale};
 }
 
 inline Parameter damping_parameter(const char* meaning) {
