@@ -116,7 +116,7 @@ class FluidSolver {
   Points viscous_load() const;
   double kinematic_viscosity() const;
   void observe();
-  void derive(Accepted& state) const;
+  void derive(Accepted& state);
 
   FluidDomain domain_;
   Configured<Blood> blood_;

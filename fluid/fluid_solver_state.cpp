@@ -57,18 +57,17 @@ void FluidSolver::set_state(const VectorXd& values) {
 void FluidSolver::move_interface(const Points& change) {
   Accepted moved = accepted_;
   moved.on_sigma += change;
-  domain_.place(domain_.extend(moved.on_sigma));
   moved.volume += domain_.volume(moved.on_sigma) - domain_.volume(accepted_.on_sigma);
   derive(moved);
   accepted_ = std::move(moved);
   rewind();
 }
 
-/// The fields that the state need not carry.
-void FluidSolver::derive(Accepted& state) const {
+/// The fields that the state need not carry; the mesh goes to where they put it.
+void FluidSolver::derive(Accepted& state) {
   state.displacement = domain_.extend(state.on_sigma);
-  const auto geometry = geometry_of(domain_.mesh().points + state.displacement, domain_.tetrahedra());
-  state.carried = state.impulse * gradient(geometry, domain_.tetrahedra(), state.pressure);
+  domain_.place(state.displacement);
+  state.carried = state.impulse * gradient(domain_.geometry(), domain_.tetrahedra(), state.pressure);
 }
 
 void FluidSolver::store_initial_pressures() {

@@ -1,5 +1,7 @@
 #include "common/protocol/watch.hpp"
 
+#include <sys/prctl.h>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -14,16 +16,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto spin_time = std::chrono::microseconds(100);
+constexpr auto spin_time = std::chrono::microseconds(30);
 constexpr Clock::duration first_nap = std::chrono::microseconds(10);
 constexpr auto look_every = std::chrono::milliseconds(200);
 constexpr double follow_every = 0.1, follow_after = 0.5;  // seconds
 
-/// Doubled up to 0.5 ms; in long waits 1 % of the time waited so far, up to 5 ms.
-Clock::duration next_nap(Clock::duration nap, Clock::duration waited) {
+/// An eighth of the time waited so far, up to 0.3 ms; in long waits 2 % of it, up to 5 ms.
+Clock::duration nap_after(Clock::duration waited) {
   using std::chrono::microseconds;
-  return std::max<Clock::duration>(std::min<Clock::duration>(2 * nap, microseconds(500)),
-                                   std::min<Clock::duration>(waited / 100, microseconds(5000)));
+  const Clock::duration short_wait = std::min<Clock::duration>(waited / 8, microseconds(300)),
+                        long_wait = std::min<Clock::duration>(waited / 50, microseconds(5000));
+  return std::max({first_nap, short_wait, long_wait});
 }
 
 }  // namespace
@@ -69,14 +72,15 @@ void Watch::follow(const Peer& master) {
 }
 
 bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit) {
+  prctl(PR_SET_TIMERSLACK, 1000UL);  // [ns]: naps last 50 us longer without
   const auto start = Clock::now();
   auto next_look = start + look_every, now = start;
   for (; now - start < spin_time; now = Clock::now()) {
     if (done()) return true;
     std::this_thread::yield();
   }
-  for (auto nap = first_nap; !done(); nap = next_nap(nap, now - start)) {
-    std::this_thread::sleep_for(nap);
+  while (!done()) {
+    std::this_thread::sleep_for(nap_after(now - start));
     now = Clock::now();
     if (now >= next_look || interrupted()) {
       try {
