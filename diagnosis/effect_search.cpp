@@ -16,7 +16,11 @@ constexpr double convincing = 6;    ///< of BIC
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
+constexpr double far_beyond = 3;  ///< deviations of the misfit that noise leaves
+constexpr double hidden = 0.5;    ///< of what an effect does: errors allowed do the like
+
 constexpr const char* too_weak = "the misfit does not fall by enough";
+constexpr const char* breaks_down = "the model breaks down with it";
 
 class Search {
  public:
@@ -57,19 +61,50 @@ class Search {
     return std::max(1.0, r.dot(w.cwiseProduct(r)) / result_.independent);
   }
 
+  /// Accepted, or refused since something was accepted last.
   bool was_tried(std::size_t candidate) const {
-    return std::any_of(result_.path.begin(), result_.path.end(),
-                       [&](const SearchStep& step) { return step.candidate == candidate; });
+    bool tried = false;
+    for (const SearchStep& step : result_.path)
+      tried = step.candidate == candidate || (tried && (!step.accepted || is_accepted(candidate)));
+    return tried;
+  }
+  bool is_accepted(std::size_t candidate) const {
+    return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
+  }
+
+  std::vector<TestedEffect> untried(const Trained& trained) const {
+    std::vector<TestedEffect> all =
+        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
+    std::erase_if(all, [&](const TestedEffect& e) { return was_tried(e.candidate); });
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return is_worth_more(a, b); });
+    return all;
   }
 
   /// What the data ask for beside what was accepted, the strongest first.
   std::vector<TestedEffect> wanted(const Trained& trained) const {
-    std::vector<TestedEffect> all =
-        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
-    std::erase_if(all, [&](const TestedEffect& e) { return e.q >= settings_.alpha || was_tried(e.candidate); });
-    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return is_worth_more(a, b); });
+    std::vector<TestedEffect> all = untried(trained);
+    std::erase_if(all, [&](const TestedEffect& e) { return e.q >= settings_.alpha; });
     if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
     return all;
+  }
+
+  /// Effects that first order cannot judge, since errors allowed do nearly the same for small amplitudes: as large as a
+  /// patient may have them.
+  std::vector<TestedEffect> unsure(const Trained& trained) const {
+    std::vector<TestedEffect> all = untried(trained);
+    std::erase_if(all, [&](const TestedEffect& e) {
+      return problem_.candidates[e.candidate].kind != Candidate::Kind::effect || e.q < settings_.alpha || !e.testable ||
+             e.retained > hidden;
+    });
+    for (TestedEffect& effect : all) {
+      effect.amplitudes = as_in_patients(problem_, effect);
+      effect.gain = plain_.misfit(now_.residual);
+    }
+    return all;
+  }
+
+  bool is_far_beyond_noise(double misfit) const {
+    return misfit > result_.independent + far_beyond * std::sqrt(2 * result_.independent);
   }
 
   /// Finds the amplitudes of the strongest with runs, those first that promise most; the hopeless are not run.
@@ -115,9 +150,15 @@ class Search {
     return held_out_gain(plain_.corrected(problem_, before), plain_.corrected(problem_, after));
   }
 
+  /// Probability that noise makes the gain of one of so many candidates as large.
+  double by_chance(const TestedEffect& effect, double dispersion) const {
+    return std::min(effect.q, static_cast<double>(problem_.candidates.size()) *
+                                  chance_of(problem_, effect.candidate, effect.confirmed_gain / dispersion));
+  }
+
   /// Whether the data at hand and those held out ask for the effect; else why not.
   std::string objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
-    if (worth_of(effect) < convincing * dispersion) return too_weak;
+    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha) return too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && effect.held_out && !(effect.held_out->lower > 0)) return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
@@ -128,48 +169,71 @@ class Search {
   bool add_one() {
     const Trained trained(problem_, now_.changes);
     const std::vector<TestedEffect> strongest = wanted(trained);
-    if (strongest.empty()) return false;
-    if (static_cast<int>(result_.path.size()) == settings_.most) {
+    if (!strongest.empty() && static_cast<int>(now_.accepted.size()) == settings_.most) {
       result_.more = true;
       return false;
     }
-    return settle(refined(strongest, trained));
+    std::vector<Refinement> all = refined(strongest, trained);
+    double best = plain_.misfit(now_.residual);
+    for (const Refinement& one : all) best = std::min(best, one.best());
+    if (is_far_beyond_noise(best) && static_cast<int>(now_.accepted.size()) < settings_.most)
+      for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
+    return settle(all);
   }
 
-  /// Accepts the best or says why not; notes those that these data cannot tell from it.
+  /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it.
   bool settle(const std::vector<Refinement>& all) {
-    const Refinement& best = *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-      return a.begun() != b.begun() ? a.begun() : is_worth_more(a.effect(), b.effect());
+    std::vector<const Refinement*> order;
+    for (const Refinement& one : all) order.push_back(&one);
+    std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
+      return a->begun() != b->begun() ? a->begun() : is_worth_more(a->effect(), b->effect());
     });
-    const VectorXd before = now_.residual;
-    const AmplitudeState state = best.state();
-    const double spread = dispersion(state.residual), most = worth_of(best.effect());
-    TestedEffect chosen = best.effect();
-    chosen.held_out = confirmation(before, state.residual);
-    SearchStep step{chosen.candidate,
-                    false,
-                    {},
-                    plain_.misfit(before),
-                    plain_.misfit(state.residual),
-                    lack_of_fit(problem_, plain_, state.residual)};
-    step.reason = objection(chosen, spread, step.left);
-    step.accepted = chosen.accepted = step.reason.empty();
-    result_.path.push_back(step);
+    const AmplitudeState before = now_;
+    const Refinement* chosen = nullptr;
+    for (const Refinement* one : order) {
+      const SearchStep& step = result_.path.emplace_back(attempt(*one));
+      if (step.accepted) chosen = one;
+      if (step.accepted || step.reason == too_weak) break;
+    }
+    const double spread = dispersion((chosen ? chosen->state() : before).residual);
     for (const Refinement& one : all) {
       if (!one.begun()) continue;
-      TestedEffect effect = &one == &best ? chosen : one.effect();
+      TestedEffect effect = one.effect();
       effect.run = one.state().amplitudes;
-      if (&one != &best) effect.held_out = confirmation(before, one.state().residual);
+      effect.held_out = confirmation(before.residual, one.state().residual);
       effect.deviations *= std::sqrt(spread);
-      effect.rival = step.accepted && &one != &best && worth_of(effect) > most - convincing * spread;
-      if (effect.rival) rival_of_[effect.candidate] = chosen.candidate;
+      effect.accepted = &one == chosen;
+      effect.rival = chosen && &one != chosen && !was_refused(effect.candidate) &&
+                     worth_of(effect) > worth_of(chosen->effect()) - convincing * spread;
+      if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
-    if (!step.accepted) return false;
-    now_ = state;
-    result_.after = step.left;
+    if (!chosen) return false;
+    now_ = chosen->state();
+    result_.after = result_.path.back().left;
     result_.dispersion = spread;
     return leaves_something();
+  }
+
+  /// What comes of adding it.
+  SearchStep attempt(const Refinement& one) const {
+    const VectorXd residual = one.state().residual;
+    TestedEffect effect = one.effect();
+    effect.held_out = confirmation(now_.residual, residual);
+    SearchStep step{effect.candidate,
+                    false,
+                    {},
+                    plain_.misfit(now_.residual),
+                    plain_.misfit(residual),
+                    lack_of_fit(problem_, plain_, residual)};
+    step.reason = one.begun() ? objection(effect, dispersion(residual), step.left) : breaks_down;
+    step.accepted = step.reason.empty();
+    return step;
+  }
+
+  bool was_refused(std::size_t candidate) const {
+    return std::any_of(result_.path.begin(), result_.path.end(),
+                       [&](const SearchStep& step) { return step.candidate == candidate && !step.accepted; });
   }
 
   /// What is known of an effect now; `visible` stays what it was without any other.

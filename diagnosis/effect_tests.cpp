@@ -70,6 +70,23 @@ bool is_testable(const EffectProblem& problem, const Scores& scores, std::size_t
 
 }  // namespace
 
+double chance_of(const EffectProblem& problem, std::size_t candidate, double gain) {
+  return probability(gain, sides(problem, problem.candidates[candidate].amplitudes));
+}
+
+VectorXd as_in_patients(const EffectProblem& problem, const TestedEffect& effect) {
+  const auto& own = problem.candidates[effect.candidate].amplitudes;
+  const auto scale = [&](Index k) {
+    return problem.amplitudes[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])].scale;
+  };
+  VectorXd amplitudes = effect.amplitudes;
+  double largest = 0;
+  for (Index k = 0; k < amplitudes.size(); ++k) largest = std::max(largest, std::abs(amplitudes(k)) / scale(k));
+  if (largest > 0) return amplitudes / largest;
+  amplitudes(0) = scale(0);
+  return amplitudes;
+}
+
 double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b) {
   const auto direction = [&](const TestedEffect& effect) {
     VectorXd all = VectorXd::Zero(problem.changes.cols());

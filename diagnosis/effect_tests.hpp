@@ -30,6 +30,13 @@ struct TestedEffect {
 /// D.12)
 std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha, double count);
 
+/// Probability that noise makes a candidate's gain as large. (D.10)
+double chance_of(const EffectProblem& problem, std::size_t candidate, double gain);
+
+/// Amplitudes in proportion to the effect's own, the largest of them as in a patient; of an effect without any its
+/// first.
+VectorXd as_in_patients(const EffectProblem& problem, const TestedEffect& effect);
+
 /// Of the model's changes for two effects, each at its best amplitudes. (D.9)
 double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b);
 

@@ -251,6 +251,45 @@ TEST(EffectSearch, HeldOutDataDecide) {
   EXPECT_EQ(result.path[0].reason, "held-out data do not confirm it");
 }
 
+/// One that follows the noise of the training data fits them best, and fails on the others.
+TEST(EffectSearch, TriesTheNextIfHeldOutDataObject) {
+  std::mt19937_64 generator(23);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 4 * problem.changes.col(2);
+  VectorXd follows = -problem.changes.col(2);
+  follows(problem.training) = problem.residual(problem.training) / 4;
+  add_candidate(problem, "follows_noise", follows);
+  const SearchResult result = found(problem);
+  ASSERT_EQ(result.path.size(), 2U);
+  EXPECT_EQ(result.path[0].candidate, 8U);
+  EXPECT_EQ(result.path[0].reason, "held-out data do not confirm it");
+  EXPECT_EQ(result.path[1].candidate, 2U);
+  EXPECT_EQ(result.verdict, "missing");
+}
+
+/// To first order an input that may be anything does nearly what the effect does; at the size of the truth it does not.
+TEST(EffectSearch, RunsAtFiniteSizeWhatFirstOrderCannotJudge) {
+  std::mt19937_64 generator(29);
+  EffectProblem problem = band();
+  const VectorXd bend = response(1, 8, [](int m) { return std::sin(2 * std::numbers::pi * m / moments); });
+  problem.allowed = problem.changes.col(2) + 0.1 * bend;
+  problem.allowed_deviation = VectorXd::Constant(1, infinite);
+  const auto change = [&](double a) -> VectorXd { return a * problem.changes.col(2) + a * a / 5 * bend; };
+  problem.residual = noise(generator) + change(5);
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all = linear_residual(problem)(amplitudes);
+    for (Index k = 0; k < all.cols(); ++k)
+      all.col(k) += amplitudes(2, k) * problem.changes.col(2) - change(amplitudes(2, k));
+    return all;
+  };
+  SearchSettings settings;
+  settings.confirmed = 0;
+  const SearchResult result = search_effects(problem, settings, runs);
+  ASSERT_EQ(result.verdict, "missing");
+  EXPECT_EQ(result.effects.front().candidate, 2U);
+  EXPECT_NEAR(result.effects.front().amplitudes(0), 5, 3 * result.effects.front().deviations(0));
+}
+
 /// An effect that saturates: runs find its amplitude where first order is far off.
 TEST(EffectSearch, FindsAnAmplitudeThatSaturates) {
   std::mt19937_64 generator(11);
