@@ -220,10 +220,10 @@ std::string verdict_sentence(const DiagnosisReport& report) {
             fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect)));
     return fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
   }
-  return found.path.empty()
-             ? "UNDECIDED: these data would not show any candidate at the size that it may have"
-             : fmt::format("UNDECIDED: {} stands out, but {}", name_of(problem.candidates[found.path.back().candidate]),
-                           found.path.back().reason);
+  return found.path.empty() ? "UNDECIDED: these data would not show any candidate at the size that it may have"
+                            : fmt::format("UNDECIDED: {} stands out, but {}",
+                                          name_of(problem.candidates[found.path.front().candidate]),
+                                          found.path.front().reason);  // the best of them
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ constexpr Clock::duration first_nap = std::chrono::microseconds(10);
 constexpr auto look_every = std::chrono::milliseconds(200);
 constexpr double follow_every = 0.1, follow_after = 0.5;  // seconds
 
-/// An eighth of the time waited so far, up to 0.3 ms; in long waits 2 % of it, up to 5 ms.
+/// An eighth of the time waited so far, up to 0.3 ms; in long waits 4 % of it, up to 5 ms.
 Clock::duration nap_after(Clock::duration waited) {
   using std::chrono::microseconds;
   const Clock::duration short_wait = std::min<Clock::duration>(waited / 8, microseconds(300)),
-                        long_wait = std::min<Clock::duration>(waited / 50, microseconds(5000));
+                        long_wait = std::min<Clock::duration>(waited / 25, microseconds(5000));
   return std::max({first_nap, short_wait, long_wait});
 }
 
