@@ -23,6 +23,8 @@ const char* word_of(Candidate::Kind kind) {
       return "input";
     case Candidate::Kind::data:
       return "data";
+    case Candidate::Kind::numerics:
+      return "numerics";
   }
   return "effect";
 }
@@ -200,11 +202,14 @@ std::string verdict_sentence(const DiagnosisReport& report) {
   const SearchResult& found = report.found;
   const std::vector<std::string> named = named_of(report);
   const auto accepted = accepted_of(found);
-  const bool is_data = std::all_of(accepted.begin(), accepted.end(), [&](const TestedEffect* effect) {
-    return problem.candidates[effect->candidate].kind == Candidate::Kind::data;
-  });
-  if (found.verdict == "missing" && is_data)
+  const auto all_are = [&](Candidate::Kind kind) {
+    return std::all_of(accepted.begin(), accepted.end(),
+                       [&](const TestedEffect* effect) { return problem.candidates[effect->candidate].kind == kind; });
+  };
+  if (found.verdict == "missing" && all_are(Candidate::Kind::data))
     return fmt::format("THE DATA are off, the model lacks nothing beside: {}", fmt::join(named, "; and "));
+  if (found.verdict == "missing" && all_are(Candidate::Kind::numerics))
+    return fmt::format("THE NUMERICS are too coarse, no effect is missing: {}", fmt::join(named, "; and "));
   if (found.verdict == "missing") return fmt::format("MISSING: {}", fmt::join(named, "; and "));
   if (found.verdict == "nothing_missing")
     return "NOTHING MISSING: no candidate explains more than chance, and what is left is within the noise and the "

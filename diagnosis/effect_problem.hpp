@@ -24,12 +24,14 @@ struct Amplitude {
 
 /// What may be missing or wrong: one effect at one place.
 struct Candidate {
-  enum class Kind { effect, input, data };
+  enum class Kind { effect, input, data, numerics };
   std::string name, where, meaning;
   Kind kind = Kind::effect;
   std::vector<Eigen::Index> amplitudes;  ///< numbers of its amplitudes
   bool confirmable = true;               ///< it acts on held-out data as well
   std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
+  /// Whether the model is run with it; what the data or the numerics do follows to first order.
+  bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };
 
 /// Whether one candidate is a special shape of the other at the same place: its name ends with the other's, as

@@ -16,7 +16,7 @@ constexpr double convincing = 6;    ///< of BIC
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
-constexpr double far_beyond = 3;  ///< deviations of the misfit that noise leaves
+constexpr double far_beyond = 5;  ///< deviations of the misfit that noise leaves
 constexpr double hidden = 0.5;    ///< of what an effect does: errors allowed do the like
 
 constexpr const char* too_weak = "the misfit does not fall by enough";
@@ -25,7 +25,7 @@ constexpr const char* breaks_down = "the model breaks down with it";
 class Search {
  public:
   Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at)
-      : problem_(problem), settings_(settings), residual_at_(residual_at), plain_(problem) {
+      : problem_(problem), settings_(settings), residual_at_(residual_at), plain_(problem), foretold_(problem) {
     now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
     result_.independent = problem.independent(problem.training).sum();
     rival_of_.resize(problem.candidates.size());
@@ -103,8 +103,8 @@ class Search {
     return all;
   }
 
-  bool is_far_beyond_noise(double misfit) const {
-    return misfit > result_.independent + far_beyond * std::sqrt(2 * result_.independent);
+  bool is_far_beyond_noise() const {
+    return plain_.misfit(now_.residual) > result_.independent + far_beyond * std::sqrt(2 * result_.independent);
   }
 
   /// Finds the amplitudes of the strongest with runs, those first that promise most; the hopeless are not run.
@@ -137,17 +137,23 @@ class Search {
       if (one.hope() > best + hopeless) one.give_up();
   }
 
-  std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
-    if (problem_.held_out.size() < 2) return std::nullopt;
+  std::vector<int> held_out_blocks() const {
     std::vector<int> block;
     for (const Index i : problem_.held_out) block.push_back(problem_.block[static_cast<std::size_t>(i)]);
-    return gain_of(problem_.precision(problem_.held_out), block, before(problem_.held_out), after(problem_.held_out),
-                   problem_.independent(problem_.held_out).sum());
+    return block;
   }
 
-  /// The same without the allowed errors that the training data show of either.
+  std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
+    if (problem_.held_out.size() < 2) return std::nullopt;
+    return gain_of(problem_.precision(problem_.held_out), held_out_blocks(), before(problem_.held_out),
+                   after(problem_.held_out), problem_.independent(problem_.held_out).sum());
+  }
+
+  /// The same of what the training data and the allowed errors do not foretell.
   std::optional<Gain> confirmation(const VectorXd& before, const VectorXd& after) const {
-    return held_out_gain(plain_.corrected(problem_, before), plain_.corrected(problem_, after));
+    if (problem_.held_out.size() < 2) return std::nullopt;
+    return gain_in_misfit(held_out_blocks(), foretold_.misfit(before), foretold_.misfit(after),
+                          problem_.independent(problem_.held_out).sum());
   }
 
   /// Probability that noise makes the gain of one of so many candidates as large.
@@ -173,21 +179,19 @@ class Search {
       result_.more = true;
       return false;
     }
-    std::vector<Refinement> all = refined(strongest, trained);
-    double best = plain_.misfit(now_.residual);
-    for (const Refinement& one : all) best = std::min(best, one.best());
-    if (is_far_beyond_noise(best) && static_cast<int>(now_.accepted.size()) < settings_.most)
-      for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
-    return settle(all);
+    if (settle(refined(strongest, trained))) return leaves_something();
+    if (!is_far_beyond_noise() || static_cast<int>(now_.accepted.size()) == settings_.most) return false;
+    return settle(refined(unsure(trained), trained)) && leaves_something();
   }
 
-  /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it.
+  /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it. False if none is.
   bool settle(const std::vector<Refinement>& all) {
     std::vector<const Refinement*> order;
-    for (const Refinement& one : all) order.push_back(&one);
-    std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
-      return a->begun() != b->begun() ? a->begun() : is_worth_more(a->effect(), b->effect());
-    });
+    for (const Refinement& one : all)
+      if (one.begun()) order.push_back(&one);
+    if (order.empty() && !all.empty()) result_.path.push_back(broken(all.front()));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const auto* a, const auto* b) { return is_worth_more(a->effect(), b->effect()); });
     const AmplitudeState before = now_;
     const Refinement* chosen = nullptr;
     for (const Refinement* one : order) {
@@ -196,14 +200,13 @@ class Search {
       if (step.accepted || step.reason == too_weak) break;
     }
     const double spread = dispersion((chosen ? chosen->state() : before).residual);
-    for (const Refinement& one : all) {
-      if (!one.begun()) continue;
-      TestedEffect effect = one.effect();
-      effect.run = one.state().amplitudes;
-      effect.held_out = confirmation(before.residual, one.state().residual);
+    for (const Refinement* one : order) {
+      TestedEffect effect = one->effect();
+      effect.run = one->state().amplitudes;
+      effect.held_out = confirmation(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
-      effect.accepted = &one == chosen;
-      effect.rival = chosen && &one != chosen && !was_refused(effect.candidate) &&
+      effect.accepted = one == chosen;
+      effect.rival = chosen && one != chosen && !was_refused(effect.candidate) &&
                      worth_of(effect) > worth_of(chosen->effect()) - convincing * spread;
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
@@ -212,7 +215,12 @@ class Search {
     now_ = chosen->state();
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
-    return leaves_something();
+    return true;
+  }
+
+  SearchStep broken(const Refinement& one) const {
+    const double misfit = plain_.misfit(now_.residual);
+    return {one.effect().candidate, false, breaks_down, misfit, misfit, result_.after};
   }
 
   /// What comes of adding it.
@@ -226,7 +234,7 @@ class Search {
                     plain_.misfit(now_.residual),
                     plain_.misfit(residual),
                     lack_of_fit(problem_, plain_, residual)};
-    step.reason = one.begun() ? objection(effect, dispersion(residual), step.left) : breaks_down;
+    step.reason = objection(effect, dispersion(residual), step.left);
     step.accepted = step.reason.empty();
     return step;
   }
@@ -316,6 +324,7 @@ class Search {
   const SearchSettings& settings_;
   const ResidualAt& residual_at_;
   Trained plain_;
+  Foretold foretold_;
   AmplitudeState now_;
   SearchResult result_;
   std::vector<std::size_t> rival_of_;

@@ -11,18 +11,23 @@ namespace {
 constexpr int draws = 2000;
 
 double gain(double before, double after) {
-  return before > 0 ? 1 - std::sqrt(after / before) : 0;
+  return before > 0 ? 1 - std::sqrt(std::max(0.0, after) / before) : 0;
 }
 
 }  // namespace
 
 Gain gain_of(const VectorXd& precision, const std::vector<int>& block, const VectorXd& before, const VectorXd& after,
              double count) {
+  return gain_in_misfit(block, precision.cwiseProduct(before.cwiseAbs2()), precision.cwiseProduct(after.cwiseAbs2()),
+                        count);
+}
+
+Gain gain_in_misfit(const std::vector<int>& block, const VectorXd& before, const VectorXd& after, double count) {
   std::map<int, std::pair<double, double>> of_block;
-  for (Eigen::Index i = 0; i < precision.size(); ++i) {
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
     auto& [one, other] = of_block[block[static_cast<std::size_t>(i)]];
-    one += precision(i) * before(i) * before(i);
-    other += precision(i) * after(i) * after(i);
+    one += before(i);
+    other += after(i);
   }
   std::vector<std::pair<double, double>> blocks;
   double all_before = 0, all_after = 0;
@@ -43,8 +48,8 @@ Gain gain_of(const VectorXd& precision, const std::vector<int>& block, const Vec
     drawn.push_back(gain(one, other));
   }
   std::sort(drawn.begin(), drawn.end());
-  return {gain(all_before, all_after), drawn[draws / 40], drawn[draws - draws / 40 - 1], std::sqrt(all_before / count),
-          std::sqrt(all_after / count)};
+  return {gain(all_before, all_after), drawn[draws / 40], drawn[draws - draws / 40 - 1],
+          std::sqrt(std::max(0.0, all_before) / count), std::sqrt(std::max(0.0, all_after) / count)};
 }
 
 }  // namespace tether

@@ -17,5 +17,7 @@ struct Gain {
 /// of independent data. At least two blocks.
 Gain gain_of(const VectorXd& precision, const std::vector<int>& block, const VectorXd& before, const VectorXd& after,
              double count);
+/// The same from each datum's part of the misfit, before and after [n].
+Gain gain_in_misfit(const std::vector<int>& block, const VectorXd& before, const VectorXd& after, double count);
 
 }  // namespace tether

@@ -12,6 +12,7 @@
 #include "tether/diagnosed_case.hpp"
 #include "tether/diagnosis_text.hpp"
 #include "tether/further_measurements.hpp"
+#include "tether/numerics.hpp"
 #include "tether/programs.hpp"
 #include "tether/suggested_case.hpp"
 #include "tether/verbs.hpp"
@@ -75,6 +76,7 @@ class Job {
     const Evidence evidence(given_.data, given_.lumen, motions.front());
     report.problem = problem_of(given_, evidence, motions, runs.dump(), effects_);
     const DiagnosisCase& d = given_.diagnosis;
+    if (d.numerics) add_refined(report.problem, evidence, candidates);
     report.found =
         search_effects(report.problem, {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed},
                        [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
@@ -87,6 +89,16 @@ class Job {
   }
 
  private:
+  void add_refined(EffectProblem& problem, const Evidence& evidence, const fs::path& candidates) {
+    for (const RefinedCase& refined : write_refined(candidates, given_)) {
+      runs_.make(refined.file);
+      const FinishedMotion run = stored_runs(runs_.folder_of(refined.file)).front();
+      if (run.failed()) continue;
+      const FinishedMotion mapped = on_nodes_of(given_.lumen, lumen_in(refined.file), run);
+      add_numerics(problem, refined, problem.residual - residuals_of(evidence, {mapped}, problem.residual).col(0));
+    }
+  }
+
   /// Runs of the model with these amplitudes; errors of the data are added to first order, which is exact for most.
   MatrixXd residual_at(const EffectProblem& problem, const Evidence& evidence, const MatrixXd& amplitudes) {
     provide(problem, evidence, amplitudes);
@@ -98,7 +110,7 @@ class Job {
   VectorXd residual_with(const EffectProblem& problem, const VectorXd& amplitudes) const {
     VectorXd residual = known_.at(trial_of(problem, amplitudes));
     for (const Candidate& candidate : problem.candidates)
-      if (candidate.kind == Candidate::Kind::data)
+      if (!candidate.takes_runs())
         residual -= problem.changes(Eigen::all, candidate.amplitudes) * amplitudes(candidate.amplitudes);
     return residual;
   }
@@ -150,7 +162,7 @@ class Job {
     std::vector<std::string> names, values;
     for (const Candidate& candidate : problem.candidates)
       for (const Eigen::Index i : candidate.amplitudes) {
-        if (candidate.kind == Candidate::Kind::data || amplitudes(i) == 0) continue;
+        if (!candidate.takes_runs() || amplitudes(i) == 0) continue;
         const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(i)];
         names.push_back(amplitude.name);
         values.push_back(number_text(amplitude.value(amplitudes(i))));

@@ -22,7 +22,8 @@ bool is_diagnosed(const ExplainedModel& model) {
 Json accepted(const Json& diagnosis, bool of_data) {
   Json all = Json::array();
   for (const Json& effect : diagnosis["effects"])
-    if (effect["accepted"] && (effect["kind"] == "data") == of_data) all.push_back(effect);
+    if (effect["accepted"] && (effect["kind"] == "data" || effect["kind"] == "numerics") == of_data)
+      all.push_back(effect);
   return all;
 }
 

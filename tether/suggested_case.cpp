@@ -51,7 +51,7 @@ bool write_suggested(const std::filesystem::path& file, const CaseFile& from, co
   std::vector<std::string> added;
   for (const TestedEffect& effect : report.found.effects) {
     const Candidate& candidate = report.problem.candidates[effect.candidate];
-    if (!effect.accepted || candidate.kind == Candidate::Kind::data) continue;
+    if (!effect.accepted || !candidate.takes_runs()) continue;
     for (Eigen::Index own = 0; own < effect.amplitudes.size(); ++own) {
       const auto number = static_cast<std::size_t>(candidate.amplitudes[static_cast<std::size_t>(own)]);
       const Amplitude& amplitude = report.problem.amplitudes[number];

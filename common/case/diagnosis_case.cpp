@@ -32,12 +32,16 @@ void DiagnosisCase::declare(Fields& f) {
   f.number("alpha", alpha, dimension::none, {0, 0.5, true, true}, "probability of a false alarm over all candidates");
   f.number("unexplained", unexplained, dimension::none, {0, 1},
            "share of what the data ask for beyond noise; if more remains, something else is missing");
-  f.number("enough", enough, dimension::none, range::not_negative,
-           "misfit beyond noise (lack_of_fit.excess) below which nothing more is looked for; written by tether explain");
+  f.number(
+      "enough", enough, dimension::none, range::not_negative,
+      "misfit beyond noise (lack_of_fit.excess) below which nothing more is looked for; written by tether explain");
   f.integer("most", most, {1, 20}, "effects that are added at most, one after the other");
   f.integer("refinements", refinements, {1, 20}, "runs at most to find an effect's amplitude");
   f.integer("confirmed", confirmed, {1, 100}, "candidates whose amplitude is found with runs before one is chosen");
   f.group("allowed", allowed, "errors of data, inputs and mesh that are no news: standard deviations");
+  f.flag("numerics", numerics,
+         "whether half the time step, and of a swept mesh twice the elements around and along, compete with the "
+         "effects: two runs that cost some six others");
   f.choice("runs", runs,
            {{"none", "a diagnosis has not prepared this case"},
             {"sensitivities", "identification_master runs the case, and once more for each number that may be wrong"},

@@ -25,6 +25,7 @@ struct DiagnosisCase {
   double step = 0.2, alpha = 0.05, unexplained = 0.1, enough = 0;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;
+  bool numerics = false;
   std::string runs = "none";
   Named<Trial> trials;
   void declare(Fields& f);
