@@ -13,6 +13,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double convincing = 6;    ///< of BIC
+constexpr double confirmed = 0.95;  ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
@@ -66,7 +67,14 @@ class Search {
     bool tried = false;
     for (const SearchStep& step : result_.path)
       tried = step.candidate == candidate || (tried && (!step.accepted || is_accepted(candidate)));
-    return tried;
+    return tried || is_refused(candidate);
+  }
+  bool is_refused(std::size_t candidate) const {
+    const auto& own = problem_.candidates[candidate].amplitudes;
+    return std::any_of(own.begin(), own.end(), [&](Index i) {
+      const std::string& name = problem_.amplitudes[static_cast<std::size_t>(i)].name;
+      return std::find(settings_.refused.begin(), settings_.refused.end(), name) != settings_.refused.end();
+    });
   }
   bool is_accepted(std::size_t candidate) const {
     return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
@@ -88,9 +96,10 @@ class Search {
     return all;
   }
 
-  /// Effects that first order cannot judge, since errors allowed do nearly the same for small amplitudes: as large as a
-  /// patient may have them.
+  /// Effects that first order cannot judge, since numbers that may be anything were fitted without them, and do for
+  /// small amplitudes what they do: as large as a patient may have them.
   std::vector<TestedEffect> unsure(const Trained& trained) const {
+    if ((problem_.allowed_deviation.array() < infinite).all()) return {};
     std::vector<TestedEffect> all = untried(trained);
     std::erase_if(all, [&](const TestedEffect& e) {
       return problem_.candidates[e.candidate].kind != Candidate::Kind::effect || e.q < settings_.alpha || !e.testable ||
@@ -143,6 +152,15 @@ class Search {
     return block;
   }
 
+  /// With the numbers that may be anything as they fit the training data best.
+  VectorXd refitted(const VectorXd& residual) const {
+    const VectorXd found = plain_.amplitudes(residual);
+    VectorXd fitted = residual;
+    for (Index k = 0; k < found.size(); ++k)
+      if (problem_.allowed_deviation(k) == infinite) fitted -= problem_.allowed.col(k) * found(k);
+    return fitted;
+  }
+
   std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
     if (problem_.held_out.size() < 2) return std::nullopt;
     return gain_of(problem_.precision(problem_.held_out), held_out_blocks(), before(problem_.held_out),
@@ -166,7 +184,8 @@ class Search {
   std::string objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
     if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha) return too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
-    if (confirmable && effect.held_out && !(effect.held_out->lower > 0)) return "held-out data do not confirm it";
+    if (confirmable && effect.held_out && effect.held_out->positive < confirmed)
+      return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
     return {};
   }
@@ -179,9 +198,10 @@ class Search {
       result_.more = true;
       return false;
     }
-    if (settle(refined(strongest, trained))) return leaves_something();
-    if (!is_far_beyond_noise() || static_cast<int>(now_.accepted.size()) == settings_.most) return false;
-    return settle(refined(unsure(trained), trained)) && leaves_something();
+    std::vector<Refinement> all = refined(strongest, trained);
+    if (is_far_beyond_noise() && static_cast<int>(now_.accepted.size()) < settings_.most)
+      for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
+    return settle(all) && leaves_something();
   }
 
   /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it. False if none is.
@@ -195,6 +215,7 @@ class Search {
     const AmplitudeState before = now_;
     const Refinement* chosen = nullptr;
     for (const Refinement* one : order) {
+      if (!is_rival(*one, *order.front())) break;
       const SearchStep& step = result_.path.emplace_back(attempt(*one));
       if (step.accepted) chosen = one;
       if (step.accepted || step.reason == too_weak) break;
@@ -206,8 +227,7 @@ class Search {
       effect.held_out = confirmation(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
-      effect.rival = chosen && one != chosen && !was_refused(effect.candidate) &&
-                     worth_of(effect) > worth_of(chosen->effect()) - convincing * spread;
+      effect.rival = chosen && one != chosen && !was_refused(effect.candidate) && is_rival(*one, *chosen);
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
@@ -216,6 +236,11 @@ class Search {
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
     return true;
+  }
+
+  /// Whether the data at hand cannot tell it from the better one.
+  bool is_rival(const Refinement& one, const Refinement& better) const {
+    return worth_of(one.effect()) >= worth_of(better.effect()) - convincing * dispersion(better.state().residual);
   }
 
   SearchStep broken(const Refinement& one) const {
@@ -283,7 +308,7 @@ class Search {
     const bool ambiguous = std::any_of(result_.effects.begin(), result_.effects.end(), [&](const auto& e) {
       return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
     });
-    if (accepted) result_.held_out = held_out_gain(problem_.residual, result_.residual);
+    if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
     if (leaves_too_much() && !result_.more)
       result_.verdict = "not_in_catalogue";
     else if (ambiguous)

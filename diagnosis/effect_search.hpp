@@ -5,13 +5,14 @@
 namespace tether {
 
 struct SearchSettings {
-  double alpha = 0.05;       ///< probability of a false alarm over all candidates
-  double unexplained = 0.1;  ///< if more of what the data ask for remains, something else is missing
-  double enough = 0;         ///< excess (D.11) below which nothing more is looked for
-  int most = 3;              ///< effects that are added
-  int refinements = 5;       ///< runs at most for an effect's amplitude
-  int confirmed = 8;         ///< candidates whose amplitude is found with runs, before one is chosen
-  int compared = 12;         ///< of the strongest, how much each looks like each other is kept
+  double alpha = 0.05;                    ///< probability of a false alarm over all candidates
+  double unexplained = 0.1;               ///< if more of what the data ask for remains, something else is missing
+  double enough = 0;                      ///< excess (D.11) below which nothing more is looked for
+  int most = 3;                           ///< effects that are added
+  int refinements = 5;                    ///< runs at most for an effect's amplitude
+  int confirmed = 8;                      ///< candidates whose amplitude is found with runs, before one is chosen
+  int compared = 12;                      ///< of the strongest, how much each looks like each other is kept
+  std::vector<std::string> refused = {};  ///< numbers of candidates that are not accepted
 };
 
 /// One attempt to add an effect.

@@ -48,8 +48,10 @@ Gain gain_in_misfit(const std::vector<int>& block, const VectorXd& before, const
     drawn.push_back(gain(one, other));
   }
   std::sort(drawn.begin(), drawn.end());
-  return {gain(all_before, all_after), drawn[draws / 40], drawn[draws - draws / 40 - 1],
-          std::sqrt(std::max(0.0, all_before) / count), std::sqrt(std::max(0.0, all_after) / count)};
+  const auto above = drawn.end() - std::upper_bound(drawn.begin(), drawn.end(), 0.0);
+  const auto in_noise = [&](double misfit) { return std::sqrt(std::max(0.0, misfit) / count); };
+  return {gain(all_before, all_after), drawn[draws / 40],   drawn[draws - draws / 40 - 1],
+          in_noise(all_before),        in_noise(all_after), static_cast<double>(above) / draws};
 }
 
 }  // namespace tether

@@ -10,6 +10,7 @@ namespace tether {
 struct Gain {
   double value = 0, lower = 0, upper = 0;
   double before = 0, after = 0;  ///< root of the mean square, in the noise's deviation
+  double positive = 0;           ///< probability that there is any
 };
 
 /// Paired block bootstrap: blocks (patches of a frame) are drawn with replacement, before and after together, since

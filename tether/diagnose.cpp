@@ -77,9 +77,10 @@ class Job {
     report.problem = problem_of(given_, evidence, motions, runs.dump(), effects_);
     const DiagnosisCase& d = given_.diagnosis;
     if (d.numerics) add_refined(report.problem, evidence, candidates);
-    report.found =
-        search_effects(report.problem, {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed},
-                       [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
+    report.found = search_effects(
+        report.problem,
+        {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed, SearchSettings{}.compared, d.refused},
+        [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
     report.splits = splits_of(report, evidence, motions);
     if (write_suggested(output_ / "suggested.yaml", given_.file, report, effects_)) report.suggested = "suggested.yaml";
     report.runs = runs_.all;

@@ -89,7 +89,8 @@ class Explainer {
   const Explanation& run() {
     add_first();
     identify_own();
-    while (diagnose_best() && add_model() && !is_settled()) continue;
+    while (diagnose_best())
+      if (add_model() ? is_settled() : !refuse()) break;
     if (verdict_of(explanation_) == "not_in_catalogue") seek_force();
     explanation_.steps = steps_.all();
     return explanation_;
@@ -160,6 +161,7 @@ class Explainer {
     std::vector<std::string> assumed = given_.diagnosis.assumed;
     for (const std::string& number : identified_numbers(case_of(model.folder()))) assumed.push_back(number);
     if (!assumed.empty()) set_value(values, {"diagnosis.assumed", list_text(assumed)});
+    if (!model.refused.empty()) set_value(values, {"diagnosis.refused", list_text(model.refused)});
     set_value(values, {"diagnosis.most", "1"});  // one at a time, all refitted in between
     set_value(values, {"diagnosis.enough", number_text(enough())});
     write_case(folder, ", its diagnosis", values);
@@ -171,12 +173,23 @@ class Explainer {
 
   /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.
   bool is_settled() const {
-    const std::string& diagnosis = explanation_.models[explanation_.best - 1].diagnosis;
+    const auto before = std::find_if(explanation_.models.rend() - static_cast<long>(explanation_.best),
+                                     explanation_.models.rend(), [](const auto& model) { return model.accepted; });
+    const std::string& diagnosis = before->diagnosis;
     const Json said = Json::parse(diagnosis);
     if (said["more"] || said["verdict"] == "not_in_catalogue") return false;
     const Json foreseen = Json::parse(accepted_effects(diagnosis, false))[0]["held_out_gain"];
     const auto& gain = explanation_.models[explanation_.best].gain;
     return foreseen.is_null() || !gain || gain->value > 0.8 * foreseen["value"].get<double>();
+  }
+
+  /// What was not confirmed is not to be accepted again: another may be. False if that was often enough.
+  bool refuse() {
+    constexpr std::size_t often_enough = 3;
+    ExplainedModel& model = best();
+    for (const Json& effect : Json::parse(accepted_effects(model.diagnosis, false)))
+      for (const Json& parameter : effect["parameters"]) model.refused.push_back(parameter["parameter"]);
+    return explanation_.models.size() - 1 - explanation_.best <= often_enough;
   }
 
   int effects_added() const {
@@ -207,7 +220,8 @@ class Explainer {
     identify_into(model);
     const Json estimate = read_json(output_ / model.identification_folder() / "estimate.json");
     for (std::size_t i = 1; i <= explanation_.best; ++i)
-      explanation_.models[i].added = with_estimates(Json::parse(explanation_.models[i].added), estimate);
+      if (explanation_.models[i].accepted)
+        explanation_.models[i].added = with_estimates(Json::parse(explanation_.models[i].added), estimate);
     model.added = with_estimates(accepted, estimate);
     return judge(model);
   }

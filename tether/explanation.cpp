@@ -52,6 +52,7 @@ std::string amplitude_text(const Json& effect) {
 Json found_of(const Explanation& e) {
   Json all = Json::array();
   for (std::size_t i = 0; i <= e.best; ++i) {
+    if (!e.models[i].accepted) continue;
     for (const Json& effect : Json::parse(e.models[i].added)) all.push_back(effect);
     if (!is_diagnosed(e.models[i])) continue;
     for (const Json& effect : accepted(Json::parse(e.models[i].diagnosis), true)) all.push_back(effect);

@@ -27,8 +27,9 @@ struct ExplainedModel {
   std::string reason;  ///< why not
   Misfit training;
   std::optional<Misfit> held_out;
-  std::optional<Gain> gain;        ///< on held-out data against the model before it
-  std::string diagnosis = "null";  ///< diagnosis.json; "null": none was made
+  std::optional<Gain> gain;          ///< on held-out data against the model before it
+  std::string diagnosis = "null";    ///< diagnosis.json; "null": none was made
+  std::vector<std::string> refused;  ///< numbers that a diagnosis of it accepted and an identification did not confirm
   bool identified = false;
 
   std::string folder() const { return "model_" + std::to_string(number); }

@@ -18,8 +18,8 @@ void AllowanceCase::declare(Fields& f) {
 }
 
 void DiagnosisCase::Trial::declare(Fields& f) {
-  f.texts("parameters", parameters, "by their places in the case", Need::required);
-  f.numbers("values", values, {0, dimension::none, range::any}, "of them, in the case's units", Need::required);
+  f.texts("parameters", parameters, "by their places in the case");
+  f.numbers("values", values, {0, dimension::none, range::any}, "of them, in the case's units");
 }
 
 void DiagnosisCase::declare(Fields& f) {
@@ -27,6 +27,10 @@ void DiagnosisCase::declare(Fields& f) {
   f.texts("exclude", exclude, "what is no candidate: types, parts of the wall, or numbers by their place in the case");
   f.texts("assumed", assumed,
           "numbers of the model, by their place in the case, that may be anything: effects must show beyond them");
+  f.texts(
+      "refused", refused,
+      "numbers of candidates that are tested and not accepted, since an identification did not confirm them; written "
+      "by tether explain");
   f.number("step", step, dimension::none, {0, 1, true, false},
            "by how much of its scale an effect is switched on to see what it would do");
   f.number("alpha", alpha, dimension::none, {0, 0.5, true, true}, "probability of a false alarm over all candidates");

@@ -21,7 +21,7 @@ struct DiagnosisCase {
     std::vector<double> values;
     void declare(Fields& f);
   };
-  std::vector<std::string> candidates, exclude, assumed;
+  std::vector<std::string> candidates, exclude, assumed, refused;
   double step = 0.2, alpha = 0.05, unexplained = 0.1, enough = 0;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;

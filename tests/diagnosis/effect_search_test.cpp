@@ -255,9 +255,10 @@ TEST(EffectSearch, HeldOutDataDecide) {
 TEST(EffectSearch, TriesTheNextIfHeldOutDataObject) {
   std::mt19937_64 generator(23);
   EffectProblem problem = band();
-  problem.residual = noise(generator) + 4 * problem.changes.col(2);
+  const VectorXd errors = noise(generator);
+  problem.residual = errors + 4 * problem.changes.col(2);
   VectorXd follows = -problem.changes.col(2);
-  follows(problem.training) = problem.residual(problem.training) / 4;
+  follows(problem.training) = (problem.changes.col(2) + 0.005 * errors)(problem.training);
   add_candidate(problem, "follows_noise", follows);
   const SearchResult result = found(problem);
   ASSERT_EQ(result.path.size(), 2U);
@@ -392,6 +393,7 @@ TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {
   std::vector<int> block;
   for (int i = 0; i < 40; ++i) block.push_back(i / 4);
   const Gain gain = gain_of(precision, block, before, 0.5 * before, 40);
+  EXPECT_EQ(gain.positive, 1);
   EXPECT_DOUBLE_EQ(gain.value, 0.5);
   EXPECT_NEAR(gain.lower, 0.5, 1e-12);
   EXPECT_NEAR(gain.upper, 0.5, 1e-12);
