@@ -115,10 +115,26 @@ Eigen::Matrix2Xd flat_points(const Drawn& one, const SlicePlane& plane, int& rep
   return points;
 }
 
+/// A contour said to be closed whose ends lie far apart is an arc: its chord would count as measured.
+void check_closed(const Drawn& one, const Contour& contour) {
+  constexpr double steps = 3, share = 0.1;  // of its longest other step, of its length
+  const Eigen::Index count = contour.points().cols();
+  double longest = 0;
+  for (Eigen::Index i = 1; i < count; ++i)
+    longest = std::max(longest, (contour.points().col(i) - contour.points().col(i - 1)).norm());
+  const double gap = (contour.points().col(0) - contour.points().col(count - 1)).norm();
+  if (gap > steps * longest && gap > share * contour.length())
+    throw input_error(
+        "{}: slice {}, frame {:g}: counts as closed, but its ends are {:.3g} apart, and no two other neighbours more "
+        "than {:.3g}: is it a line with two ends (column closed: 0)?",
+        one.where, one.slice, one.frame, gap, longest);
+}
+
 Contour contour_of(const Drawn& one, const SlicePlane& plane, int& repeated) {
   const Contour contour(flat_points(one, plane, repeated), one.closed);
   if (contour.crosses_itself())
     throw input_error("{}: slice {}, frame {:g}: the contour crosses itself", one.where, one.slice, one.frame);
+  if (one.closed) check_closed(one, contour);
   return one.closed && contour.signed_area() < 0 ? contour.reversed() : contour;
 }
 

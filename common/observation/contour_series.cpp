@@ -31,11 +31,20 @@ ContourSeries::ContourSeries(SourceSettings settings, std::vector<ContourTrack> 
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const ContourTrack& track = tracks_[t];
     times_.emplace_back(track.times, settings_.period, settings_.time_tolerance, track.held_out);
-    double length = 0;
-    for (const Contour& contour : track.contours) length += contour.length();
-    mean_length_.push_back(length / static_cast<double>(track.contours.size()));
+    length_.push_back(observed_length(t, lumen));
     orient(t, lumen);
   }
+}
+
+/// What all samples of a track stand for. Those beside an open contour's ends do not count, so there it is the length
+/// of the model's cut, as long as that is.
+double ContourSeries::observed_length(std::size_t t, const LumenSurface& lumen) const {
+  const std::vector<Contour>& contours = tracks_[t].contours;
+  const bool closed = std::all_of(contours.begin(), contours.end(), [](const Contour& c) { return c.closed(); });
+  if (const double cut = closed ? 0 : cut_length(lumen.points, t); cut > 0) return cut;
+  double length = 0;
+  for (const Contour& contour : contours) length += contour.length();
+  return length / static_cast<double>(contours.size());
 }
 
 void ContourSeries::orient(std::size_t t, const LumenSurface& lumen) {
@@ -67,9 +76,11 @@ std::vector<CutStation> ContourSeries::stations(const Points& x, std::size_t t) 
 
 double ContourSeries::cut_length(const Points& x, std::size_t t) const {
   const std::vector<CutStation> places = stations(x, t);
-  double length = 0;
+  if (places.size() < 2) return 0;
+  double length = 0;  // of all parts but two halves
   for (std::size_t i = 1; i < places.size(); ++i) length += (places[i].position - places[i - 1].position).norm();
-  return length;
+  const auto count = static_cast<double>(places.size());
+  return length * count / (count - 1);
 }
 
 Sample ContourSeries::unobserved(std::size_t track, Exclusion why) const {
@@ -95,7 +106,7 @@ Sample ContourSeries::sample(const CutStation& station, std::size_t t, std::size
   if (sample.excluded == Exclusion::none && found.at_end) sample.excluded = Exclusion::rim;
   if (sample.excluded == Exclusion::none && std::abs(found.distance) > settings_.trust_distance)
     sample.excluded = Exclusion::too_far;
-  if (sample.excluded == Exclusion::none) sample.weight = mean_length_[t] / samples_;  // (O.6)
+  if (sample.excluded == Exclusion::none) sample.weight = length_[t] / samples_;  // (O.6)
   return sample;
 }
 

@@ -41,12 +41,13 @@ class ContourSeries : public LumenSeries {
   std::vector<CutStation> stations(const Points& x, std::size_t track) const;
   Sample sample(const CutStation& station, std::size_t track, std::size_t frame) const;
   Sample unobserved(std::size_t track, Exclusion why) const;
+  double observed_length(std::size_t track, const LumenSurface& lumen) const;
   void orient(std::size_t track, const LumenSurface& lumen);
 
   SourceSettings settings_;
   std::vector<ContourTrack> tracks_;
   std::vector<FrameTimes> times_;
-  std::vector<double> mean_length_;
+  std::vector<double> length_;
   int samples_;
   std::vector<Triangle> triangles_;
   std::vector<std::string> notes_;

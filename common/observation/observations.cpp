@@ -96,6 +96,26 @@ void check_size(const std::string& name, const TriangleSurface& data, const Lume
   throw input_error("{}: {} {}", name, guessed_unit(power, unit), placement(data.points, lumen.points));
 }
 
+/// Which share of the places that a surface faces is near. Throws InputError if there is none, or fewer than there must
+/// be, or if the surface's normals look against the model's; notes what is odd.
+double checked_placing(const std::string& name, CheckedSurface& checked, const LumenSurface& lumen, double reach,
+                       bool must_be_near) {
+  const Placing found = placing_of(checked.surface, lumen, reach);
+  if (found.opposed > 0.5)
+    throw input_error(
+        "{}: its normals look against those of the model's lumen at {:.2g} % of the places that it faces: is it the "
+        "surface of the wall, and not of the lumen alone?",
+        name, 100 * found.opposed);
+  const std::string near = share_text(found.near, reach) + " and look the same way";
+  if (found.near == 0 || (must_be_near && found.near < least_share))
+    throw input_error("{}: does not overlap the model: {}, at least half must in one frame; {}", name, near,
+                      placement(checked.surface.points, lumen.points));
+  if (found.near < least_share) checked.notes.push_back("only " + near);
+  if (found.faced < least_share)
+    checked.notes.push_back(fmt::format("faces {:.2g} % of the model's lumen only", 100 * found.faced));
+  return found.near;
+}
+
 std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface& lumen, const Place& place) {
   const UnitSystem& units = place.file.units();
   const std::vector<TimedFile> files = files_of(given, units);
@@ -112,12 +132,8 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
     CheckedSurface checked = checked_surface(name, read_surface(timed.file, scale));
     check_size(name, checked.surface, lumen, given.unit);
     open_ends(checked, openings);
-    const double share = share_within(checked.surface, lumen, reach);
-    best = std::max(best, share);
-    if (share == 0 || (&timed == &files.back() && best < least_share))
-      throw input_error("{}: does not overlap the model: {}, at least half must in one frame; {}", name,
-                        share_text(share, reach), placement(checked.surface.points, lumen.points));
-    if (share < least_share) checked.notes.push_back("only " + share_text(share, reach));
+    const bool must_be_near = &timed == &files.back() && best < least_share;
+    best = std::max(best, checked_placing(name, checked, lumen, reach, must_be_near));
     for (const std::string& note : checked.notes) notes.push_back(timed.file.filename().string() + ": " + note);
     numbers.push_back(static_cast<double>(frames.size()));
     held_out.push_back(std::find(given.data.held_out.begin(), given.data.held_out.end(), numbers.back()) !=
@@ -177,10 +193,12 @@ std::vector<std::string> check_overlap(const ContourSeries& series, const LumenS
   if (const int power = common_power(series, lumen); power != 0)
     throw refused("its contours are " + guessed_unit(power, given.unit));
   std::vector<std::optional<double>> best(series.tracks().size());
+  std::vector<std::pair<Frame, double>> far;
   for (const Frame& frame : series.frames())
     if (const auto share = share_within(series.observe(lumen.points, frame), reach)) {
       auto& of_track = best[static_cast<std::size_t>(frame.series)];
       of_track = std::max(of_track.value_or(0), *share);
+      if (*share < least_share) far.emplace_back(frame, *share);
     }
   const auto most = *std::max_element(best.begin(), best.end());
   if (!most) throw refused("no slice cuts the model's lumen");
@@ -189,6 +207,10 @@ std::vector<std::string> check_overlap(const ContourSeries& series, const LumenS
   for (std::size_t t = 0; t < best.size(); ++t)
     if (best[t] && *best[t] < least_share)
       notes.push_back(fmt::format("{}: at most {}", series.tracks()[t].name, share_text(*best[t], reach)));
+  for (const auto& [frame, share] : far)
+    if (const auto t = static_cast<std::size_t>(frame.series); *best[t] >= least_share)
+      notes.push_back(
+          fmt::format("{} at {:.4g}: only {}", series.tracks()[t].name, frame.time, share_text(share, reach)));
   return notes;
 }
 

@@ -139,12 +139,26 @@ std::vector<std::vector<int>> holes_of(const std::string& name, const TriangleSu
                     forks, at(surface.points.col(first->first)));
 }
 
-void turn_outward(const std::string& name, TriangleSurface& surface, std::vector<std::string>& notes) {
-  const std::vector<std::vector<int>> holes = holes_of(name, surface);
-  if (enclosed_volume(surface, holes) < 0) {
-    for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
-    notes.emplace_back("its normals looked inward; turned");
+/// Piece by piece: they may come from different hands.
+void turn_outward(TriangleSurface& surface, std::vector<std::string>& notes) {
+  const Parts parts = connected_parts(static_cast<int>(surface.points.cols()), surface.triangles);
+  int turned = 0;
+  for (int part = 0; part < parts.count; ++part) {
+    std::vector<std::size_t> own;
+    TriangleSurface piece{surface.points, {}};
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      if (parts.part[t] == part) own.push_back(t), piece.triangles.push_back(surface.triangles[t]);
+    if (enclosed_volume(piece, rims(piece.triangles)) >= 0) continue;
+    for (const std::size_t t : own) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+    ++turned;
   }
+  if (turned > 0 && turned == parts.count) notes.emplace_back("its normals looked inward; turned");
+  if (turned > 0 && turned < parts.count)
+    notes.push_back(fmt::format("the normals of {} of its {} pieces looked inward; turned", turned, parts.count));
+}
+
+void note_holes(const TriangleSurface& surface, const std::vector<std::vector<int>>& holes,
+                std::vector<std::string>& notes) {
   if (holes.empty()) return;
   std::string lengths;
   for (const std::vector<int>& hole : holes) {
@@ -198,7 +212,9 @@ CheckedSurface checked_surface(const std::string& name, TriangleSurface given) {
   }
   check_edges(name, surface);
   keep_large_parts(name, surface, result.notes);
-  turn_outward(name, surface, result.notes);
+  const std::vector<std::vector<int>> holes = holes_of(name, surface);
+  turn_outward(surface, result.notes);
+  note_holes(surface, holes, result.notes);
   result.flawed = crossing_triangles(name, surface, result.notes);
   return result;
 }
@@ -231,14 +247,23 @@ std::string guessed_unit(int power, const std::string& stated) {
   return larger + ": in another unit?";
 }
 
-double share_within(const TriangleSurface& surface, const LumenSurface& lumen, double reach) {
-  int facing = 0, near = 0;
-  for (const Closest& c : SignedSurface(surface).closest(lumen.points)) {
-    if (c.on_rim) continue;
-    ++facing;
-    if (std::abs(c.distance) <= reach) ++near;
+Placing placing_of(const TriangleSurface& surface, const LumenSurface& lumen, double reach) {
+  constexpr double alike = 0.5;  // cosine: 60 degrees
+  const Points normals = nodal_normals(lumen.points, lumen.triangles);
+  const std::vector<Closest> found = SignedSurface(surface).closest(lumen.points);
+  double faced = 0, opposed = 0, near = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].on_rim) continue;
+    ++faced;
+    if (std::abs(found[i].distance) > reach) continue;
+    const Triangle& facet = surface.triangles[static_cast<std::size_t>(found[i].triangle)];
+    const double cosine =
+        area_vector(surface.points, facet).normalized().dot(normals.col(static_cast<Eigen::Index>(i)));
+    opposed += cosine < 0 ? 1 : 0;
+    near += cosine >= alike ? 1 : 0;
   }
-  return facing == 0 ? 0 : static_cast<double>(near) / facing;
+  const double all = static_cast<double>(found.size()), some = std::max(1.0, faced);
+  return {faced / all, near / some, opposed / some};
 }
 
 }  // namespace tether

@@ -17,7 +17,7 @@ struct CheckedSurface {
 
 /// Equal points become one; points far from all others, triangles without area, and loose pieces below a twentieth of
 /// the whole area are left out, never the largest;
-/// a surface whose normals all look inward is turned; all of that is noted, and so are holes and self-intersections.
+/// pieces whose normals look inward are turned; all of that is noted, and so are holes and self-intersections.
 /// Throws InputError, beginning with `name`: no triangles, an edge with more than two triangles, normals that disagree
 /// between neighbours, open edges that fork, small pieces with more than half of the area, self-intersections in more
 /// than a hundredth of the triangles.
@@ -27,9 +27,14 @@ CheckedSurface checked_surface(const std::string& name, TriangleSurface surface)
 /// [length^3].
 double enclosed_volume(const TriangleSurface& surface, const std::vector<std::vector<int>>& holes);
 
-/// Of the nodes of the imaged lumen that the surface faces (their closest place is not on its rim), the share that lie
-/// within `reach` of it; 0 if there are none.
-double share_within(const TriangleSurface& surface, const LumenSurface& lumen, double reach);
+/// How a measured surface lies about the imaged lumen. A place of the lumen is faced if what is closest to it is not
+/// the surface's rim.
+struct Placing {
+  double faced;    ///< share of the lumen's nodes
+  double near;     ///< of those faced, the share within reach of the surface and looking the same way, to 60 degrees
+  double opposed;  ///< of those faced, the share within reach where the surface's normal looks against the lumen's
+};
+Placing placing_of(const TriangleSurface& surface, const LumenSurface& lumen, double reach);
 
 /// The diagonal of the box around some points [length].
 double box_size(const Points& x);

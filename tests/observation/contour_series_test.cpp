@@ -181,6 +181,7 @@ TEST(ContourSeries, OfAnArcObservesOnlyBesideIt) {
     if (clockwise) arc = arc.reversed();
     const ContourSeries data = series(cylinder(), plane(Vec3(0, 0, 2.01), Vec3(0, 0, 1)), {0}, {arc}, 100);
     int observed = 0;
+    double length = 0;
     for (const Sample& s : data.observe(cylinder().points, data.frames()[0])) {
       const double angle = std::atan2(s.position[1], s.position[0]);
       const bool beside = angle > 0.55 && angle < 1.95;
@@ -191,8 +192,10 @@ TEST(ContourSeries, OfAnArcObservesOnlyBesideIt) {
         EXPECT_EQ(s.excluded, Exclusion::rim);
       }
       observed += s.weight > 0 ? 1 : 0;
+      length += s.weight;
     }
     EXPECT_NEAR(observed, 100 * 1.5 / (2 * pi), 2);
+    EXPECT_NEAR(length, 1.5, 2 * 2 * pi / 100) << "of the lumen beside the arc, to a sample at each end";
   }
 }
 

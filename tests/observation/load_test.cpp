@@ -193,7 +193,7 @@ TEST_F(Load, RefusesBadSurfaces) {
       "(11, 11, 40), the model from (-1, -1, 0) to (1, 1, 4). In another unit? Multiplied by 0.1 they would be about "
       "as large");
   EXPECT_EQ(ct("file: beside.stl, unit: cm").substr(0, 75),
-            "beside.stl: does not overlap the model: 44 % of the places of the lumen tha");
+            "beside.stl: does not overlap the model: 0 % of the places of the lumen that");
   EXPECT_EQ(ct("file: nounit.csv, unit: cm"),
             "nounit.csv:2: the unit of time must stand in its heading, as in time [ms]");
   EXPECT_EQ(ct("file: a.stl, unit: cm, held_out: [3]"),
@@ -270,6 +270,48 @@ TEST_F(Load, RefusesBadContours) {
   EXPECT_EQ(message("  contours: {mr: {file: beside.csv}}\n").substr(0, 44),
             "beside.csv: does not overlap the model: 41 %");
   EXPECT_EQ(csv(heading + good + "A,0,0,1,x,15\n"), "c.csv:26: y: 'x' is not a number");
+}
+
+TEST_F(Load, RefusesAnArcThatCountsAsClosed) {
+  std::string half = circle_rows("A", 0, 0, 11, 15);
+  for (int rows = 0; rows < 12; ++rows) half.erase(half.rfind('A'));
+  folder.file("c.csv", heading + half);
+  EXPECT_EQ(
+      message("  contours: {mr: {file: c.csv}}\n"),
+      "c.csv:2: slice A, frame 0: counts as closed, but its ends are 2.18 apart, and no two other neighbours more "
+      "than 0.287: is it a line with two ends (column closed: 0)?");
+}
+
+TEST_F(Load, NotesAContourFarFromTheModel) {
+  folder.file("c.csv", heading + circle_rows("A", 0, 0, 11, 15) + moved_rows(circle_rows("A", 1, 200, 11, 15), 60) +
+                           circle_rows("A", 2, 400, 11, 15));
+  const std::vector<std::string> notes = load("  contours: {mr: {file: c.csv}}\n").notes();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].substr(0, 76), "mr: slice A at 0.2: only 0 % of the places of the lumen that it faces lie wi");
+}
+
+TEST_F(Load, RefusesAWallForALumenAndNotesAPart) {
+  TriangleSurface wall = vessel(1.1);
+  for (Triangle& t : wall.triangles) std::swap(t[0], t[1]);
+  const TriangleSurface outer = vessel(1.3);
+  const auto nodes = static_cast<int>(wall.points.cols());
+  Points both(3, 2 * nodes);
+  both << wall.points, outer.points;
+  wall.points = both;
+  for (const Triangle& t : outer.triangles) wall.triangles.push_back({t[0] + nodes, t[1] + nodes, t[2] + nodes});
+  for (const int first : {0, 8})  // closed at both ends: 16 around, rows of 9
+    for (int i = 0; i < 16; ++i) {
+      const int a = 9 * i + first, b = 9 * ((i + 1) % 16) + first;
+      if (first == 8) wall.triangles.insert(wall.triangles.end(), {{b, a, nodes + a}, {b, nodes + a, nodes + b}});
+      if (first == 0) wall.triangles.insert(wall.triangles.end(), {{a, b, nodes + a}, {nodes + a, b, nodes + b}});
+    }
+  folder.file("wall.stl", stl(wall));
+  EXPECT_EQ(message("  surfaces: {ct: {file: wall.stl, unit: cm}}\n"),
+            "wall.stl: its normals look against those of the model's lumen at 95 % of the places that it faces: is it "
+            "the surface of the wall, and not of the lumen alone?");
+  folder.file("part.stl", stl(tube(16, 8, 1.2, [](double) { return 1.1; })));
+  const std::vector<std::string> notes = load("  surfaces: {ct: {file: part.stl, unit: cm}}\n").notes();
+  EXPECT_EQ(notes.back(), "ct: part.stl: faces 26 % of the model's lumen only");
 }
 
 TEST_F(Load, NotesASliceFarFromTheModel) {

@@ -95,6 +95,17 @@ TEST(SurfaceCheck, TurnsASurfaceThatLooksInward) {
   }
 }
 
+TEST(SurfaceCheck, TurnsThePiecesThatLookInward) {
+  const TriangleSurface below = tube(16, 8, 3, [](double) { return 1.0; });
+  TriangleSurface above = moved(below, Vec3(0, 0, 3.2));
+  for (Triangle& t : above.triangles) std::swap(t[0], t[1]);
+  const CheckedSurface checked = checked_surface("a.stl", joined(below, above));
+  EXPECT_EQ(checked.notes.at(1), "the normals of 1 of its 2 pieces looked inward; turned");
+  const SignedSurface surface(checked.surface);
+  EXPECT_GT(surface.closest(Vec3(0.9, 0, 1.5)).distance, 0);
+  EXPECT_GT(surface.closest(Vec3(0.9, 0, 4.7)).distance, 0);
+}
+
 TEST(SurfaceCheck, CountsTrianglesWithoutArea) {
   TriangleSurface surface = sphere(4);
   surface.triangles.push_back({0, 1, 1});
@@ -182,11 +193,31 @@ TEST(SurfaceCheck, NamesWhereHolesTouch) {
 
 TEST(SurfaceCheck, SaysWhichShareOfTheLumenIsNear) {
   const LumenSurface model = lumen(tube(16, 8, 3, [](double) { return 1.0; }));
-  EXPECT_EQ(share_within(tube(20, 9, 3, [](double) { return 1.1; }), model, 0.5), 1);
-  EXPECT_EQ(share_within(moved(tube(16, 8, 3, [](double) { return 1.1; }), Vec3(20, 0, 0)), model, 0.5), 0);
-  const double touching = share_within(moved(tube(64, 8, 3, [](double) { return 1.0; }), Vec3(2, 0, 0)), model, 1);
-  EXPECT_GT(touching, 0.3) << "the vessel beside it";
-  EXPECT_LT(touching, 0.5);
+  const Placing good = placing_of(tube(20, 9, 3, [](double) { return 1.1; }), model, 0.5);
+  EXPECT_EQ(good.near, 1);
+  EXPECT_EQ(good.opposed, 0);
+  EXPECT_GT(good.faced, 0.7);  // all but its ends
+  EXPECT_EQ(placing_of(moved(tube(16, 8, 3, [](double) { return 1.1; }), Vec3(20, 0, 0)), model, 0.5).near, 0);
+  const double touching = placing_of(moved(tube(64, 8, 3, [](double) { return 1.0; }), Vec3(2, 0, 0)), model, 1).near;
+  EXPECT_LT(touching, 0.3) << "the vessel beside it looks the other way where it is near";
+}
+
+TEST(SurfaceCheck, KnowsTheWallFromTheLumen) {
+  const LumenSurface model = lumen(tube(16, 8, 3, [](double) { return 1.0; }));
+  TriangleSurface inner = tube(16, 8, 3, [](double) { return 1.1; });
+  for (Triangle& t : inner.triangles) std::swap(t[0], t[1]);  // as the inner side of a solid wall looks
+  const Placing found = placing_of(joined(inner, tube(16, 8, 3, [](double) { return 1.3; })), model, 0.5);
+  EXPECT_GT(found.opposed, 0.9);
+  EXPECT_EQ(found.near, 0);
+}
+
+TEST(SurfaceCheck, TakesNoVesselThatCrossesForTheSame) {
+  const LumenSurface model = lumen(tube(16, 16, 8, [](double) { return 1.0; }));
+  TriangleSurface across = moved(tube(16, 16, 8, [](double) { return 1.0; }), Vec3(0, 0, -4));
+  across.points.row(0).swap(across.points.row(2));
+  for (Triangle& t : across.triangles) std::swap(t[0], t[1]);
+  const Placing found = placing_of(moved(across, Vec3(0, 0, 4)), model, 1);
+  EXPECT_LT(found.near, 0.5);
 }
 
 TEST(SurfaceCheck, GuessesTheUnit) {
