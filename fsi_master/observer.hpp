@@ -24,10 +24,15 @@ class Observer {
   /// After an accepted step of length dt that ended at `time` with the interface displaced by y. Returns how far the
   /// interface was moved; a correction that the blood's mesh cannot follow is halved, at last given up.
   VectorXd correct(double time, double dt, const VectorXd& y);
-  /// Sets the drift during the step begun from the distances of a displaced interface. Returns its interface part.
+  /// Sets the drift during the step of length dt begun from the distances of an interface displaced by y, and moves the
+  /// blood's mesh by what comes of it, that of the wall follows in the step. Returns its interface part. A drift that
+  /// the mesh cannot follow is halved, at last none.
+  VectorXd begin_drift(double time, double dt, const VectorXd& y);
+  /// The drift anew, weakened as when the step began; the mesh stays.
   VectorXd drift(double time, const VectorXd& y);
-  /// Moves the blood's mesh by this, that of the wall follows in the step.
   void move_mesh(const VectorXd& change) { fluid_.move_interface(change).get(); }
+  /// A step has been corrected by this much.
+  void count(const VectorXd& change);
 
   const ObserverStatistics& statistics() const { return statistics_; }
 
@@ -37,6 +42,7 @@ class Observer {
   SolidPartner& solid_;
   Form form_;
   VectorXd rest_;
+  double share_ = 1;  ///< of the drift that the mesh can follow in this step
   ObserverStatistics statistics_;
 };
 

@@ -74,11 +74,9 @@ CouplingResult TimeLoop::solve_with_drift(StepStart start) {
   constexpr int most_turns = 20;
   constexpr double tolerance = 1e-9;  // of the displacement
   solid_.begin_step(start).get();
-  start.drift = observer_->drift(start.time, start.displacement);
+  start.drift = observer_->begin_drift(start.time, start.dt, start.displacement);
   const VectorXd mesh_moved = start.dt * start.drift;
-  observer_->move_mesh(mesh_moved);
   CouplingResult all;
-  all.failure = "the observer's drift did not converge";
   try {
     fluid_.begin_step(start).get();
     for (int turn = 0; turn < most_turns && !all.converged; ++turn) {
@@ -93,12 +91,16 @@ CouplingResult TimeLoop::solve_with_drift(StepStart start) {
       start.drift = drift;
       all.motion = start.motion(all.motion.velocity);
       all.converged = change <= tolerance * all.motion.displacement.norm() || change == 0;
+      all.failure = all.converged ? "" : "the observer's drift did not converge";
     }
   } catch (const StepFailure& failure) {
     all.converged = false;
     all.failure = failure.what();
   }
-  if (!all.converged) observer_->move_mesh(-mesh_moved);
+  if (all.converged)
+    observer_->count(start.dt * start.drift);
+  else
+    observer_->move_mesh(-mesh_moved);
   return all;
 }
 

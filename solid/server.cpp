@@ -93,6 +93,7 @@ protocol::Ready SolidServer::operator()(const protocol::SetState& m) {
 
 protocol::Ready SolidServer::operator()(const protocol::BeginStep& m) {
   solver_->begin_step(m.time, m.dt);
+  dt_ = m.dt;
   return {};
 }
 
@@ -140,8 +141,9 @@ protocol::Unknowns SolidServer::operator()(const protocol::SolidPrecondition& m)
 
 protocol::Correction SolidServer::operator()(const protocol::Correct& m) {
   if (!observer_) throw run_error("the case has no state observer");
+  if (m.drift && !(dt_ > 0)) throw run_error("a drift belongs to a step, and none has begun");
   const NodalDistances data = distances_of(m);
-  const Points change = m.drift ? observer_->drift(data) : observer_->correction(data, m.dt);
+  const Points change = m.drift ? observer_->drift(data, dt_) : observer_->correction(data, m.dt);
   if (m.drift) {
     solver_->set_drift(change);
   } else {

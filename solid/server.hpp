@@ -45,6 +45,7 @@ class SolidServer {
   std::unique_ptr<WallModel> model_;
   std::unique_ptr<SolidSolver> solver_;
   std::unique_ptr<StateObserver> observer_;  ///< none if the case has no gain
+  double dt_ = 0;                            ///< of the step begun last [time]
   Points corrected_;                         ///< by the last correction, as far as it was not taken back
   UnitSystem units_;
   std::string effective_case_;

@@ -54,14 +54,19 @@ StateObserver::StateObserver(const WallModel& model, VectorXd gain)
 }
 
 Points StateObserver::correction(const NodalDistances& data, double dt) {
-  VectorXd target = (1 - (-dt * gain_.array()).exp()) * data.distance.array();
-  const VectorXd most = largest_move * mesh_size_, cut = target.cwiseMin(most).cwiseMax(-most);
-  for (Eigen::Index a = 0; a < target.size(); ++a) limited_ += data.weight[a] > 0 && cut[a] != target[a] ? 1 : 0;
-  return extend(data, cut);
+  return extend(data, limited(data, (1 - (-dt * gain_.array()).exp()) * data.distance.array()));
 }
 
-Points StateObserver::drift(const NodalDistances& data) {
-  return extend(data, gain_.cwiseProduct(data.distance));
+Points StateObserver::drift(const NodalDistances& data, double dt) {
+  const VectorXd gain = gain_.cwiseMin(0.5 / dt);
+  return extend(data, limited(data, dt * gain.cwiseProduct(data.distance))) / dt;
+}
+
+/// How far the lumen is to move in a step, at most a quarter of the local mesh size.
+VectorXd StateObserver::limited(const NodalDistances& data, const VectorXd& target) {
+  const VectorXd most = largest_move * mesh_size_, cut = target.cwiseMin(most).cwiseMax(-most);
+  for (Eigen::Index a = 0; a < target.size(); ++a) limited_ += data.weight[a] > 0 && cut[a] != target[a] ? 1 : 0;
+  return cut;
 }
 
 /// A of the nodes that the data stand for.

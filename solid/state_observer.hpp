@@ -26,8 +26,9 @@ class StateObserver {
   /// Ext((1 - exp(-gamma dt)) d): what the gain makes of the distances in a time. One column a node of the wall. Throws
   /// RunError if the equations cannot be solved.
   Points correction(const NodalDistances& data, double dt);
-  /// Ext(gamma d) [length/time].
-  Points drift(const NodalDistances& data);
+  /// Ext(gamma d) [length/time] during a step of length dt. A gain above 1/(2 dt) counts as that: the turns by which
+  /// drift and step find each other would not converge.
+  Points drift(const NodalDistances& data, double dt);
 
   /// Nodes whose correction was cut to a quarter of the local mesh size, since the start.
   std::int64_t limited() const { return limited_; }
@@ -39,6 +40,7 @@ class StateObserver {
   void set_state(const VectorXd& state);
 
  private:
+  VectorXd limited(const NodalDistances& data, const VectorXd& target);
   Points extend(const NodalDistances& data, const VectorXd& target);
   VectorXd observed_area(const NodalDistances& data) const;
   VectorXd times(const VectorXd& observed, const VectorXd& e) const;

@@ -31,6 +31,12 @@ struct ObservedSolid : fake::Solid {
       change.segment<3>(3 * a) = 0.1 * data.distances[a] * data.normals.segment<3>(3 * a);
     return Later<VectorXd>(std::move(change));
   }
+  Later<VectorXd> set_drift(const Innovation& data) override {
+    VectorXd rate = VectorXd::Zero(data.normals.size());
+    for (Eigen::Index a = 0; a < data.distances.size(); ++a)
+      rate.segment<3>(3 * a) = 10 * data.distances[a] * data.normals.segment<3>(3 * a);
+    return Later<VectorXd>(std::move(rate));
+  }
   Later<Done> withdraw(double share) override {
     moved *= 1 - share;
     return Later<Done>(Done{});
@@ -79,6 +85,20 @@ TEST(Observer, HalvesWhatTheMeshCannotFollow) {
   EXPECT_NEAR(change[0], 0.025, 1e-15);
   EXPECT_NEAR(o.solid.moved, 0.025, 1e-15);
   EXPECT_EQ(o.observer.statistics().weakened, 2);
+}
+
+TEST(Observer, HalvesADriftThatTheMeshCannotFollow) {
+  Observed o;
+  o.fluid.largest = 0.03;
+  const VectorXd rate = o.observer.begin_drift(0, 0.01, VectorXd::Zero(6));
+  EXPECT_NEAR(rate[0], 2.5, 1e-12);
+  EXPECT_NEAR(o.fluid.followed, 0.025, 1e-15);
+  EXPECT_NEAR(o.observer.drift(0, VectorXd::Zero(6))[0], 2.5, 1e-12) << "for the whole step";
+  EXPECT_EQ(o.observer.statistics().weakened, 2);
+  o.fluid.largest = 1e-9;
+  EXPECT_EQ(o.observer.begin_drift(0, 0.01, VectorXd::Zero(6)).norm(), 0);
+  o.fluid.largest = 1;
+  EXPECT_NEAR(o.observer.begin_drift(0, 0.01, VectorXd::Zero(6))[0], 10, 1e-12) << "each step anew";
 }
 
 TEST(Observer, GivesUpACorrectionThatNoMeshFollows) {

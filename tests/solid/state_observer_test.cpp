@@ -56,8 +56,20 @@ TEST(StateObserver, MovesTheObservedLumenByItsShareOfTheDistance) {
   const VectorXd wanted = (1 - std::exp(-gain * dt)) * data.distance;
   EXPECT_LT((normal_part(e, data) - wanted).norm(), 0.01 * wanted.norm());
   for (int unknown : model->clamped_unknowns()) EXPECT_EQ(e.reshaped()[unknown], 0);
-  const Points rate = observer_of(*model).drift(data);
+  const Points rate = observer_of(*model).drift(data, dt);
   EXPECT_LT((normal_part(rate, data) - gain * data.distance).norm(), 0.01 * gain * data.distance.norm());
+}
+
+TEST(StateObserver, DriftsNoFasterThanAStepCanFollow) {
+  const auto model = tube();
+  const NodalDistances near = distances(*model, bulge);
+  const double most = 0.5 / dt;
+  const Points rate = StateObserver(*model, VectorXd::Constant(near.weight.size(), 100 * most)).drift(near, dt);
+  EXPECT_LT((normal_part(rate, near) - most * near.distance).norm(), 0.01 * most * near.distance.norm());
+  const NodalDistances far = distances(*model, [](const Vec3& x) { return 1e3 * bulge(x); });
+  StateObserver observer(*model, VectorXd::Constant(far.weight.size(), 100 * most));
+  EXPECT_LT(dt * normal_part(observer.drift(far, dt), far).cwiseAbs().maxCoeff(), 0.5) << "of the radius";
+  EXPECT_GT(observer.limited(), 0);
 }
 
 TEST(StateObserver, CarriesTheWallsThicknessAlong) {
