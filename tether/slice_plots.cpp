@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
@@ -30,32 +31,36 @@ std::string along(const Vec3& axis) {
   return fmt::format("along ({:g}, {:g}, {:g}) [mm]", shown[0] + 0.0, shown[1] + 0.0, shown[2] + 0.0);  // no -0
 }
 
+/// What a picture shows [mm].
+using Extent = Eigen::AlignedBox2d;
+
+std::string row_of(const Vec3& x, const SlicePlane& plane, const UnitSystem& units, Extent& shown) {
+  const Vec2 p = plane.flat(x), mm(units.to_mm(p[0]), units.to_mm(p[1]));
+  shown.extend(mm);
+  return fmt::format("{} {}\n", mm[0], mm[1]);
+}
+
 /// Lines in the plane's coordinates [mm], an empty line between two of them.
-std::string flat(const Lines& lines, const SlicePlane& plane, const UnitSystem& units) {
+std::string flat(const Lines& lines, const SlicePlane& plane, const UnitSystem& units, Extent& shown) {
   std::string text;
   for (const Points& line : lines) {
-    for (const auto& x : line.colwise()) {
-      const Vec2 p = plane.flat(x);
-      text += fmt::format("{} {}\n", units.to_mm(p[0]), units.to_mm(p[1]));
-    }
+    for (const auto& x : line.colwise()) text += row_of(x, plane, units, shown);
     text += "\n";
   }
   return text;
 }
 
-std::string samples_of(const SliceView& view, int region, const UnitSystem& units) {
+std::string samples_of(const SliceView& view, int region, const UnitSystem& units, Extent& shown) {
   std::string text;
-  for (const Sample& sample : view.samples) {
-    if (sample.region != region) continue;
-    const Vec2 p = view.plane.flat(sample.position);
-    text += fmt::format("{} {}\n", units.to_mm(p[0]), units.to_mm(p[1]));
-  }
+  for (const Sample& sample : view.samples)
+    if (sample.region == region) text += row_of(sample.position, view.plane, units, shown);
   return text;
 }
 
-/// One panel: its data and its plot command.
+/// One panel: its data, its plot command, and where its lines are.
 struct Panel {
   std::string data, plot;
+  Extent shown;
 
   void line(const std::string& name, const std::string& rows, const std::string& style) {
     if (rows.empty()) return;
@@ -68,13 +73,14 @@ Panel panel_of(SliceView view, const std::string& suffix, const std::vector<std:
                const UnitSystem& units) {
   Panel panel;
   view.plane = turned(view.plane);
-  panel.line("imaged" + suffix, flat(view.imaged, view.plane, units),
+  panel.line("imaged" + suffix, flat(view.imaged, view.plane, units, panel.shown),
              "lines dashtype 2 linecolor '#888888' title 'imaged lumen'");
-  panel.line("data" + suffix, flat(view.data, view.plane, units), "lines linewidth 2 linecolor '#000000' title 'data'");
-  panel.line("model" + suffix, flat(view.model, view.plane, units),
+  panel.line("data" + suffix, flat(view.data, view.plane, units, panel.shown),
+             "lines linewidth 2 linecolor '#000000' title 'data'");
+  panel.line("model" + suffix, flat(view.model, view.plane, units, panel.shown),
              "lines linewidth 2 linecolor '#d55e00' title 'model'");
   for (int r = 0; r < static_cast<int>(regions.size()); ++r)
-    panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, r, units),
+    panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, r, units, panel.shown),
                fmt::format("points pointtype 7 pointsize 0.8 linecolor {} title '{}'", r + 2,
                            regions[static_cast<std::size_t>(r)]));
   if (!panel.plot.empty())
@@ -103,6 +109,16 @@ std::map<std::string, std::vector<Panel>> panels_of(const SourceDiscrepancy& sou
   return panels;
 }
 
+/// All panels of a slice show the same place, so that one sees what moved between them.
+std::string common_ranges(const std::vector<Panel>& panels) {
+  Extent all;
+  for (const Panel& panel : panels) all.extend(panel.shown);
+  if (all.isEmpty()) return "";
+  const double margin = 0.06 * all.sizes().maxCoeff();
+  return fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", all.min()[0] - margin, all.max()[0] + margin,
+                     all.min()[1] - margin, all.max()[1] + margin);
+}
+
 }  // namespace
 
 std::string file_name(const std::string& name) {
@@ -122,6 +138,7 @@ std::vector<std::string> draw_slices(const DrawnComparison& drawn) {
       const std::string name = fmt::format("contours_{}_{}", file_name(source.name), file_name(slice));
       std::string text = gnuplot_head(600 * static_cast<int>(panels.size()), 640), plots;
       for (const Panel& panel : panels) text += panel.data, plots += panel.plot;
+      text += common_ranges(panels);
       text += fmt::format(
           "set output 'plots/{}.png'\nset size ratio -1\nset key outside bottom center horizontal samplen 2 font "
           "',10'\nset lmargin 8\nset rmargin 4\nset bmargin 7\nset multiplot layout "
