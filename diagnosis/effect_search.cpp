@@ -167,9 +167,10 @@ class Search {
                    after(problem_.held_out), problem_.independent(problem_.held_out).sum());
   }
 
-  /// The same of what the training data and the allowed errors do not foretell.
+  /// The same, or if that is not sure of what the training data and the allowed errors do not foretell.
   std::optional<Gain> confirmation(const VectorXd& before, const VectorXd& after) const {
-    if (problem_.held_out.size() < 2) return std::nullopt;
+    const auto plain = held_out_gain(refitted(before), refitted(after));
+    if (!plain || plain->positive >= confirmed) return plain;
     return gain_in_misfit(held_out_blocks(), foretold_.misfit(before), foretold_.misfit(after),
                           problem_.independent(problem_.held_out).sum());
   }
