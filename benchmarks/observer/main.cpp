@@ -4,6 +4,8 @@
 //       with normal errors of that deviation, correlated over that length [case's units]
 //   observer_twin distance CASE RUN TRUTH                                 rms distance of a run's lumen to a run's,
 //   over time
+//   observer_twin roughness CASE DEVIATION LENGTH SAMPLES                 mean distance of the imaged lumen's nodes to
+//   it with such errors, less the errors' mean
 #include <fmt/format.h>
 
 #include <fstream>
@@ -16,6 +18,7 @@
 #include "common/io/lumen_motion.hpp"
 #include "common/mesh/surface.hpp"
 #include "common/observation/lumen_surface.hpp"
+#include "common/observation/signed_surface.hpp"
 
 namespace tether {
 namespace {
@@ -83,6 +86,33 @@ void print_distance(const std::vector<std::string>& words) {
   }
 }
 
+/// What errors of a surface do to the distance of the imaged lumen's nodes from it: their mean along the normal, over
+/// area, is taken off, so that 0 is expected of a distance that measures along the normal. Of nodes beside no rim.
+void print_roughness(const std::vector<std::string>& words) {
+  const LumenSurface lumen = lumen_of_case(words.at(2));
+  const double deviation = std::stod(words.at(3)), length = std::stod(words.at(4));
+  const Points n = nodal_normals(lumen.points, lumen.triangles);
+  const VectorXd area = nodal_areas(lumen.points, lumen.triangles);
+  std::mt19937 random(1);
+  VectorXd excess(std::stoi(words.at(5)));
+  for (double& mean : excess) {
+    const VectorXd noise = correlated_noise(lumen.points, deviation, length, random);
+    const SignedSurface rough({lumen.points + n * noise.asDiagonal(), lumen.triangles});
+    const std::vector<Closest> found = rough.closest(lumen.points);
+    double sum = 0, seen = 0;
+    for (Eigen::Index a = 0; a < noise.size(); ++a) {
+      const Closest& c = found[static_cast<std::size_t>(a)];
+      if (c.on_rim) continue;
+      sum += area[a] * (c.distance - noise[a]);
+      seen += area[a];
+    }
+    mean = sum / seen;
+  }
+  const auto count = static_cast<double>(excess.size());
+  const double error = std::sqrt((excess.array() - excess.mean()).square().sum() / (count - 1) / count);
+  std::cout << fmt::format("mean distance less mean error: {:.5f} +- {:.5f}\n", excess.mean(), error);
+}
+
 }  // namespace
 }  // namespace tether
 
@@ -93,9 +123,12 @@ int main(int argc, char** argv) {
       tether::write_surfaces(words);
     else if (words.size() == 5 && words[1] == "distance")
       tether::print_distance(words);
+    else if (words.size() == 6 && words[1] == "roughness")
+      tether::print_roughness(words);
     else
       throw tether::InputError(
-          "observer_twin surfaces CASE RUN FOLDER FRAMES DEVIATION LENGTH SEED | distance CASE RUN TRUTH");
+          "observer_twin surfaces CASE RUN FOLDER FRAMES DEVIATION LENGTH SEED | distance CASE RUN TRUTH | "
+          "roughness CASE DEVIATION LENGTH SAMPLES");
   } catch (const std::exception& error) {
     std::cerr << "observer_twin: " << error.what() << "\n";
     return 1;
