@@ -17,7 +17,7 @@ constexpr double confirmed = 0.95;  ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
-constexpr double far_beyond = 5;  ///< deviations of the misfit that noise leaves
+constexpr double far_beyond = 4;  ///< deviations of the misfit that noise leaves
 constexpr double hidden = 0.5;    ///< of what an effect does: errors allowed do the like
 
 constexpr const char* too_weak = "the misfit does not fall by enough";
@@ -116,20 +116,20 @@ class Search {
     return plain_.misfit(now_.residual) > result_.independent + far_beyond * std::sqrt(2 * result_.independent);
   }
 
-  /// Finds the amplitudes of the strongest with runs, those first that promise most; the hopeless are not run.
+  /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
   std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) const {
     std::vector<Refinement> all;
     for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, trained, plain_, problem_);
-    for (int round = 0; round < settings_.refinements; ++round)
-      for (std::size_t first = 0; first < all.size(); first += at_once) {
-        std::vector<Refinement*> open;
-        for (std::size_t i = first; i < std::min(first + at_once, all.size()); ++i)
-          if (!all[i].done()) open.push_back(&all[i]);
-        if (open.empty()) continue;
-        run(open);
-        give_up_hopeless(all);
-      }
-    return all;
+    while (true) {
+      std::vector<Refinement*> open;
+      for (Refinement& one : all)
+        if (!one.done() && one.runs() < settings_.refinements) open.push_back(&one);
+      if (open.empty()) return all;
+      std::stable_sort(open.begin(), open.end(), [](const auto* a, const auto* b) { return a->hope() < b->hope(); });
+      if (open.size() > at_once) open.resize(at_once);
+      run(open);
+      give_up_hopeless(all);
+    }
   }
 
   void run(const std::vector<Refinement*>& open) const {

@@ -87,6 +87,7 @@ void Refinement::retreat() {
 }
 
 void Refinement::take(const VectorXd& residual) {
+  ++runs_;
   if (!residual.allFinite()) return retreat();
   const bool first = !begun();
   const VectorXd shift = next_others_ - others_;
@@ -118,7 +119,7 @@ void Refinement::take(const VectorXd& residual) {
 }
 
 double Refinement::hope() const {
-  return begun() ? best_ - 2 * expected_ : start_ - 1.5 * expected_;
+  return begun() ? best_ - expected_ : start_ - 1.2 * expected_;
 }
 
 AmplitudeState Refinement::state() const {

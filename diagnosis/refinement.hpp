@@ -22,11 +22,13 @@ class Refinement {
 
   bool done() const { return done_; }
   bool begun() const { return last_ > 0; }
+  int runs() const { return runs_; }
   /// Of the next run.
   VectorXd amplitudes() const { return at(next_, next_others_); }
   /// The run at `amplitudes` left this residual; NaN: it failed.
   void take(const VectorXd& residual);
-  /// The smallest misfit so far, and the one that it may come down to if it goes twice as well as to be expected.
+  /// The smallest misfit so far, and the one that it may come down to: before any run a fifth more is hoped for than
+  /// first order promises.
   double best() const { return best_; }
   double hope() const;
   void give_up() { done_ = true; }
@@ -59,7 +61,7 @@ class Refinement {
   double best_factor_ = 0;
   VectorXd best_others_, best_residual_;
   double start_ = 0, best_ = 0, expected_ = 0;
-  int failures_ = 0;
+  int runs_ = 0, failures_ = 0;
   bool done_ = false;
 };
 
