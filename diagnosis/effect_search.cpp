@@ -17,7 +17,8 @@ constexpr double confirmed = 0.95;  ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
-constexpr double far_beyond = 4;  ///< deviations of the misfit that noise leaves
+constexpr double worth_runs = 4;  ///< deviations of the misfit that noise leaves
+constexpr double cannot_be = 6;   ///< the same: no noise nor error allowed does that
 constexpr double hidden = 0.5;    ///< of what an effect does: errors allowed do the like
 
 constexpr const char* too_weak = "the misfit does not fall by enough";
@@ -112,8 +113,8 @@ class Search {
     return all;
   }
 
-  bool is_far_beyond_noise() const {
-    return plain_.misfit(now_.residual) > result_.independent + far_beyond * std::sqrt(2 * result_.independent);
+  bool is_far_beyond_noise(double deviations) const {
+    return plain_.misfit(now_.residual) > result_.independent + deviations * std::sqrt(2 * result_.independent);
   }
 
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
@@ -200,7 +201,7 @@ class Search {
       return false;
     }
     std::vector<Refinement> all = refined(strongest, trained);
-    if (is_far_beyond_noise() && static_cast<int>(now_.accepted.size()) < settings_.most)
+    if (is_far_beyond_noise(worth_runs) && static_cast<int>(now_.accepted.size()) < settings_.most)
       for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
     return settle(all) && leaves_something();
   }
@@ -296,7 +297,7 @@ class Search {
   }
 
   /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
-  bool leaves_something() const { return result_.after.p < settings_.alpha / 5; }
+  bool leaves_something() const { return result_.after.p < settings_.alpha / 5 || is_far_beyond_noise(cannot_be); }
   /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
     const double removed = plain_.misfit(problem_.residual) - plain_.misfit(now_.residual);
