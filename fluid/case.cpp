@@ -7,6 +7,7 @@
 #include "fluid/outlets/outlet.hpp"
 #include "fluid/probe.hpp"
 #include "fluid/rheologies/rheology.hpp"
+#include "fluid/section.hpp"
 
 namespace tether::fluid {
 namespace {
@@ -29,13 +30,30 @@ EffectChoice choice_of(const EffectCase& effect, std::span<const Registered<Phys
   return choice;
 }
 
-template <class Section>
-void check_names(const Named<Section>& sections, const std::vector<Patch>& patches, const std::string& field,
+template <class Entry>
+bool has_entry(const Named<Entry>& entries, const std::string& name) {
+  return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+bool is_end(const std::string& name, const FluidMesh& mesh) {
+  const auto has_name = [&](const Patch& patch) { return patch.name == name; };
+  return std::any_of(mesh.inlets.begin(), mesh.inlets.end(), has_name) ||
+         std::any_of(mesh.outlets.begin(), mesh.outlets.end(), has_name);
+}
+
+SectionPlane plane_of(const SectionCase& section) {
+  SectionPlane plane{section.point, section.normal};
+  if (section.radius) plane.radius = *section.radius;
+  return plane;
+}
+
+template <class Entry>
+void check_names(const Named<Entry>& sections, const std::vector<Patch>& patches, const std::string& field,
                  const CaseFile& file) {
   std::string known;
   for (const Patch& patch : patches) {
     known += (known.empty() ? "" : ", ") + patch.name;
-    if (std::none_of(sections.begin(), sections.end(), [&](const auto& s) { return s.first == patch.name; }))
+    if (!has_entry(sections, patch.name))
       throw input_error("{}: nothing is said of \"{}\", which the mesh has", file.where(field), patch.name);
   }
   for (const auto& [name, section] : sections)
@@ -43,15 +61,28 @@ void check_names(const Named<Section>& sections, const std::vector<Patch>& patch
       throw input_error("{}: the fluid mesh has no such face; it has: {}", file.where(field + "." + name), known);
 }
 
-/// Probes and the faces at the ends share the names of observables.
+/// Probes, sections and the faces at the ends share the names of observables.
 void check_probes(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file) {
   for (const auto& [name, position] : fluid.probes) {
     const std::string where = file.where("fluid.probes." + name);
-    for (const auto* patches : {&mesh.inlets, &mesh.outlets})
-      if (std::any_of(patches->begin(), patches->end(), [&name = name](const Patch& p) { return p.name == name; }))
-        throw input_error("{}: is the name of an inlet or outlet, which has a pressure of its own", where);
+    if (is_end(name, mesh))
+      throw input_error("{}: is the name of an inlet or outlet, which has a pressure of its own", where);
     try {
       place_probe(name, position, mesh);
+    } catch (const InputError& error) {
+      throw input_error("{}: {}", where, error.what());
+    }
+  }
+}
+
+void check_sections(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file) {
+  for (const auto& [name, section] : fluid.sections) {
+    const std::string where = file.where("fluid.sections." + name);
+    if (is_end(name, mesh))
+      throw input_error("{}: is the name of an inlet or outlet, which has a flow and a pressure of its own", where);
+    if (has_entry(fluid.probes, name)) throw input_error("{}: is the name of a probe too", where);
+    try {
+      place_section(name, plane_of(section), mesh);
     } catch (const InputError& error) {
       throw input_error("{}: {}", where, error.what());
     }
@@ -94,6 +125,15 @@ void OutletCase::declare(Fields& f) {
          [&] { f.group("pressure", pressure, "pressure over time, relative to the image's"); });
 }
 
+void SectionCase::declare(Fields& f) {
+  f.point("point", point, dimension::length, "a point of the section, in the imaged blood");
+  f.point("normal", normal, dimension::none, "direction across the section in which flow counts as positive");
+  f.number("radius", radius, dimension::length, range::positive,
+           "what lies farther from the point does not count; without it: the connected part of the plane's cut that "
+           "holds the point");
+  f.check(normal.norm() > 0, "normal", "must not be zero");
+}
+
 void FluidCase::declare(Fields& f) {
   static const auto laws = declarations(rheologies());
   f.number("density", density, dimension::density, range::positive, "density of the blood");
@@ -114,12 +154,15 @@ void FluidCase::declare(Fields& f) {
   f.groups("outlets", outlets, "by the names of the mesh's outlets");
   f.points("probes", probes, dimension::length,
            "named points in the imaged blood, moving with the mesh: the pressure there is recorded");
+  f.groups("sections", sections,
+           "named planes across the imaged blood, fixed in space: flow and mean pressure there are recorded");
 }
 
 void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file) {
   check_names(fluid.inlets, mesh.inlets, "fluid.inlets", file);
   check_names(fluid.outlets, mesh.outlets, "fluid.outlets", file);
   check_probes(fluid, mesh, file);
+  check_sections(fluid, mesh, file);
 }
 
 FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
@@ -135,6 +178,7 @@ FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
     settings.outlets[name] = {choice_of(outlet.effect, outlets()),
                               curve_of(outlet.effect, outlet.pressure, file.units())};
   settings.probes = fluid.probes;
+  for (const auto& [name, section] : fluid.sections) settings.sections.emplace_back(name, plane_of(section));
   return settings;
 }
 

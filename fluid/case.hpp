@@ -30,6 +30,13 @@ struct OutletCase {
   void declare(Fields& f);
 };
 
+/// A plane across the blood.
+struct SectionCase {
+  Vec3 point = Vec3::Constant(undefined), normal = Vec3::Constant(undefined);
+  std::optional<double> radius;
+  void declare(Fields& f);
+};
+
 /// The section `fluid` of a case file.
 struct FluidCase {
   double density = undefined, backflow_stabilisation = 0.2;
@@ -38,11 +45,12 @@ struct FluidCase {
   Named<InletCase> inlets;
   Named<OutletCase> outlets;
   Named<Vec3> probes;
+  Named<SectionCase> sections;
   void declare(Fields& f);
 };
 
-/// Throws InputError for an inlet or outlet that the mesh does not have, or of which the case says nothing, and for a
-/// probe that is not in the blood or has the name of an inlet or outlet.
+/// Throws InputError for an inlet or outlet that the mesh does not have, or of which the case says nothing, for a
+/// probe that is not in the blood, a section that does not cross it from wall to wall, and one name for two of these.
 void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const CaseFile& file);
 
 /// Reads the curves. The wall bears the image's pressure as well if the case says so. Throws InputError.

@@ -48,6 +48,12 @@ std::vector<Probe> make_probes(const FluidMesh& mesh, const FluidSettings& setti
   return result;
 }
 
+std::vector<Section> make_sections(const FluidMesh& mesh, const FluidSettings& settings) {
+  std::vector<Section> result;
+  for (const auto& [name, plane] : settings.sections) result.push_back(place_section(name, plane, mesh));
+  return result;
+}
+
 template <class Settings>
 void check_faces_exist(const std::map<std::string, Settings>& named, const std::vector<EndFace>& faces,
                        const char* kind) {
@@ -78,6 +84,7 @@ FluidSolver::FluidSolver(FluidMesh mesh, const FluidSettings& settings)
       openings_(make_openings(domain_, settings)),
       open_faces_(faces_of(openings_)),
       probes_(make_probes(domain_.mesh(), settings)),
+      sections_(make_sections(domain_.mesh(), settings)),
       body_acceleration_(settings.body_acceleration),
       linear_tolerance_(settings.linear_tolerance),
       advection_diffusion_(domain_, fixed_nodes(domain_, flow_inlets_)),

@@ -10,6 +10,7 @@
 #include "fluid/openings.hpp"
 #include "fluid/probe.hpp"
 #include "fluid/projection.hpp"
+#include "fluid/section.hpp"
 #include "fluid/settings.hpp"
 
 namespace tether::fluid {
@@ -116,6 +117,7 @@ class FluidSolver {
   Points viscous_load() const;
   double kinematic_viscosity() const;
   void observe();
+  void observe_sections(std::vector<double>& values) const;
   void derive(Accepted& state);
 
   FluidDomain domain_;
@@ -125,6 +127,7 @@ class FluidSolver {
   std::vector<Opening> openings_;
   std::vector<const Surface*> open_faces_;
   std::vector<Probe> probes_;
+  std::vector<Section> sections_;
   std::function<Vec3(const Vec3&, double)> body_acceleration_;
   double linear_tolerance_;
 

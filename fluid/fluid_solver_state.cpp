@@ -102,11 +102,31 @@ void FluidSolver::declare_observables() {
       observables_.push_back({opening.face().name + ".windkessel_pressure", dimension::pressure});
   }
   for (const Probe& probe : probes_) observables_.push_back({probe.name + ".pressure", dimension::pressure});
+  for (const Section& section : sections_) {
+    observables_.push_back({section.name() + ".flow", dimension::flow});
+    observables_.push_back({section.name() + ".pressure", dimension::pressure});
+  }
   observables_.push_back({"volume", dimension::volume});
   observables_.push_back({"mass_balance_error", dimension::flow});
   observables_.push_back({"volume_balance_error", dimension::flow});
   observables_.push_back({"smallest_jacobian", dimension::none});
   observed_ = VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+}
+
+/// (F.17), on the mesh as the step has it.
+void FluidSolver::observe_sections(std::vector<double>& values) const {
+  if (sections_.empty()) return;
+  const FluidMesh& mesh = domain_.mesh();
+  const Points points = mesh.points + trial_.displacement;
+  const VectorXd& pressure = trial_.solution.pressure;
+  const EndOfStep end{domain_, trial_.velocity, pressure, trial_.dt / blood_->density, trial_.wall_velocity};
+  for (const Section& section : sections_) try {
+      const SectionCut cut = section.cut(mesh, points);
+      values.push_back(section.flow(cut, end));
+      values.push_back(Section::mean(cut, mesh, pressure));
+    } catch (const InputError& error) {
+      throw run_error("the blood has moved away from the section {}: {}", section.name(), error.what());
+    }
 }
 
 /// Flows are those of the blood in space: into the vessel at inlets, out of it at outlets. (F.13)
@@ -127,6 +147,7 @@ void FluidSolver::observe() {
     if (opening.beyond->stores()) values.push_back(opening.beyond->advanced(trial_.inputs[i], outflow));
   }
   for (const Probe& probe : probes_) values.push_back(probe.value(solution.pressure));
+  observe_sections(values);
   const double volume = domain_.volume(trial_.interface_displacement);
   values.push_back(volume);
   values.push_back(net_inflow - trial_.interface_flux);

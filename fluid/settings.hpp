@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -38,6 +39,12 @@ struct OutletSettings {
   Curve curve = Curve::constant(0);  ///< of a prescribed pressure; the other outlets have none
 };
 
+/// Where flow and mean pressure are reported: the plane's cut through the blood around the point.
+struct SectionPlane {
+  Vec3 point, normal;
+  double radius = std::numeric_limits<double>::infinity();  ///< what lies farther from the point does not count
+};
+
 /// All that a case says about the fluid, the mesh aside. Pressures are relative to the case's reference pressure.
 struct FluidSettings {
   EffectChoice blood{"blood", {}};
@@ -47,6 +54,8 @@ struct FluidSettings {
   std::map<std::string, OutletSettings> outlets;
   /// Places of the reference mesh where the pressure is reported, by name.
   std::vector<std::pair<std::string, Vec3>> probes;
+  /// Planes in the reference mesh, fixed in space, by name.
+  std::vector<std::pair<std::string, SectionPlane>> sections;
   /// Force per mass at a point and time, such as gravity; empty: none.
   std::function<Vec3(const Vec3& x, double time)> body_acceleration;
   double linear_tolerance = 1e-9;  ///< of the advection-diffusion solve, relative

@@ -48,8 +48,8 @@ int run(const CommandLine& command) {
       lumen_role, [&command](const protocol::Welcome&) { return lumen_server(command); });
 }
 
-/// Throws InputError for a trace of an opening that the vessel does not have. What a foreign fluid calls its numbers is
-/// known only when it runs.
+/// Throws InputError for a trace of an opening, probe or section that there is not. What a foreign fluid calls its
+/// numbers is known only when it runs.
 void check_observables(const ObservedCase& observed, const VesselMesh& vessel) {
   if (observed.file.has("coupling.programs.fluid")) return;
   std::vector<std::string> openings;
@@ -61,9 +61,9 @@ void check_observables(const ObservedCase& observed, const VesselMesh& vessel) {
     if (!observable.starts_with("fluid.") || first == last) continue;
     const std::string opening = observable.substr(first + 1, last - first - 1);
     if (std::find(openings.begin(), openings.end(), opening) != openings.end() ||
-        observed.file.has("fluid.probes." + opening))
+        observed.file.has("fluid.probes." + opening) || observed.file.has("fluid.sections." + opening))
       continue;
-    throw input_error("{}: {}: the vessel has no opening or probe {}; its openings are {}",
+    throw input_error("{}: {}: the vessel has no opening, probe or section {}; its openings are {}",
                       observed.file.where("observations.traces." + name + ".observable"), observable, opening,
                       fmt::join(openings, ", "));
   }

@@ -77,6 +77,21 @@ TEST(FluidCase, MistakesAreNamedWithTheirPlace) {
   expect(read(valid_fluid + "  probes: {middle: [0.5, 0.5, 0.5], beside: [1.25, 0.5, 0.5]}\n"),
          {"case.yaml:11", "fluid.probes.beside", "(1.25, 0.5, 0.5)", "0.25 from its surface"});
   expect(read(valid_fluid + "  probes: {outlet: [0.5, 0.5, 0.5]}\n"), {"case.yaml:11", "fluid.probes.outlet", "own"});
+  const auto section = [&](const std::string& text) { return read(valid_fluid + "  sections: {" + text + "}\n"); };
+  EXPECT_EQ(section("middle: {point: [0.5, 0.5, 0.5], normal: [0, 0, 1]}"), "no error");
+  expect(section("high: {point: [0.5, 0.5, 1.5], normal: [0, 0, 1]}"),
+         {"case.yaml:11", "fluid.sections.high", "misses the lumen"});
+  expect(section("beside: {point: [1.25, 0.5, 0.5], normal: [0, 0, 1]}"),
+         {"case.yaml:11", "fluid.sections.beside", "0.25 from its surface"});
+  expect(section("along: {point: [0.5, 0.5, 0.5], normal: [1, 0, 0]}"),
+         {"case.yaml:11", "fluid.sections.along", "leaves the lumen through inlet"});
+  expect(section("flat: {point: [0.5, 0.5, 0.5], normal: [0, 0, 0]}"),
+         {"case.yaml:11", "fluid.sections.flat.normal", "must not be zero"});
+  expect(section("half: {point: [0.5, 0.5, 0.5]}"), {"case.yaml:11", "fluid.sections.half.normal", "must be given"});
+  expect(section("outlet: {point: [0.5, 0.5, 0.5], normal: [0, 0, 1]}"),
+         {"case.yaml:11", "fluid.sections.outlet", "own"});
+  expect(section("a: {point: [0.5, 0.5, 0.5], normal: [0, 0, 1]}}\n  probes: {a: [0.5, 0.5, 0.5]"),
+         {"case.yaml:11", "fluid.sections.a", "probe"});
 }
 
 FluidServer make_server() {

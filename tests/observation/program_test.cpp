@@ -129,7 +129,7 @@ TEST(ObservationManager, ValidatesCasesWithAndWithoutMeasurements) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(
       unknown.errors.find("case.yaml:6: observations.traces.cuff.observable: fluid.exit.pressure: the vessel has no "
-                          "opening or probe exit; its openings are inlet, outlet"),
+                          "opening, probe or section exit; its openings are inlet, outlet"),
       std::string::npos)
       << unknown.errors;
   const ChildEnd nothing = capture({{program, "--validate", "configs/tube/case.yaml"}, {}});

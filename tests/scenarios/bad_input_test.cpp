@@ -140,7 +140,7 @@ const Mistake mistakes[] = {
      "their own)"},
     {"UnknownField", In::the_case, "density: 1.06", "density: 1.06\n  viscosty: 0.04",
      "case.yaml:15: fluid.viscosty: unknown field; known here: density, rheology, mesh_motion, backflow_stabilisation, "
-     "inlets, outlets, probes"},
+     "inlets, outlets, probes, sections"},
     {"UnknownSection", In::the_case, "solid:", "tissue: {}\nsolid:",
      "case.yaml:21: tissue: unknown section; known are base, name, title, units, time, image, mesh, fluid, solid, "
      "coupling, "

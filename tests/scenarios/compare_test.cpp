@@ -41,7 +41,10 @@ class Compare : public testing::Test {
   }
   /// A coarse case with these edits; its curve is older than the run.
   static fs::path variant(const fs::path& at, Edits edits) {
-    edits.insert(edits.end(), {{"around: 24", "around: 12"}, {"along: 20", "along: 12"}});
+    edits.insert(edits.end(),
+                 {{"around: 24", "around: 12"},
+                  {"along: 20", "along: 12"},
+                  {"solid:\n", "  sections: {middle: {point: [0, 0, 5], normal: [0.1, 0, 1]}}\n\nsolid:\n"}});
     const fs::path result = case_variant(source, at, edits);
     fs::last_write_time(result.parent_path() / "aortic_flow.csv",
                         fs::file_time_type::clock::now() - std::chrono::hours(1));
@@ -181,6 +184,37 @@ TEST_F(Compare, RecordsVelocitiesWhereTheyAreMeasured) {
   EXPECT_NEAR(blood.numbers("l2")[3], 10, 1e-6);
   EXPECT_EQ(blood.numbers("excluded")[2], 1) << "outside the lumen";
   EXPECT_GT(fs::file_size(output / "plots" / "velocity_pc_mr.png"), 5000U);
+}
+
+/// Traces of a section inside the vessel: its flow with an offset, its pressure as it is.
+TEST_F(Compare, HoldsASectionAgainstItsTraces) {
+  const CsvTable run_table(output / "timeseries.csv");
+  const std::vector<double> times = run_table.numbers("time"), flow = run_table.numbers("fluid.middle.flow"),
+                            pressure = run_table.numbers("fluid.middle.pressure");
+  std::ofstream table(folder / "doppler.csv");
+  table << "time [s], flow [cm3/s], pressure [dyn/cm2]\n";
+  for (std::size_t i = 0; i < times.size(); ++i)
+    table << fmt::format("{}, {}, {}\n", times[i], flow[i] + 3, pressure[i]);
+  table.close();
+  EXPECT_GT(flow.back(), 1) << "[cm3/s]";
+  EXPECT_NE(flow.back(), run_table.numbers("fluid.outlet.flow").back()) << "the wall gives way";
+
+  const std::string curve = "curve: {file: " + (folder / "doppler.csv").string() + ", value: ";
+  std::string text = content_of(run / "case" / "case.yaml");
+  text.replace(text.find("output:"), 7,
+               "observations:\n  traces:\n    doppler: {observable: fluid.middle.flow, quantity: flow, " + curve +
+                   "flow}}\n    catheter: {observable: fluid.middle.pressure, quantity: pressure, absolute: false, " +
+                   curve + "pressure}}\n\noutput:");
+  std::ofstream(compared) << text;
+  const auto written = fs::last_write_time(output / "summary.json");
+  const ChildEnd end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(fs::last_write_time(output / "summary.json"), written);
+  const Json traces = comparison()["traces"];
+  ASSERT_EQ(traces.size(), 2U);
+  EXPECT_NEAR(traces[0]["bias"], 3, 1e-6);
+  EXPECT_NEAR(traces[0]["l2"], 3, 1e-6);
+  EXPECT_NEAR(traces[1]["l2"], 0, 1e-3);
 }
 
 TEST_F(Compare, SaysThatAPulledRunIsNoEvidence) {
