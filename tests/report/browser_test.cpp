@@ -41,7 +41,7 @@ Json found_in(const fs::path& page, const std::string& script) {
   std::ofstream(copy) << text;
   const ChildEnd browser = capture({{"chromium-headless-shell", "--no-sandbox", "--disable-gpu", "--use-gl=angle",
                                      "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=900,1200",
-                                     "--virtual-time-budget=6000", "--dump-dom", "file://" + copy.string()},
+                                     "--virtual-time-budget=30000", "--dump-dom", "file://" + copy.string()},
                                     {}});
   const std::string open = "<pre id=\"found\">";
   const auto at = browser.output.find(open);

@@ -55,7 +55,7 @@ TEST(EffectsOfACase, AreAnnouncedInTheCasesUnits) {
   EXPECT_EQ(stiffness.absent, 0);
   EXPECT_EQ(stiffness.transform, "log2");
   EXPECT_EQ(stiffness.prior_deviation, 1);
-  EXPECT_NEAR(stiffness.scale, 1e5, 1e-6) << "1e6 Pa/m";
+  EXPECT_NEAR(stiffness.scale, 1e6, 1e-5) << "1e7 Pa/m";
   const auto pressure = announced(text, "solid.effects.chest.sine_2");
   EXPECT_EQ(pressure.transform, "linear");
   EXPECT_NEAR(pressure.prior_deviation, 5000, 1e-6) << "500 Pa";
