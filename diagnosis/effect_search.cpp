@@ -13,13 +13,13 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double convincing = 6;    ///< of BIC
-constexpr double confirmed = 0.95;  ///< probability of a gain on held-out data
+constexpr double sure = 0.95;       ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
-constexpr double worth_runs = 4;  ///< deviations of the misfit that noise leaves
-constexpr double cannot_be = 6;   ///< the same: no noise nor error allowed does that
-constexpr double hidden = 0.5;    ///< of what an effect does: errors allowed do the like
+constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
+constexpr double unexplainable = 6;      ///< the same: neither noise nor errors allowed do that
+constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
 
 constexpr const char* too_weak = "the misfit does not fall by enough";
 constexpr const char* breaks_down = "the model breaks down with it";
@@ -104,7 +104,7 @@ class Search {
     std::vector<TestedEffect> all = untried(trained);
     std::erase_if(all, [&](const TestedEffect& e) {
       return problem_.candidates[e.candidate].kind != Candidate::Kind::effect || e.q < settings_.alpha || !e.testable ||
-             e.retained > hidden;
+             e.retained > hardly_retained;
     });
     for (TestedEffect& effect : all) {
       effect.amplitudes = as_in_patients(problem_, effect);
@@ -113,6 +113,7 @@ class Search {
     return all;
   }
 
+  /// By so many of the deviations that noise gives the misfit.
   bool is_far_beyond_noise(double deviations) const {
     return plain_.misfit(now_.residual) > result_.independent + deviations * std::sqrt(2 * result_.independent);
   }
@@ -171,7 +172,7 @@ class Search {
   /// The same, or if that is not sure of what the training data and the allowed errors do not foretell.
   std::optional<Gain> confirmation(const VectorXd& before, const VectorXd& after) const {
     const auto plain = held_out_gain(refitted(before), refitted(after));
-    if (!plain || plain->positive >= confirmed) return plain;
+    if (!plain || plain->positive >= sure) return plain;
     return gain_in_misfit(held_out_blocks(), foretold_.misfit(before), foretold_.misfit(after),
                           problem_.independent(problem_.held_out).sum());
   }
@@ -186,8 +187,7 @@ class Search {
   std::string objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
     if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha) return too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
-    if (confirmable && effect.held_out && effect.held_out->positive < confirmed)
-      return "held-out data do not confirm it";
+    if (confirmable && effect.held_out && effect.held_out->positive < sure) return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
     return {};
   }
@@ -245,6 +245,7 @@ class Search {
     return worth_of(one.effect()) >= worth_of(better.effect()) - convincing * dispersion(better.state().residual);
   }
 
+  /// The model could not be run with any of its amplitudes.
   SearchStep broken(const Refinement& one) const {
     const double misfit = plain_.misfit(now_.residual);
     return {one.effect().candidate, false, breaks_down, misfit, misfit, result_.after};
@@ -297,7 +298,7 @@ class Search {
   }
 
   /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
-  bool leaves_something() const { return result_.after.p < settings_.alpha / 5 || is_far_beyond_noise(cannot_be); }
+  bool leaves_something() const { return result_.after.p < settings_.alpha / 5 || is_far_beyond_noise(unexplainable); }
   /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
     const double removed = plain_.misfit(problem_.residual) - plain_.misfit(now_.residual);
