@@ -19,6 +19,7 @@ constexpr std::size_t at_once = 2;  ///< candidates that are run before others k
 
 constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
 constexpr double unexplainable = 6;      ///< the same: neither noise nor errors allowed do that
+constexpr double mostly = 0.5;           ///< of the information on an effect, beside accepted ones
 constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
 
 constexpr const char* too_weak = "the misfit does not fall by enough";
@@ -38,8 +39,7 @@ class Search {
     const Scores scores = plain_.scores(problem_.changes, problem_.residual);
     result_.effects = test_all(problem_, scores, settings_.alpha, result_.independent);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
-    const bool is_enough = result_.before.excess < settings_.enough;
-    while (!is_enough && add_one()) continue;
+    while (add_one()) continue;
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
     refit_accepted();
@@ -92,9 +92,16 @@ class Search {
   /// What the data ask for beside what was accepted, the strongest first.
   std::vector<TestedEffect> wanted(const Trained& trained) const {
     std::vector<TestedEffect> all = untried(trained);
-    std::erase_if(all, [&](const TestedEffect& e) { return e.q >= settings_.alpha; });
+    std::erase_if(all, [&](const TestedEffect& e) { return e.q >= level() || (!asks_for_more() && !is_other(e)); });
     if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
     return all;
+  }
+
+  /// Whether most of what it does is not what the accepted effects do, whose law and amplitude may not be quite right.
+  bool is_other(const TestedEffect& effect) const {
+    const auto alone = std::find_if(result_.effects.begin(), result_.effects.end(),
+                                    [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
+    return effect.retained > mostly * alone->retained;
   }
 
   /// Effects that first order cannot judge, since numbers that may be anything were fitted without them, and do for
@@ -185,7 +192,7 @@ class Search {
 
   /// Whether the data at hand and those held out ask for the effect; else why not.
   std::string objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
-    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha) return too_weak;
+    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= level()) return too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && effect.held_out && effect.held_out->positive < sure) return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
@@ -201,9 +208,9 @@ class Search {
       return false;
     }
     std::vector<Refinement> all = refined(strongest, trained);
-    if (is_far_beyond_noise(worth_runs) && static_cast<int>(now_.accepted.size()) < settings_.most)
+    if (asks_for_more() && is_far_beyond_noise(worth_runs) && static_cast<int>(now_.accepted.size()) < settings_.most)
       for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
-    return settle(all) && leaves_something();
+    return settle(all);
   }
 
   /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it. False if none is.
@@ -297,8 +304,15 @@ class Search {
     }
   }
 
+  double strict() const { return settings_.alpha / 5; }
   /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
-  bool leaves_something() const { return result_.after.p < settings_.alpha / 5 || is_far_beyond_noise(unexplainable); }
+  bool leaves_something() const { return result_.after.p < strict() || is_far_beyond_noise(unexplainable); }
+  /// Whether more is missing whatever the candidates say, or nothing was found yet.
+  bool asks_for_more() const {
+    return now_.accepted.empty() ? result_.before.excess >= settings_.enough : leaves_something();
+  }
+  /// Of tests. Where what was accepted leaves nothing but noise, another effect must stand out from that.
+  double level() const { return asks_for_more() ? settings_.alpha : strict(); }
   /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
     const double removed = plain_.misfit(problem_.residual) - plain_.misfit(now_.residual);

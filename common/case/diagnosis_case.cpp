@@ -38,7 +38,7 @@ void DiagnosisCase::declare(Fields& f) {
            "share of what the data ask for beyond noise; if more remains, something else is missing");
   f.number(
       "enough", enough, dimension::none, range::not_negative,
-      "misfit beyond noise (lack_of_fit.excess) below which nothing more is looked for; written by tether explain");
+      "misfit beyond noise (lack_of_fit.excess) below which another effect must stand out at alpha/5; written by tether explain");
   f.integer("most", most, {1, 20}, "effects that are added at most, one after the other");
   f.integer("refinements", refinements, {1, 20}, "runs at most to find an effect's amplitude");
   f.integer("confirmed", confirmed, {1, 100}, "candidates whose amplitude is found with runs before one is chosen");

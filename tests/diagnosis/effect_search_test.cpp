@@ -324,6 +324,26 @@ TEST(EffectSearch, RefitsWhatWasAcceptedBefore) {
   EXPECT_GE(within, 40);
 }
 
+/// A strong spring in region 0 and one in region 2 that hardly shows: what is left beside the first passes for noise in
+/// the patterns of the whole.
+TEST(EffectSearch, FindsASecondThatTheLackOfFitDoesNotShow) {
+  const EffectProblem given = band();
+  const auto counts = [&](bool hidden) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = given;
+          problem.residual = noise(generator) + 12 * problem.changes.col(0);
+          if (hidden) problem.residual += 2.2 * problem.changes.col(4);
+          const SearchResult result = found(problem);
+          return result.after.p > 0.01 && result.path.size() > 1 && result.path[1].accepted &&
+                 problem.candidates[result.path[1].candidate].name == "spring_2";
+        },
+        100);
+  };
+  EXPECT_GT(counts(true), 0.3);
+  EXPECT_LE(counts(false), 0.02);
+}
+
 TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
   std::mt19937_64 generator(13);
   EffectProblem problem = band();
