@@ -22,67 +22,15 @@ FinishedMotion shifted(const FinishedMotion& base, double by) {
   return run;
 }
 
-/// What showing it another moment does to a frame, per time by which it is later: of a source as a whole by the
-/// velocity of the model's lumen, of one frame by finite shifts, since motion turns (D.8).
-class Shifts {
- public:
-  Shifts(const Evidence& evidence, const FinishedMotion& base) : evidence_(evidence) {
-    const double h = 1e-3 * (base.motion.end - base.motion.start);
-    velocity_ = change(shifted(base, -h), shifted(base, h), 2 * h);
-    const double apart = spacing();
-    if (apart <= 0) return;
-    for (const double share : {-1.0, -0.5, -0.25, 0.25, 0.5, 1.0}) {
-      const double by = share * apart;
-      finite_.push_back({by, change(base, shifted(base, by), by)});
-    }
-  }
-
-  const VectorXd& velocity() const { return velocity_; }
-
-  /// By the shift with which the frame fits best; by the velocity if that is none. precision: of each datum [n].
-  const VectorXd& of_frame(const Evidence::Part& part, const VectorXd& residual, const VectorXd& precision) const {
-    const auto misfit = [&](const VectorXd& change, double by) {
-      const VectorXd left = (residual - by * change).segment(part.first, part.count);
-      return left.dot(precision.segment(part.first, part.count).cwiseProduct(left));
-    };
-    const VectorXd* best = &velocity_;
-    double least = misfit(velocity_, 0);
-    for (const Finite& shift : finite_)
-      if (const double left = misfit(shift.change, shift.by); left < least) least = left, best = &shift.change;
-    return *best;
-  }
-
- private:
-  VectorXd change(const FinishedMotion& before, const FinishedMotion& after, double apart) const {
-    const MatrixXd residuals = evidence_.residuals({&before, &after});
-    VectorXd change = (residuals.col(0) - residuals.col(1)) / apart;
-    for (const auto& part : evidence_.parts())
-      if (evidence_.is_trace(part)) change.segment(part.first, part.count).setZero();
-    return change.array().isFinite().select(change, 0);
-  }
-
-  /// Mean time between the frames of a source with several; the shortest of all sources'.
-  double spacing() const {
-    std::map<std::size_t, std::vector<double>> times;
-    for (const auto& part : evidence_.parts())
-      if (!evidence_.is_trace(part)) times[part.source].push_back(part.time);
-    double least = infinite;
-    for (const auto& [source, of] : times) {
-      const auto [first, last] = std::minmax_element(of.begin(), of.end());
-      if (*last > *first) least = std::min(least, (*last - *first) / static_cast<double>(of.size() - 1));
-    }
-    return std::isfinite(least) ? least : 0;
-  }
-
-  struct Finite {
-    double by = 0;    ///< [time]
-    VectorXd change;  ///< per time
-  };
-
-  const Evidence& evidence_;
-  VectorXd velocity_;
-  std::vector<Finite> finite_;
-};
+/// How fast the model's lumen moves outward at each datum: frames shown later than they say lie that much farther out.
+VectorXd outward_velocity(const Evidence& evidence, const FinishedMotion& base, double h) {
+  const FinishedMotion before = shifted(base, -h), after = shifted(base, h);
+  const MatrixXd residuals = evidence.residuals({&before, &after});
+  VectorXd velocity = (residuals.col(0) - residuals.col(1)) / (2 * h);
+  for (const auto& part : evidence.parts())
+    if (evidence.is_trace(part)) velocity.segment(part.first, part.count).setZero();
+  return velocity.array().isFinite().select(velocity, 0);
+}
 
 /// Adds candidates with columns that are zero outside some parts.
 class DataErrors {
@@ -138,8 +86,8 @@ void allow(EffectProblem& problem, const VectorXd& column, double deviation) {
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
                      const AllowanceCase& allowed, const std::string& unit_of_length, const std::string& unit_of_time) {
   DataErrors errors(problem, evidence);
-  const MatrixXd ones = MatrixXd::Ones(problem.residual.size(), 1), normals = evidence.normals().transpose();
-  const Shifts shifts(evidence, base);
+  const MatrixXd ones = MatrixXd::Ones(problem.residual.size(), 1), normals = evidence.normals().transpose(),
+                 velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
   const auto kind = Candidate::Kind::data;
   std::map<std::size_t, int> frames;
   for (const auto& part : evidence.parts()) frames[part.source] += 1;
@@ -158,14 +106,14 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
                  {{"bias", "along the outward normal", unit_of_length}}, errors.only(ones, part.source, nullptr),
                  allowed.bias.value_or(0.5 * sigma));
       errors.add({"gating_shift", name, "The times of all frames are off", kind, {}, true}, {shift},
-                 errors.only(shifts.velocity(), part.source, nullptr), allowed.time_shift.value_or(0));
+                 errors.only(velocity, part.source, nullptr), allowed.time_shift.value_or(0));
     }
     if (part.frame.held_out || frames[part.source] < 2) continue;
     const std::string where = fmt::format("{}, {:.4g} s", name, part.frame.time);
     errors.add({"misplaced_frame", where, "One frame is displaced", kind, {}, false}, in_space(unit_of_length),
                errors.only(normals, part.source, &part), allowed.frame_displacement);
     errors.add({"mistimed_frame", where, "One frame shows another moment than it says", kind, {}, false}, {shift},
-               errors.only(shifts.of_frame(part, problem.residual, problem.precision), part.source, &part), 0);
+               errors.only(velocity, part.source, &part), 0);
   }
 }
 

@@ -207,7 +207,9 @@ std::string verdict_sentence(const DiagnosisReport& report) {
                        [&](const TestedEffect* effect) { return problem.candidates[effect->candidate].kind == kind; });
   };
   if (found.verdict == "missing" && all_are(Candidate::Kind::data))
-    return fmt::format("THE DATA are off, the model lacks nothing beside: {}", fmt::join(named, "; and "));
+    return fmt::format("THE DATA are off{}: {}",
+                       found.doubtful ? ", and more than chance is left beside" : ", the model lacks nothing beside",
+                       fmt::join(named, "; and "));
   if (found.verdict == "missing" && all_are(Candidate::Kind::numerics))
     return fmt::format("THE NUMERICS are too coarse, no effect is missing: {}", fmt::join(named, "; and "));
   if (found.verdict == "missing") return fmt::format("MISSING: {}", fmt::join(named, "; and "));
@@ -225,10 +227,12 @@ std::string verdict_sentence(const DiagnosisReport& report) {
             fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect)));
     return fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
   }
-  return found.path.empty() ? "UNDECIDED: these data would not show any candidate at the size that it may have"
-                            : fmt::format("UNDECIDED: {} stands out, but {}",
-                                          name_of(problem.candidates[found.path.front().candidate]),
-                                          found.path.front().reason);  // the best of them
+  if (!found.path.empty())
+    return fmt::format("UNDECIDED: {} stands out, but {}", name_of(problem.candidates[found.path.front().candidate]),
+                       found.path.front().reason);  // the best of them
+  return found.doubtful ? "UNDECIDED: no candidate stands out, but the model is off by more than noise and the errors "
+                          "allowed make by chance"
+                        : "UNDECIDED: these data would not show any candidate at the size that it may have";
 }
 
 }  // namespace
@@ -285,6 +289,8 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
     all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(named_of(report), "; and ")));
   if (found.verdict == "missing" && found.after.p < report.alpha / 5)
     all.push_back(fmt::format("Something smaller is left: {}", where_left(report.problem, found.after)));
+  if (found.verdict == "undecided" && found.doubtful)
+    all.push_back(fmt::format("Farthest off: {}", where_left(report.problem, found.after)));
   return all;
 }
 

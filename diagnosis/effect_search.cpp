@@ -18,6 +18,7 @@ constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
 constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
+constexpr double doubtful = 3;           ///< the same: by chance once in some hundred cases
 constexpr double unexplainable = 6;      ///< the same: neither noise nor errors allowed do that
 constexpr double mostly = 0.5;           ///< of the information on an effect, beside accepted ones
 constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
@@ -320,11 +321,20 @@ class Search {
            result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
   }
 
+  /// Whether the data at hand or those held out, given these, are off by more than chance would have it.
+  bool is_doubtful() const {
+    if (result_.after.p < settings_.alpha || is_far_beyond_noise(doubtful)) return true;
+    if (problem_.held_out.size() < 2) return false;
+    const double count = problem_.independent(problem_.held_out).sum();
+    return foretold_.misfit(now_.residual).sum() > count + doubtful * std::sqrt(2 * count);
+  }
+
   void judge() {
     const bool accepted = !now_.accepted.empty();
     const bool ambiguous = std::any_of(result_.effects.begin(), result_.effects.end(), [&](const auto& e) {
       return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
     });
+    result_.doubtful = is_doubtful();
     if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
     if (leaves_too_much() && !result_.more)
       result_.verdict = "not_in_catalogue";
@@ -332,7 +342,7 @@ class Search {
       result_.verdict = "ambiguous";
     else if (accepted)
       result_.verdict = "missing";
-    else if (stands_out() || !sees_anything())
+    else if (stands_out() || !sees_anything() || result_.doubtful)
       result_.verdict = "undecided";
     else
       result_.verdict = "nothing_missing";

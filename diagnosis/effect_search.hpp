@@ -36,6 +36,7 @@ struct SearchResult {
   bool more = false;       ///< another effect is wanted, but `most` were added
   double dispersion = 1;   ///< misfit per independent datum that is left, at least 1: intervals are widened by its root
   std::optional<Gain> held_out;
+  bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
 };
 
 /// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the

@@ -133,6 +133,8 @@ class Job {
           pairs.push_back({residual_with(report.problem, one->run), residual_with(report.problem, rival->run),
                            with(*one), with(*rival)});
     if (pairs.empty()) return {};
+    for (FinishedMotion& run : motions)
+      if (run.failed()) run = motions.front();  // it changes nothing, as in the search
     const CsvTable table(runs_.folder_of("candidates.yaml") / "runs/base/timeseries.csv");
     return splits(report.problem, pairs, further_measurements(given_, evidence, motions, table.columns()));
   }

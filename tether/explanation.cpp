@@ -73,19 +73,43 @@ bool any_ambiguous(const Explanation& e) {
   });
 }
 
+std::string text_of(const Json& effect) {
+  return fmt::format("{}, {}", name_of(effect), amplitude_text(effect));
+}
+
+/// What the data cannot tell apart, as identified where it was; then what was found beside it.
 std::string ambiguous_sentence(const Explanation& e) {
-  for (const ExplainedModel& model : e.models)
-    if (const Json diagnosis = Json::parse(model.diagnosis);
-        !diagnosis.is_null() && diagnosis["verdict"] == "ambiguous")
-      return diagnosis["sentences"][0];
-  return {};
+  Json found = found_of(e);
+  std::vector<std::string> alike, beside;
+  for (std::size_t i = 0; i <= e.best; ++i) {
+    const Json diagnosis = Json::parse(e.models[i].diagnosis);
+    if (diagnosis.is_null() || diagnosis["verdict"] != "ambiguous") continue;
+    for (const Json& effect : diagnosis["effects"]) {
+      if (!effect["accepted"] && !effect["rival"]) continue;
+      const auto identified = std::find_if(found.begin(), found.end(),
+                                           [&](const Json& other) { return name_of(other) == name_of(effect); });
+      alike.push_back(text_of(identified == found.end() ? effect : *identified));
+      if (identified != found.end()) found.erase(identified);
+    }
+    break;
+  }
+  for (const Json& effect : found) beside.push_back(text_of(effect));
+  const std::string sentence = fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
+  return beside.empty() ? sentence : fmt::format("{}; beside it {}", sentence, fmt::join(beside, " and "));
+}
+
+/// Whether all that was found are errors of the data or of the numerics.
+bool is_no_physics(const Explanation& e, const char* kind) {
+  const Json found = found_of(e);
+  return std::all_of(found.begin(), found.end(), [&](const Json& effect) { return effect["kind"] == kind; });
 }
 
 std::string verdict_sentence(const Explanation& e) {
   const std::string verdict = verdict_of(e);
   std::vector<std::string> found;
-  for (const Json& effect : found_of(e))
-    found.push_back(fmt::format("{}, {}", name_of(effect), amplitude_text(effect)));
+  for (const Json& effect : found_of(e)) found.push_back(text_of(effect));
+  if (verdict == "missing" && (is_no_physics(e, "data") || is_no_physics(e, "numerics")))
+    return last_diagnosis(e)["sentences"][0];
   if (verdict == "missing") return fmt::format("MISSING: {}", fmt::join(found, "; and "));
   if (verdict == "ambiguous") return ambiguous_sentence(e);
   if (e.models.size() > e.best + 1)

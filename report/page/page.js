@@ -8,6 +8,12 @@ const verdictChips = {
   not_in_catalogue: ["Not in the catalogue", "open"],
   undecided: ["Undecided", "open"],
 };
+/** What was found says what the chip says: an error of the data is no effect that the model lacks. */
+function chipOf(verdict, first) {
+  if (verdict === "missing" && first.startsWith("THE DATA")) return ["The data are off", "open"];
+  if (verdict === "missing" && first.startsWith("THE NUMERICS")) return ["The numerics are too coarse", "open"];
+  return verdictChips[verdict];
+}
 const kindNames = { explain: "explanation", comparison: "comparison", diagnosis: "diagnosis", estimate: "identification" };
 
 /** Without the shouted first word, which the chip says. */
@@ -55,7 +61,7 @@ const furtherSentences = (sentences) => (sentences.length ? element("ul", { clas
 
 function head(report) {
   const sentences = report.sentences.length ? report.sentences : report.estimates.length ? estimateSentences(report.estimates[0].estimate) : [];
-  const [name, colour] = verdictChips[report.verdict] || [kindNames[report.kind] || report.kind, ""];
+  const [name, colour] = chipOf(report.verdict, sentences[0] || "") || [kindNames[report.kind] || report.kind, ""];
   return [
     element("h1", {}, report.title, element("span", { class: "kind" }, ` — ${kindNames[report.kind] || "results"} · ${report.case}`)),
     element("span", { class: `chip ${colour}` }, name),

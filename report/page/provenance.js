@@ -33,7 +33,7 @@ function provenanceSection(report) {
   const p = report.provenance;
   const made = [`Tether ${report.made.version}${report.made.commit ? ` (${report.made.commit})` : ""}`, `page written ${report.made.date}`];
   const cost = report.explain ? report.explain.cost : (report.diagnoses[0] || {}).diagnosis?.cost;
-  if (cost) made.push(`${cost.runs ?? "?"} runs`, isNumber(cost.cpu_seconds) ? `${duration(cost.cpu_seconds)} of CPU` : null, isNumber(cost.wall_seconds) ? `${duration(cost.wall_seconds)} of waiting` : null);
+  if (cost) made.push(cost.runs ? `${cost.runs} runs` : null, isNumber(cost.cpu_seconds) ? `${duration(cost.cpu_seconds)} of CPU` : null, isNumber(cost.wall_seconds) ? `${duration(cost.wall_seconds)} of waiting` : null);
   const estimateCost = report.estimates[0] && !cost ? report.estimates[0].estimate.cost : null;
   if (estimateCost) made.push(`${duration(estimateCost.cpu_seconds)} of CPU`, `${duration(estimateCost.wall_seconds)} of waiting`);
   const steps = (report.explain ? report.explain.steps || [] : []).map((s) => [s.name, s.folder, duration(s.wall_seconds), duration(s.cpu_seconds)]);
