@@ -200,7 +200,7 @@ void diagnose(const IdentifiedCase& given, const CommandLine& command, GroupPool
   const auto& numbers = pool.model().parameters;
   const bool is_trial = given.diagnosis.runs == "trials";
   const auto runs =
-      is_trial ? trial_runs(numbers, given.diagnosis, given.file) : sensitivity_runs(numbers, given.diagnosis);
+      is_trial ? trial_runs(numbers, given.diagnosis, given.file) : sensitivity_runs(numbers, given.diagnosis, given.file);
   const int steps = command.steps.value_or(given.file.common().time.steps());
   make_runs(pool, runs, given.file, output, steps, command.quiet);
 }

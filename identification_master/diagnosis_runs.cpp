@@ -13,6 +13,7 @@
 #include "common/base/progress_line.hpp"
 #include "common/config/case_essence.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/rules.hpp"
 
 namespace tether {
 namespace {
@@ -113,10 +114,30 @@ void tell_failure(const DiagnosisRun& run, const std::string& failure, bool quie
               << std::flush;
 }
 
+/// Words with a dot are numbers of the model; types and parts are the front-end's.
+void check_announced(const std::vector<ParameterInfo>& parameters, const DiagnosisCase& diagnosis,
+                     const CaseFile& file) {
+  std::vector<std::string> known;
+  for (const ParameterInfo& p : parameters) known.push_back(p.name);
+  const auto check = [&](const char* field, const std::vector<std::string>& words) {
+    for (const std::string& word : words) {
+      if (word.find('.') == std::string::npos || std::find(known.begin(), known.end(), word) != known.end()) continue;
+      const std::string near = nearest(word, known);
+      throw input_error(
+          "{}: the model has no number {}{}", file.where(field), word,
+          near.empty() ? "; runs.json of any diagnosis lists them" : fmt::format("; did you mean {}?", near));
+    }
+  };
+  check("diagnosis.exclude", diagnosis.exclude);
+  check("diagnosis.assumed", diagnosis.assumed);
+  check("diagnosis.refused", diagnosis.refused);
+}
+
 }  // namespace
 
-std::vector<DiagnosisRun> sensitivity_runs(const std::vector<ParameterInfo>& parameters,
-                                           const DiagnosisCase& diagnosis) {
+std::vector<DiagnosisRun> sensitivity_runs(const std::vector<ParameterInfo>& parameters, const DiagnosisCase& diagnosis,
+                                           const CaseFile& file) {
+  check_announced(parameters, diagnosis, file);
   std::vector<ParameterInfo> varied;
   for (const ParameterInfo& p : parameters)
     if (stepped(p, diagnosis.step) && !is_excluded(p.name, diagnosis) && !is_idle(p, parameters)) varied.push_back(p);

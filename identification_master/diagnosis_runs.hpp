@@ -15,9 +15,9 @@ struct DiagnosisRun {
 
 /// Which runs show what each number of the model does: the case as it is, and one for each number that may be wrong,
 /// changed by `step` of its scale, or of its prior deviation where it is there already (D.7). Numbers that switch
-/// nothing on and have no prior stay.
+/// nothing on and have no prior stay. Throws InputError if the case names a number that the model does not have.
 std::vector<DiagnosisRun> sensitivity_runs(const std::vector<protocol::ParameterInfo>& parameters,
-                                           const DiagnosisCase& diagnosis);
+                                           const DiagnosisCase& diagnosis, const CaseFile& file);
 
 /// The trials of the case. Throws InputError for a number that the model does not have.
 std::vector<DiagnosisRun> trial_runs(const std::vector<protocol::ParameterInfo>& parameters,

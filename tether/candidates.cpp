@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "common/base/error.hpp"
 #include "common/config/overlay.hpp"
+#include "common/config/rules.hpp"
 #include "diagnosis/data_errors.hpp"
 #include "tether/programs.hpp"
 
@@ -71,12 +73,39 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
   return problem.candidates.emplace_back(wanted);
 }
 
+void check_known(const CaseFile& file, const std::string& field, const std::vector<std::string>& words,
+                 const std::vector<std::string>& known) {
+  for (const std::string& word : words) {
+    if (holds(known, word)) continue;
+    const std::string near = nearest(word, known);
+    throw input_error("{}: {} is unknown here; {}", file.where(field), word,
+                      near.empty() ? "known are " + listed(known) : fmt::format("did you mean {}?", near));
+  }
+}
+
+/// Types of effects and parts of the wall. Numbers, which have a dot, are known when the model has announced them.
+void check_names(const CaseFile& file, const Json& catalogue, const DiagnosisCase& diagnosis) {
+  std::set<std::string> types, parts;
+  for (const char* list : {"possible", "present"})
+    for (const Json& effect : catalogue[list]) {
+      types.insert(effect["type"].get<std::string>());
+      if (effect["part"] != "") parts.insert(effect["part"].get<std::string>());
+    }
+  check_known(file, "diagnosis.candidates", diagnosis.candidates, {types.begin(), types.end()});
+  parts.merge(types);
+  std::vector<std::string> words;
+  for (const std::string& word : diagnosis.exclude)
+    if (word.find('.') == std::string::npos) words.push_back(word);
+  check_known(file, "diagnosis.exclude", words, {parts.begin(), parts.end()});
+}
+
 }  // namespace
 
-std::vector<PlacedEffect> catalogue_of(const fs::path& case_file, const DiagnosisCase& diagnosis) {
-  const ChildEnd end = capture({{sibling("solid").string(), "--list-effects", case_file.string()}, {}});
+std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis) {
+  const ChildEnd end = capture({{sibling("solid").string(), "--list-effects", file.path().string()}, {}});
   if (end.exit_code != exit_done) throw InputError(end.errors);
   const Json list = Json::parse(end.output);
+  check_names(file, list, diagnosis);
   std::vector<PlacedEffect> all;
   for (const Json& effect : list["possible"]) {
     if (!is_wanted(effect, diagnosis)) continue;

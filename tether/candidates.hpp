@@ -19,7 +19,7 @@ struct PlacedEffect {
 
 /// What the solid program says could be missing, and what the case has; restricted as the case wants it. Throws
 /// InputError with the program's message.
-std::vector<PlacedEffect> catalogue_of(const std::filesystem::path& case_file, const DiagnosisCase& diagnosis);
+std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis);
 
 /// The case with every candidate at the value at which it does nothing, from which identification_master makes the
 /// sensitivity runs.

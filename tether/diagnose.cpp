@@ -35,8 +35,9 @@ class Runs {
     command.output = folder_of(case_file);
     command.overwrite = true;
     command.resume = false;
-    if (const int code = run_in_foreground(parallel_run("identification_master", command)); code != exit_done)
-      throw run_error("the runs of {} failed (see above)", case_file.string());
+    const int code = run_in_foreground(parallel_run("identification_master", command));
+    if (code == exit_input_wrong) throw input_error("the runs of {} are refused (see above)", case_file.string());
+    if (code != exit_done) throw run_error("the runs of {} failed (see above)", case_file.string());
     Json json = Json::parse(content_of(command.output / "runs.json"));
     all += static_cast<int>(json["runs"].size());
     made += json["made"].get<int>();
@@ -60,7 +61,7 @@ class Job {
       : given_(given),
         output_(std::move(output)),
         runs_(command, output_),
-        effects_(catalogue_of(command.case_file, given.diagnosis)) {}
+        effects_(catalogue_of(given.file, given.diagnosis)) {}
 
   DiagnosisReport run() {
     const fs::path candidates = output_ / "candidates.yaml";

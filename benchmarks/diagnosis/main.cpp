@@ -31,7 +31,7 @@ struct Surrogate {
         motions(stored_runs(folder / "candidates")),
         evidence(given.data, given.lumen, motions.front()),
         problem(problem_of(given, evidence, motions, content_of(folder / "candidates/runs.json"),
-                           catalogue_of(case_file, given.diagnosis))) {
+                           catalogue_of(given.file, given.diagnosis))) {
     const DiagnosisCase& d = given.diagnosis;
     settings = {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed};
     const std::vector<TestedEffect> effects =

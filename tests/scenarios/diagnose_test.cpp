@@ -107,6 +107,20 @@ TEST_F(Diagnose, FindsNothingWhereNothingIsHidden) {
   std::sort(numerics.begin(), numerics.end());
   EXPECT_EQ(numerics, (std::vector<std::string>{"coarse_mesh", "long_step"}));
   EXPECT_TRUE(found["suggested_case"].is_null());
+
+  const auto refused = [&](const std::string& words) {
+    const fs::path file = folder.file("odd.yaml", "base: twin/case.yaml\ndiagnosis: {" + words + "}\n");
+    const ChildEnd end = tether({"diagnose", file.string(), "--output", (folder / "odd").string(), "--overwrite"});
+    EXPECT_EQ(end.exit_code, 2) << words;
+    return end.output + end.errors;
+  };
+  const auto says = [&](const std::string& words, const std::string& answer) {
+    const std::string all = refused(words);
+    EXPECT_NE(all.find(answer), std::string::npos) << all;
+  };
+  says("candidates: [visco_elastik]", "did you mean visco_elastic?");
+  says("exclude: [vicinity_lefft]", "did you mean vicinity_left?");
+  says("assumed: [solid.material.yung]", "did you mean solid.material.young?");
 }
 
 }  // namespace
