@@ -284,7 +284,9 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
         fmt::format("The misfit that is left is {:.1f} times what noise makes: intervals are widened by its root, and "
                     "still optimistic",
                     found.dispersion));
-  if (found.more) all.push_back("More is wanted beside it: no further effect was looked for (diagnosis.most)");
+  if (found.more)
+    all.push_back(
+        "More stands out beside it, which this diagnosis does not look for: refit it first, as tether explain does");
   if (found.verdict == "not_in_catalogue" && !named_of(report).empty())
     all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(named_of(report), "; and ")));
   if (found.verdict == "missing" && found.after.p < report.alpha / 5)

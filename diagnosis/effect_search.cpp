@@ -204,9 +204,10 @@ class Search {
   bool add_one() {
     const Trained trained(problem_, now_.changes);
     const std::vector<TestedEffect> strongest = wanted(trained);
-    if (!strongest.empty() && static_cast<int>(now_.accepted.size()) == settings_.most) {
-      result_.more = true;
-      return false;
+    const bool refit_first = !now_.accepted.empty() && !asks_for_more();
+    if (refit_first || static_cast<int>(now_.accepted.size()) == settings_.most) {
+      result_.more = !strongest.empty();
+      if (result_.more || refit_first) return false;
     }
     std::vector<Refinement> all = refined(strongest, trained);
     if (asks_for_more() && is_far_beyond_noise(worth_runs) && static_cast<int>(now_.accepted.size()) < settings_.most)

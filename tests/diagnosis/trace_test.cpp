@@ -44,5 +44,18 @@ TEST(Trace, CountsValuesThatTheRunDoesNotReach) {
             "cuff: fluid.outlet.pressure is 1.5 mm too high on average, 2.12 off in root mean square");
 }
 
+/// Pascal that are called mmHg, a pressure from another zero.
+TEST(Trace, DoubtsWhatNoModelIsOffBy) {
+  const auto said = [](double factor, double offset) {
+    const auto value = [&](double t) { return factor * t + offset; };
+    return sentence_of(compare(trace({0.1, 0.4, 0.9}, {value(0.1), value(0.4), value(0.9)}, {0.1}, 1), saw()),
+                       UnitSystem::cgs());
+  };
+  EXPECT_NE(said(133.3, 0).find("swings 133 times as far as the model: is its unit right?"), std::string::npos);
+  EXPECT_NE(said(0.1333, 0).find("swings 0.133 times"), std::string::npos);
+  EXPECT_NE(said(1, 3).find("same zero"), std::string::npos);
+  EXPECT_EQ(said(1.5, 0.5).find('?'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tether
