@@ -163,6 +163,7 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
       throw input_error("{}: a loose_ring needs the name of an end ring as its region", file.where(path));
     if (is_of(wall_effects(), block.effect.type) && on_ring)
       throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
+    if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
   }
 }
 

@@ -1,6 +1,9 @@
 #include "solid/supports/expression_traction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/expression.hpp"
 
@@ -80,6 +83,46 @@ class ExpressionTraction final : public Support {
   mutable std::vector<double> values_;
 };
 
+/// Places, motions and moments as a wall may have them, in no order.
+std::vector<SupportPoint> probes(double length) {
+  std::vector<SupportPoint> all;
+  for (int k = 1; k <= 8; ++k) {
+    const auto turn = [&](double phase) { return Vec3(std::cos(k + phase), std::sin(2 * k + phase), std::cos(3 * k)); };
+    SupportPoint p{};
+    p.position = length * turn(0);
+    p.normal = turn(1).normalized();
+    p.displacement = 0.05 * length * turn(2);
+    p.velocity = length * turn(3);
+    p.time = 0.1 * k;
+    all.push_back(p);
+  }
+  return all;
+}
+
+/// A model without the effect is one in which the parameters that can be absent are.
+void check_absent(const ExpressionLaw& law, std::vector<double> values) {
+  std::string absent;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& p = law.parameters[i];
+    if (std::isnan(p.absent)) continue;
+    values[i] = p.absent;
+    absent += fmt::format("{}{} = {:g}", absent.empty() ? "" : ", ", p.name, p.absent);
+  }
+  const ExpressionTraction traction(law, values);
+  if (absent.empty()) return;
+  for (const SupportPoint& p : probes(law.length)) {
+    double size = 0;
+    try {
+      size = traction.at(p).traction.norm();
+    } catch (const RunError&) {
+      continue;  // a formula need not hold everywhere
+    }
+    if (size > 0)
+      throw input_error("the formula is not zero at {}, where it is said to be absent: it would be switched off there",
+                        absent);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& expression_names() {
@@ -89,6 +132,7 @@ const std::vector<std::string>& expression_names() {
 }
 
 Configured<Support> configure(const ExpressionLaw& law, std::vector<double> values) {
+  check_absent(law, values);
   auto declaration = std::make_shared<EffectDeclaration>(
       EffectDeclaration{"expression", "A traction as the case file writes it", Place::outer_wall, law.parameters});
   return {std::move(declaration),

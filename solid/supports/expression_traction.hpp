@@ -21,8 +21,8 @@ struct ExpressionLaw {
 /// their parts along the normal un and vn, and the time t.
 const std::vector<std::string>& expression_names();
 
-/// The effect, its parameters announced like those of any other. Throws InputError for what is no formula, or a
-/// parameter with the name of something else.
+/// The effect, its parameters announced like those of any other. Throws InputError for what is no formula, for
+/// one that is not zero where its parameters say that it is absent, or a parameter with the name of something else.
 Configured<Support> configure(const ExpressionLaw& law, std::vector<double> values);
 
 }  // namespace tether

@@ -62,13 +62,13 @@ Parameter number(const char* name) {
 
 TEST(ExpressionTraction, IsWhatItsFormulasSay) {
   const ExpressionLaw law{
-      "-k*un - c*vn + q*sin(2*pi*t)", {"k*ux^3", "0", "z*nx"}, {number("k"), number("c"), number("q")}, size};
+      "-k*un - c*vn + q*sin(2*pi*t)", {"k*ux^3", "0", "q*z*nx"}, {number("k"), number("c"), number("q")}, size};
   SupportPoint p{Vec3(0.3, -0.2, 0.5), Vec3(1, 2, -1), Vec3(1, 2, 2) / 3};
   p.position = Vec3(4, 5, 6);
   p.time = 0.25;
   const double k = 7, c = 2, q = 3, un = p.displacement.dot(p.normal), vn = p.velocity.dot(p.normal);
   const SupportTraction coded = configure(law, {k, c, q})->at(p);
-  EXPECT_LE((coded.traction - ((-k * un - c * vn + q) * p.normal + Vec3(k * 0.027, 0, 6.0 / 3))).norm(), 1e-13);
+  EXPECT_LE((coded.traction - ((-k * un - c * vn + q) * p.normal + Vec3(k * 0.027, 0, q * 6.0 / 3))).norm(), 1e-13);
   Mat3 stiffness = k * p.normal * p.normal.transpose();
   stiffness(0, 0) -= 3 * k * 0.09;
   EXPECT_LE((coded.stiffness - stiffness).norm(), 1e-7);
@@ -91,6 +91,8 @@ TEST(ExpressionTraction, IsAbsentWithItsParametersAndRefusesWhatIsNoFormula) {
   EXPECT_THROW(configure({"-k*un", {}, {}, size}, {}), InputError);
   EXPECT_THROW(configure({"-k*un +", {}, {k}, size}, {1}), InputError);
   EXPECT_THROW(configure({"-x*un", {}, {x}, size}, {1}), InputError);
+  EXPECT_THROW(configure({"-k*un - 300", {}, {k}, size}, {1}), InputError) << "something is left where it is absent";
+  EXPECT_THROW(configure({"-un", {}, {k}, size}, {0}), InputError) << "its parameter does nothing";
   const SupportPoint p{Vec3(-1, 0, 0), Vec3::Zero(), Vec3(1, 0, 0)};
   EXPECT_THROW(configure({"sqrt(un)", {}, {}, size}, {})->at(p), RunError);
 }
