@@ -167,7 +167,8 @@ std::string amplitude_text(const EffectProblem& problem, const TestedEffect& eff
   const Amplitude& amplitude = amplitude_of(problem, effect, own);
   const FoundValue found = value_of(problem, effect, own);
   const std::string name = amplitude.name.substr(amplitude.name.rfind('.') + 1);
-  return fmt::format("{} {} {} ({} .. {})", name, short_number(found.value), amplitude.unit, short_number(found.lower),
+  return fmt::format("{} {}{} ({} .. {})", name, short_number(found.value),
+                     amplitude.unit == "1" ? "" : " " + amplitude.unit, short_number(found.lower),
                      short_number(found.upper));
 }
 

@@ -120,8 +120,10 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
 
 void write_candidates(const fs::path& file, const CaseFile& from, const std::vector<PlacedEffect>& effects) {
   const CommonCase& common = from.common();
-  Overlay overlay{
-      fs::absolute(from.path()), common.name + "_candidates", common.title + ", with all candidates absent", {}};
+  Overlay overlay{fs::absolute(from.path()),
+                  common.name + "_candidates",
+                  (common.title.empty() ? common.name : common.title) + ", with all candidates absent",
+                  {}};
   for (const PlacedEffect& effect : effects) {
     if (!effect.is_new) continue;
     overlay.values.push_back({effect.path + ".type", effect.type});

@@ -102,7 +102,8 @@ class Explainer {
 
   void write_case(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
     const CommonCase& common = given_.file.common();
-    write_overlay(case_of(name), {given_.file.path(), common.name + "_" + name, common.title + title, values});
+    const std::string& of = common.title.empty() ? common.name : common.title;
+    write_overlay(case_of(name), {given_.file.path(), common.name + "_" + name, of + title, values});
   }
 
   CommandLine command_for(const std::string& name, const std::string& folder) const {

@@ -44,8 +44,9 @@ std::string amplitude_text(const Json& effect) {
   const auto number = [&](const char* key) {
     return a[key].is_null() ? "?" : fmt::format("{:.3g}", a[key].get<double>());
   };
-  return fmt::format("{} {} {} ({} .. {})", parameter.substr(parameter.rfind('.') + 1), number("value"),
-                     a["unit"].get<std::string>(), number("lower"), number("upper"));
+  const std::string unit = a["unit"];
+  return fmt::format("{} {}{} ({} .. {})", parameter.substr(parameter.rfind('.') + 1), number("value"),
+                     unit == "1" ? "" : " " + unit, number("lower"), number("upper"));
 }
 
 /// All that was added on the way to the best model, and errors of the data that were named.
