@@ -12,6 +12,12 @@ namespace tether {
 /// FNV-1a over bytes, in words of eight.
 std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed = 14695981039346656037ull);
 
+/// The same of all that a container holds, plain numbers one after the other.
+template <class Values>
+std::uint64_t hash_values(const Values& values, std::uint64_t seed) {
+  return hash_bytes(values.data(), sizeof(*values.data()) * static_cast<std::size_t>(values.size()), seed);
+}
+
 /// Gives a file or folder to the disk before it is renamed. Throws RunError.
 void flush_to_disk(const std::filesystem::path& path);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/base/checked_file.hpp"
+
 namespace tether {
 namespace {
 
@@ -139,6 +141,16 @@ std::vector<std::string> ContourSeries::series_names() const {
   std::vector<std::string> names;
   for (const ContourTrack& track : tracks_) names.push_back(track.name);
   return names;
+}
+
+std::uint64_t ContourSeries::content() const {
+  std::uint64_t hash = 0;
+  for (const ContourTrack& track : tracks_) {
+    for (const Vec3& part : {track.plane.origin, track.plane.e1, track.plane.e2}) hash = hash_values(part, hash);
+    hash = hash_values(track.times, hash);
+    for (const Contour& contour : track.contours) hash = hash_values(contour.points(), hash);
+  }
+  return hash;
 }
 
 std::vector<Frame> ContourSeries::frames() const {

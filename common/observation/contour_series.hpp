@@ -31,6 +31,7 @@ class ContourSeries : public LumenSeries {
   std::vector<std::string> series_names() const override;
   int sample_dimension() const override { return 1; }
   const SourceSettings& settings() const override { return settings_; }
+  std::uint64_t content() const override;
   const std::vector<std::string>& notes() const override { return notes_; }
   const std::vector<ContourTrack>& tracks() const { return tracks_; }
   /// Of the piece of the lumen at x that a track is compared with; 0 if its plane misses it [length].

@@ -31,7 +31,7 @@ std::optional<Between> FrameTimes::at(double time) const {
   }
   for (const std::size_t end : {first, last})
     for (const double away : {std::abs(time - times_[end]), period_ - std::abs(time - times_[end])})
-      if (std::abs(away) <= tolerance_) return Between{end, end, 0.0};
+      if (std::abs(away) <= tolerance_ * (1 + 1e-9)) return Between{end, end, 0.0};
   return std::nullopt;
 }
 

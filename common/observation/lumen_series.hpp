@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -46,6 +47,8 @@ class LumenSeries {
   /// What a sample's weight is: 2 an area, 1 a length.
   virtual int sample_dimension() const = 0;
   virtual const SourceSettings& settings() const = 0;
+  /// A hash of what was measured, frame by frame, as it was read: names the data, wherever their files lie.
+  virtual std::uint64_t content() const = 0;
   /// What was found and done on loading, one line each: data left out, surfaces turned, holes.
   virtual const std::vector<std::string>& notes() const = 0;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/observation/contour_file.hpp"
 #include "common/observation/open_ends.hpp"
@@ -287,6 +288,16 @@ std::vector<std::string> Observations::notes() const {
     for (const std::string& note : merged(series->notes())) all.push_back(series->settings().name + ": " + note);
   all.insert(all.end(), flow_notes.begin(), flow_notes.end());
   return all;
+}
+
+std::uint64_t Observations::content() const {
+  std::uint64_t hash = 0;
+  for (const auto& series : lumen) {
+    const std::uint64_t content = series->content();
+    hash = hash_bytes(&content, sizeof content, hash);
+  }
+  for (const Trace& trace : traces) hash = hash_values(trace.values, hash_values(trace.times, hash));
+  return hash;
 }
 
 Observations load_observations(const ObservationsCase& given, const LumenSurface& lumen, const CaseFile& file) {

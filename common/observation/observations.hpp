@@ -16,6 +16,8 @@ struct Observations : FlowObservations {
   std::vector<Sample> observe(const Points& x, double time) const;
   /// What was found and done on loading: "cine_mr: ..."
   std::vector<std::string> notes() const;
+  /// A hash of lumen data and traces: it changes if what was measured does.
+  std::uint64_t content() const;
 };
 
 /// Reads and checks everything. Throws InputError that names the file, or the field of the case.

@@ -1,5 +1,6 @@
 #include "common/observation/surface_series.hpp"
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 
 namespace tether {
@@ -93,6 +94,13 @@ std::vector<Frame> SurfaceSeries::frames() const {
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < frames_.size(); ++i) frames.push_back({0, i, frames_[i].time, times_.held_out(i)});
   return frames;
+}
+
+std::uint64_t SurfaceSeries::content() const {
+  std::uint64_t hash = hash_values(times_.times(), 0);
+  for (const SurfaceFrame& frame : frames_)
+    hash = hash_values(frame.surface.triangles, hash_values(frame.surface.points, hash));
+  return hash;
 }
 
 SurfaceSeries::FrameTree& SurfaceSeries::tree(std::size_t frame) const {

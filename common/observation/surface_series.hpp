@@ -29,6 +29,7 @@ class SurfaceSeries : public LumenSeries {
   int sample_dimension() const override { return 2; }
   const TriangleSurface& surface(const Frame& frame) const { return frames_[frame.number].surface; }
   const SourceSettings& settings() const override { return settings_; }
+  std::uint64_t content() const override;
   const std::vector<std::string>& notes() const override { return notes_; }
 
  private:

@@ -31,7 +31,8 @@ void check_range(const std::vector<double>& times, double period, const TimeCase
 }  // namespace
 
 std::optional<double> Trace::at(double time) const {
-  if (period <= 0 && (time < times.front() - tolerance || time > times.back() + tolerance)) return std::nullopt;
+  const double reach = tolerance * (1 + 1e-9);
+  if (period <= 0 && (time < times.front() - reach || time > times.back() + reach)) return std::nullopt;
   return curve(time);
 }
 
