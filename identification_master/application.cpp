@@ -2,9 +2,11 @@
 
 #include <sched.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/process.hpp"
 #include "common/base/progress_line.hpp"
 #include "common/config/case_essence.hpp"
@@ -36,8 +38,11 @@ struct IdentifiedCase {
     file.read("diagnosis", diagnosis);
     file.finish();
     if (is_diagnosis()) return;
-    if (!observations.has_lumen_data() && observations.traces.empty())
-      throw input_error("{}: names no measurements to learn from", file.where("observations"));
+    const bool has_trace = std::any_of(observations.traces.begin(), observations.traces.end(),
+                                       [](const auto& trace) { return !trace.second.held_out; });
+    if (!observations.has_lumen_data() && !has_trace)
+      throw input_error("{}: names no measurements to learn from{}", file.where("observations"),
+                        observations.traces.empty() ? "" : ": all traces are held out");
     if (identification.parameters.empty())
       throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
   }
@@ -103,6 +108,32 @@ std::string news(const Identification& now, const IdentifiedParameters& paramete
   return text;
 }
 
+/// Everything that a run and its continuation must have in common.
+std::uint64_t fingerprint_of(const IdentifiedCase& given, GroupPool& pool, const Observations& data) {
+  const CommonCase& common = given.file.common();
+  std::uint64_t hash = hash_values(pool.lumen(), data.content());
+  for (const std::string& section :
+       {pool.model().effective_case, echo_json("time", common.time), echo_json("image", common.image),
+        echo_json("observer", common.observer), echo_json("observations", given.observations),
+        echo_json("identification", given.identification)})
+    hash = hash_case(section, hash);
+  return hash;
+}
+
+/// What a reader of the estimate must know of the data behind it.
+std::vector<std::string> notices_of(const std::vector<EstimateRecord>& records) {
+  const DataTotals all = totals_of(records);
+  if (all.data == 0)
+    return {all.rejected > 0
+                ? "all data were rejected (identification.reject_beyond): the estimate is the prior"
+                : "no step met any data: the estimate is the prior; look at the times of frames and traces, at "
+                  "trust_distance, and at what is held out"};
+  if (all.tempered_steps == 0) return {};
+  return {fmt::format(
+      "{} of {} steps were tempered (identification.largest_shift): {:.3g} of {:.3g} independent data were used",
+      all.tempered_steps, records.size() - 1, all.used, all.data)};
+}
+
 /// One identification from the launch of the groups to its files.
 class Job {
  public:
@@ -118,16 +149,14 @@ class Job {
         plan_(plan_of(given, command)),
         filter_(plan_, parameters_, prepared(), data_.traces, pool) {
     check_noise(data_, given.file);
-    fingerprint_ = hash_case(echo_json("observations", given.observations), hash_case(pool.model().effective_case, 0));
-    fingerprint_ = hash_case(echo_json("identification", given.identification), fingerprint_);
   }
 
   void run() {
     begin();
-    ProgressLine progress(filter_.state().step, plan_.steps, command_.quiet);
-    const auto begun = Clock::now();
-    const double cpu_before = pool_.usage().cpu_seconds;
+    begun_ = Clock::now();
+    groups_cpu_before_ = pool_.usage().cpu_seconds;
     master_cpu_before_ = cpu_seconds();
+    ProgressLine progress(filter_.state().step, plan_.steps, command_.quiet);
     try {
       while (!filter_.is_done()) {
         filter_.advance();
@@ -143,7 +172,10 @@ class Job {
     }
     save();
     write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
-    write_estimate(output_ / "estimate.json", parameters_, filter_, facts(seconds_since(begun), cpu_before));
+    const std::vector<std::string> notices = notices_of(filter_.state().records);
+    write_estimate(output_ / "estimate.json", parameters_, filter_, facts(notices));
+    if (!command_.quiet)
+      for (const std::string& notice : notices) std::cout << notice << "\n";
   }
 
  private:
@@ -152,34 +184,50 @@ class Job {
     return precision_;
   }
   void begin() {
-    if (command_.resume) filter_.restore(read_checkpoint(output_, fingerprint_));
+    fingerprint_ = fingerprint_of(given_, pool_, data_);
+    if (command_.resume) {
+      IdentificationCheckpoint checkpoint = read_checkpoint(output_, fingerprint_);
+      filter_.restore(std::move(checkpoint.state));
+      cost_before_ = checkpoint.cost;
+      saved_ = filter_.state().step;
+    }
     if (command_.quiet) return;
     for (const std::string& notice : pool_.model().notices) std::cout << notice << "\n";
     std::cout << fmt::format("{} parameters, {} particles on {} groups of processes\n", parameters_.list().size(),
                              given_.particles(), pool_.size())
               << std::flush;
+    if (const int last = given_.file.common().time.steps(); plan_.steps > last)
+      std::cout << fmt::format("--steps {}: beyond time.end, which {} steps reach\n", plan_.steps, last) << std::flush;
   }
   void save() {
     write_estimates(output_ / "estimate.csv", parameters_, filter_.state().records);
-    write_checkpoint(output_, fingerprint_, filter_.state());
+    write_checkpoint(output_, fingerprint_, filter_.state(), cost());
     saved_ = filter_.state().step;
   }
   std::string what_is_saved() const {
     if (!saved_) return "No state is saved yet";
     return fmt::format("The state after {} steps is in {}", *saved_, (output_ / "checkpoint").string());
   }
-  IdentificationFacts facts(double wall_seconds, double cpu_before) {
+  /// Of these steps, and of those before a continuation.
+  IdentificationCost cost() {
+    IdentificationCost all = cost_before_;
+    all.wall_seconds += seconds_since(begun_);
+    all.cpu_seconds += pool_.usage().cpu_seconds - groups_cpu_before_;
+    all.master_cpu_seconds += cpu_seconds() - master_cpu_before_;
+    all.moved_values += parameters_.moved();
+    return all;
+  }
+  IdentificationFacts facts(const std::vector<std::string>& of_data) {
+    std::vector<std::string> notices = pool_.model().notices;
+    notices.insert(notices.end(), of_data.begin(), of_data.end());
     const CommonCase& common = given_.file.common();
-    const protocol::Usage groups = pool_.usage();
     return {.case_name = common.name,
             .title = common.title,
             .case_file = fs::absolute(given_.file.path()).string(),
             .groups = pool_.size(),
-            .wall_seconds = wall_seconds,
-            .cpu_seconds = groups.cpu_seconds - cpu_before,
-            .master_cpu_seconds = cpu_seconds() - master_cpu_before_,
-            .peak_memory_mb = groups.peak_memory_mb + peak_memory_mb(),
-            .notices = pool_.model().notices};
+            .cost = cost(),
+            .peak_memory_mb = pool_.usage().peak_memory_mb + peak_memory_mb(),
+            .notices = std::move(notices)};
   }
 
   IdentifiedCase& given_;
@@ -193,7 +241,9 @@ class Job {
   Identification filter_;
   std::uint64_t fingerprint_ = 0;
   std::optional<std::int64_t> saved_;
-  double master_cpu_before_ = 0;
+  Clock::time_point begun_;
+  double groups_cpu_before_ = 0, master_cpu_before_ = 0;
+  IdentificationCost cost_before_;
 };
 
 void diagnose(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool, const fs::path& output) {

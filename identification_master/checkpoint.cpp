@@ -12,11 +12,12 @@ struct PackedMatrix {
   std::int64_t rows = 0;
   std::vector<double> values;
   PackedMatrix() = default;
-  explicit PackedMatrix(const MatrixXd& m) : rows(m.rows()), values(m.data(), m.data() + m.size()) {}
+  explicit PackedMatrix(const auto& m) : rows(m.rows()), values(m.data(), m.data() + m.size()) {}
   MatrixXd matrix() const {
     const Eigen::Index columns = rows > 0 ? static_cast<Eigen::Index>(values.size()) / rows : 0;
     return Eigen::Map<const MatrixXd>(values.data(), rows, columns);
   }
+  VectorXd vector() const { return Eigen::Map<const VectorXd>(values.data(), rows); }
   template <class Archive>
   void fields(Archive& archive) {
     archive(rows, values);
@@ -41,25 +42,29 @@ struct PackedRecord {
 };
 
 PackedRecord packed(const EstimateRecord& r) {
-  return {{r.time, r.data, r.chi_square, r.rejected, r.tempering, r.evaluations},
+  return {{r.time, r.data, r.chi_square, r.expected_chi_square, r.rejected, r.tempering, r.evaluations},
           PackedMatrix(r.mean),
           PackedMatrix(r.covariance)};
 }
 
 EstimateRecord unpacked(const PackedRecord& p) {
-  if (p.numbers.size() != 6) throw input_error("a record of the checkpoint has {} numbers", p.numbers.size());
-  return {p.numbers[0], p.mean.matrix(), p.covariance.matrix(), p.numbers[1],
-          p.numbers[2], p.numbers[3],    p.numbers[4],          p.numbers[5]};
+  if (p.numbers.size() != 7) throw input_error("a record of the checkpoint has {} numbers", p.numbers.size());
+  return {p.numbers[0], p.mean.vector(), p.covariance.matrix(), p.numbers[1], p.numbers[2],
+          p.numbers[3], p.numbers[4],    p.numbers[5],          p.numbers[6]};
 }
 
 }  // namespace
 
-void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state) {
+void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state,
+                      const IdentificationCost& cost) {
   std::vector<PackedRecord> records;
   for (const EstimateRecord& record : state.records) records.push_back(packed(record));
   protocol::Writer writer;
   writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, records,
-         std::vector<double>{state.innovations.products, state.innovations.squares}, PackedMatrix(state.last_mean));
+         std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
+         PackedMatrix(state.last_mean),
+         std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
+                             static_cast<double>(cost.moved_values)});
   const fs::path folder = output / "checkpoint", fresh = folder / "identification.new";
   fs::create_directories(folder);
   write_checked(fresh, fingerprint, state.step, writer.take());
@@ -67,7 +72,7 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
   flush_to_disk(folder);
 }
 
-IdentificationState read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
+IdentificationCheckpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   const fs::path path = output / "checkpoint" / "identification.bin";
   if (!fs::exists(path))
     throw input_error("{}: holds no checkpoint of an identification to resume from", output.string());
@@ -75,20 +80,22 @@ IdentificationState read_checkpoint(const fs::path& output, std::uint64_t finger
   if (content.fingerprint != fingerprint)
     throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
                       path.string());
-  IdentificationState state;
+  IdentificationCheckpoint checkpoint;
+  IdentificationState& state = checkpoint.state;
   state.step = content.step;
   PackedMatrix theta, states, last_mean;
   std::vector<PackedRecord> records;
-  std::vector<double> innovations;
+  std::vector<double> innovations, cost;
   protocol::Reader reader("checkpoint", content.bytes);
-  reader(theta, states, state.memories, records, innovations, last_mean);
+  reader(theta, states, state.memories, records, innovations, last_mean, cost);
   reader.expect_end();
   state.theta = theta.matrix();
   state.states = states.matrix();
-  state.last_mean = last_mean.matrix();
+  state.last_mean = last_mean.vector();
   for (const PackedRecord& record : records) state.records.push_back(unpacked(record));
-  state.innovations = {innovations.at(0), innovations.at(1)};
-  return state;
+  state.innovations = {innovations.at(0), innovations.at(1), innovations.at(2)};
+  checkpoint.cost = {cost.at(0), cost.at(1), cost.at(2), static_cast<int>(cost.at(3))};
+  return checkpoint;
 }
 
 }  // namespace tether

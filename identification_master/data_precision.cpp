@@ -31,98 +31,81 @@ void check(const Noise& noise, bool on_lumen, const std::string& field, const Ca
         file.where(field + ".noise.correlation_length"));
 }
 
-double time_within(double time, double start, double period) {
-  return period > 0 ? time - period * std::floor((time - start) / period) : time;
-}
-
 }  // namespace
 
-DataPrecision::DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run)
-    : dt_(dt), run_start_(run.first), run_length_(run.second - run.first) {
+DataPrecision::DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run) {
+  const StepEnds ends{.start = run.first, .dt = dt, .length = run.second - run.first};
   std::vector<double> deviations;
   for (const auto& source : data.lumen) {
-    const SourceSettings& settings = source->settings();
-    const std::size_t first = series_.size();
-    series_.resize(first + source->series_names().size(), {{}, settings.period, settings.noise.correlation_time, 0});
-    double any_time = 0;
-    for (const Frame& frame : source->frames())
-      if (!frame.held_out)
-        series_[first + static_cast<std::size_t>(frame.series)].times.push_back(any_time = frame.time);
-    std::vector<double> observed(source->series_names().size(), 0.0);
-    const std::vector<Sample> samples = source->observe(imaged, std::isnan(any_time) ? run.first : any_time);
-    for (const Sample& sample : samples) {
-      observed[static_cast<std::size_t>(sample.series)] += sample.weight;
-      of_sample_.push_back(first + static_cast<std::size_t>(sample.series));
-      deviations.push_back(settings.noise.deviation);
-    }
-    for (std::size_t i = 0; i < observed.size(); ++i)
-      series_[first + i].precision = 1 / (std::pow(settings.noise.deviation, 2) *
-                                          independent_part(settings.noise, source->sample_dimension(), observed[i]));
+    add_lumen_data(*source, imaged, ends);
+    deviations.resize(of_sample_.size(), source->settings().noise.deviation);
   }
-  for (Series& series : series_) std::sort(series.times.begin(), series.times.end());
   for (const Trace& trace : data.traces) {
-    traces_.push_back(
-        {trace.times, trace.period, trace.noise.correlation_time, 1 / std::pow(trace.noise.deviation, 2)});
-    deviations.push_back(trace.noise.deviation);
+    add_trace(trace, ends);
+    deviations.push_back(trace.held_out ? 0 : trace.noise.deviation);
   }
   deviations_ = Eigen::Map<VectorXd>(deviations.data(), static_cast<Eigen::Index>(deviations.size()));
 }
 
-/// Of a frame's weight, what falls to a step that ends at `time`.
-double DataPrecision::share_of_frame(const Series& series, double time) const {
-  const auto& times = series.times;
-  if (times.empty()) return 0;
-  double apart = run_length_;
-  if (times.size() > 1 || series.period > 0) {
-    const double now = time_within(time, times.front(), series.period);
-    const auto after = std::upper_bound(times.begin(), times.end(), now);
-    const double last = after == times.begin() ? times.front() : *(after - 1);
-    if (after != times.end())
-      apart = *after - last;
-    else if (series.period > 0)
-      apart = times.front() + series.period - last;
-    else
-      apart = times.back() - times[times.size() - 2];
-  }
-  const double independent = independent_share(apart, series.correlation_time);
-  return whole_frames_ ? independent : std::min(1.0, dt_ / apart) * independent;
-}
-
-VectorXd DataPrecision::of_samples(const VectorXd& weights, double time) const {
-  TETHER_ASSERT(static_cast<std::size_t>(weights.size()) == of_sample_.size(), "{} weights of {} samples",
-                weights.size(), of_sample_.size());
-  std::vector<double> factors;
-  for (const Series& series : series_) factors.push_back(series.precision * share_of_frame(series, time));  // (K.5)
-  VectorXd precision(weights.size());
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    precision(i) = weights(i) * factors[of_sample_[static_cast<std::size_t>(i)]];
-  return precision;
-}
-
-VectorXd DataPrecision::of_traces(double time) const {
-  VectorXd precision = VectorXd::Zero(static_cast<Eigen::Index>(traces_.size()));
-  for (std::size_t i = 0; i < traces_.size(); ++i) {
-    const Series& trace = traces_[i];
-    const double slack = 1e-9 * run_length_;
-    const bool covered =
-        trace.period > 0 || (time >= trace.times.front() - slack && time <= trace.times.back() + slack);
-    if (covered) precision(static_cast<Eigen::Index>(i)) = trace.precision * share_of_frame(trace, time);
-  }
-  return precision;
-}
-
-bool DataPrecision::has_frame(double begin, double end) const {
-  const double slack = 1e-9 * run_length_;
-  for (const Series& series : series_)
-    for (const double frame : series.times) {
-      if (std::isnan(frame)) return true;
-      const double first = series.period > 0 ? time_within(frame, run_start_ + slack, series.period) : frame;
-      if (series.period <= 0
-              ? first > begin + slack && first <= end + slack
-              : std::floor((end + slack - first) / series.period) > std::floor((begin + slack - first) / series.period))
-        return true;
+void DataPrecision::add_lumen_data(const LumenSeries& source, const Points& imaged, const StepEnds& ends) {
+  const SourceSettings& settings = source.settings();
+  const std::size_t first = series_.size(), count = source.series_names().size();
+  std::vector<std::vector<double>> times(count);
+  double any_time = ends.start;
+  for (const Frame& frame : source.frames())
+    if (!frame.held_out) {
+      times[static_cast<std::size_t>(frame.series)].push_back(frame.time);
+      if (!std::isnan(frame.time)) any_time = frame.time;
     }
-  return false;
+  std::vector<double> observed(count, 0.0);
+  for (const Sample& sample : source.observe(imaged, any_time)) {
+    observed[static_cast<std::size_t>(sample.series)] += sample.weight;
+    of_sample_.push_back(first + static_cast<std::size_t>(sample.series));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    std::sort(times[i].begin(), times[i].end());
+    series_.push_back({FrameSharing(std::move(times[i]), settings.period, settings.time_tolerance, ends),
+                       settings.noise.correlation_time,
+                       1 / (std::pow(settings.noise.deviation, 2) *
+                            independent_part(settings.noise, source.sample_dimension(), observed[i]))});
+  }
+}
+
+void DataPrecision::add_trace(const Trace& trace, const StepEnds& ends) {
+  const bool used = !trace.held_out;
+  traces_.push_back({FrameSharing(used ? trace.times : std::vector<double>{}, trace.period, trace.tolerance, ends),
+                     trace.noise.correlation_time, used ? 1 / std::pow(trace.noise.deviation, 2) : 0});
+}
+
+DataPrecision::Weight DataPrecision::weight_of(const Series& series, double end_of_step) const {
+  const SeenFrame seen = series.frames.at(end_of_step);
+  const double share = whole_frames_ ? (seen.is_own ? 1.0 : 0.0) : seen.share;
+  const double s = seen.place, alike = series.correlation_time > 0 ? std::exp(-seen.gap / series.correlation_time) : 0;
+  return {series.precision * share * independent_share(seen.apart, series.correlation_time),
+          (1 - s) * (1 - s) + s * s + 2 * s * (1 - s) * alike, seen.is_own};  // (K.5)
+}
+
+DatumWeights DataPrecision::at(const VectorXd& weights_of_samples, double end_of_step) const {
+  const auto samples = static_cast<Eigen::Index>(of_sample_.size());
+  TETHER_ASSERT(weights_of_samples.size() == samples, "{} weights of {} samples", weights_of_samples.size(), samples);
+  DatumWeights all{VectorXd(deviations_.size()), VectorXd(deviations_.size()), {}};
+  const auto add = [&all](double sample_weight, const Weight& weight) {
+    const auto row = static_cast<Eigen::Index>(all.on_frame.size());
+    all.precision(row) = sample_weight * weight.factor;
+    all.expected_squares(row) = weight.expected_square;
+    all.on_frame.push_back(weight.on_frame);
+  };
+  std::vector<Weight> of_series;
+  for (const Series& series : series_) of_series.push_back(weight_of(series, end_of_step));
+  for (Eigen::Index i = 0; i < samples; ++i)
+    add(weights_of_samples(i), of_series[of_sample_[static_cast<std::size_t>(i)]]);
+  for (const Series& trace : traces_) add(1, weight_of(trace, end_of_step));
+  return all;
+}
+
+bool DataPrecision::has_frame(double end_of_step) const {
+  const auto is_own = [end_of_step](const Series& series) { return series.frames.at(end_of_step).is_own; };
+  return std::any_of(series_.begin(), series_.end(), is_own) || std::any_of(traces_.begin(), traces_.end(), is_own);
 }
 
 void check_noise(const Observations& data, const CaseFile& file) {
@@ -130,7 +113,8 @@ void check_noise(const Observations& data, const CaseFile& file) {
     const char* kind = source->sample_dimension() == 2 ? "surfaces." : "contours.";
     check(source->settings().noise, true, std::string("observations.") + kind + source->settings().name, file);
   }
-  for (const Trace& trace : data.traces) check(trace.noise, false, "observations.traces." + trace.name, file);
+  for (const Trace& trace : data.traces)
+    if (!trace.held_out) check(trace.noise, false, "observations.traces." + trace.name, file);
 }
 
 }  // namespace tether

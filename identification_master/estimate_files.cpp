@@ -34,7 +34,7 @@ std::string headings(const IdentifiedParameters& parameters) {
   const auto& list = parameters.list();
   for (std::size_t i = 0; i < list.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) line += fmt::format(", correlation.{}.{}", list[j].name, list[i].name);
-  return line + ", data, chi_square, rejected, tempering, evaluations\n";
+  return line + ", data, chi_square, expected_chi_square, rejected, tempering, evaluations\n";
 }
 
 std::string row(const IdentifiedParameters& parameters, const EstimateRecord& record) {
@@ -50,8 +50,8 @@ std::string row(const IdentifiedParameters& parameters, const EstimateRecord& re
   const MatrixXd correlation = correlations(record.covariance);
   for (Eigen::Index i = 0; i < correlation.rows(); ++i)
     for (Eigen::Index j = 0; j < i; ++j) line += fmt::format(", {}", correlation(j, i));
-  return line + fmt::format(", {}, {}, {}, {}, {}\n", record.data, record.chi_square, record.rejected, record.tempering,
-                            record.evaluations);
+  return line + fmt::format(", {}, {}, {}, {}, {}, {}\n", record.data, record.chi_square, record.expected_chi_square,
+                            record.rejected_share(), record.tempering, record.evaluations);
 }
 
 Json range_of(const IdentifiedParameter& parameter, double mean, double deviation) {
@@ -94,20 +94,16 @@ Json parameters_json(const IdentifiedParameters& parameters, const Identificatio
 }
 
 Json innovations_json(const Identification& done) {
-  double data = 0, chi_square = 0, rejected = 0;
-  int tempered = 0;
-  for (const EstimateRecord& record : done.state().records) {
-    data += record.data;
-    chi_square += record.chi_square;
-    rejected += record.rejected;
-    tempered += record.tempering < 1 ? 1 : 0;
-  }
-  return {{"effective_data", data},
-          {"chi_square", chi_square},
-          {"chi_square_per_datum", data > 0 ? chi_square / data : 0.0},
+  const DataTotals all = totals_of(done.state().records);
+  const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+  return {{"effective_data", all.data},
+          {"used_data", all.used},
+          {"chi_square", all.chi_square},
+          {"expected_chi_square", all.expected_chi_square},
+          {"chi_square_per_datum", share(all.chi_square, all.expected_chi_square)},
           {"autocorrelation_between_frames", done.state().innovations.autocorrelation()},
-          {"rejected_share", rejected / static_cast<double>(done.state().records.size())},
-          {"tempered_steps", tempered}};
+          {"rejected_share", share(all.rejected, all.data + all.rejected)},
+          {"tempered_steps", all.tempered_steps}};
 }
 
 }  // namespace
@@ -141,15 +137,15 @@ void write_estimate(const std::filesystem::path& path, const IdentifiedParameter
                   {"identifiability",
                    {{"information", list_of(what.information)}, {"directions", rows_of(what.directions.transpose())}}},
                   {"innovations", innovations_json(done)},
-                  {"values_moved_into_their_range", parameters.moved()},
+                  {"values_moved_into_their_range", facts.cost.moved_values},
                   {"notices", facts.notices},
                   {"cost",
                    {{"particles", last.mean.size() + 1},
                     {"groups", facts.groups},
-                    {"wall_seconds", facts.wall_seconds},
-                    {"cpu_seconds", facts.cpu_seconds},
-                    {"master_loop_cpu_seconds", facts.master_cpu_seconds},
-                                {"peak_memory_mb", facts.peak_memory_mb}}}};
+                    {"wall_seconds", facts.cost.wall_seconds},
+                    {"cpu_seconds", facts.cost.cpu_seconds},
+                    {"master_loop_cpu_seconds", facts.cost.master_cpu_seconds},
+                    {"peak_memory_mb", facts.peak_memory_mb}}}};
   write_whole(path, json.dump(2) + "\n");
 }
 

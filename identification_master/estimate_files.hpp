@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "identification_master/identification.hpp"
+#include "identification_master/checkpoint.hpp"
 
 namespace tether {
 
@@ -10,7 +10,8 @@ namespace tether {
 struct IdentificationFacts {
   std::string case_name, title, case_file;
   std::size_t groups = 0;
-  double wall_seconds = 0, cpu_seconds = 0, master_cpu_seconds = 0, peak_memory_mb = 0;  ///< of the steps: all groups, the master
+  IdentificationCost cost;
+  double peak_memory_mb = 0;
   std::vector<std::string> notices;
 };
 

@@ -26,6 +26,19 @@ MatrixXd diagonal(const VectorXd& variances) {
 
 }  // namespace
 
+DataTotals totals_of(const std::vector<EstimateRecord>& records) {
+  DataTotals all;
+  for (const EstimateRecord& record : records) {
+    all.data += record.data;
+    all.used += record.tempering * record.data;
+    all.rejected += record.rejected;
+    all.chi_square += record.chi_square;
+    all.expected_chi_square += record.expected_chi_square;
+    all.tempered_steps += record.tempering < 1 ? 1 : 0;
+  }
+  return all;
+}
+
 Identification::Identification(IdentificationPlan plan, const IdentifiedParameters& parameters,
                                const DataPrecision& precision, const std::vector<Trace>& traces, Ensemble& ensemble)
     : plan_(plan),
@@ -63,7 +76,9 @@ void Identification::advance() {
     record.evaluations += static_cast<double>(report.evaluations) / static_cast<double>(reports.size());
   if (is_observed(step)) correct(reports, end, record);
   filter_.diffuse(parameters_.walked(plan_.dt));
-  if (plan_.memory_time > 0) state_.states *= filter_.forget(std::exp(-plan_.dt / plan_.memory_time)).transpose();
+  if (plan_.memory_time > 0)
+    state_.states *=
+        filter_.forget(std::exp(-plan_.dt / plan_.memory_time), diagonal(parameters_.prior_variances())).transpose();
   record.mean = filter_.mean();
   record.covariance = filter_.covariance();
   state_.theta = filter_.particles();
@@ -72,14 +87,14 @@ void Identification::advance() {
 }
 
 bool Identification::is_observed(std::int64_t step) const {
-  return plan_.every_step || precision_.has_frame(plan_.time_at(step), plan_.time_at(step + 1));
+  return plan_.every_step || precision_.has_frame(plan_.time_at(step + 1));
 }
 
 /// A sample that is no observation for one particle is none for all.
 Identification::Data Identification::gather(const std::vector<ParticleReport>& reports, double time) const {
   const auto samples = static_cast<Eigen::Index>(reports.front().distances.size()),
              traces = static_cast<Eigen::Index>(traces_.size());
-  Data data{MatrixXd(samples + traces, static_cast<Eigen::Index>(reports.size())), VectorXd(samples + traces)};
+  Data data{MatrixXd(samples + traces, static_cast<Eigen::Index>(reports.size())), {}};
   VectorXd weights = VectorXd::Constant(samples, infinite);
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const ParticleReport& report = reports[i];
@@ -91,43 +106,58 @@ Identification::Data Identification::gather(const std::vector<ParticleReport>& r
       column(samples + k) = traces_[trace].curve(time) - report.observables[observable_[trace]];
     }
   }
-  data.precision << precision_.of_samples(weights, time), precision_.of_traces(time);
-  for (Eigen::Index row = 0; row < data.precision.size(); ++row)
-    if (data.precision(row) == 0) data.discrepancies.row(row).setZero();  // it may be anything, NaN too
+  data.weights = precision_.at(weights, time);
+  for (Eigen::Index row = 0; row < data.discrepancies.rows(); ++row)
+    if (data.weights.precision(row) == 0) data.discrepancies.row(row).setZero();  // it may be anything, NaN too
   return data;
 }
 
-/// Leaves out data farther from the mean than the stated noise and the particles' spread explain. Returns their share.
-double Identification::reject_outliers(Data& data) const {
-  if (plan_.reject_beyond <= 0) return 0;
+/// Of independent data.
+double Identification::effective_number(const Data& data) const {
+  return data.weights.precision.dot(precision_.deviations().cwiseAbs2());
+}
+
+/// Leaves out data farther from the mean than the stated noise and the particles' spread explain.
+void Identification::reject_outliers(Data& data) const {
+  if (plan_.reject_beyond <= 0) return;
   const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies);
   const VectorXd spread = ReducedOrderFilter::spread_of(data.discrepancies).rowwise().squaredNorm();
-  const double before = data.precision.sum();
   for (Eigen::Index row = 0; row < mean.size(); ++row) {
     const double variance = std::pow(precision_.deviations()(row), 2) + spread(row);
-    if (mean(row) * mean(row) > plan_.reject_beyond * plan_.reject_beyond * variance) data.precision(row) = 0;
+    if (mean(row) * mean(row) > plan_.reject_beyond * plan_.reject_beyond * variance) data.weights.precision(row) = 0;
   }
-  return before > 0 ? 1 - data.precision.sum() / before : 0;
 }
 
 void Identification::correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record) {
   Data data = gather(reports, time);
-  record.rejected = reject_outliers(data);
-  record.data = data.precision.dot(precision_.deviations().cwiseAbs2());
-  const FilterCorrection done = filter_.correct(data.discrepancies, data.precision, plan_.largest_shift);
+  const double before = effective_number(data);
+  reject_outliers(data);
+  record.data = effective_number(data);
+  record.rejected = before - record.data;
+  record.expected_chi_square =
+      data.weights.precision.dot(precision_.deviations().cwiseAbs2().cwiseProduct(data.weights.expected_squares));
+  const FilterCorrection done = filter_.correct(data.discrepancies, data.weights.precision, plan_.largest_shift);
   record.chi_square = done.chi_square;
   record.tempering = done.tempering;
   state_.states *= done.mix.transpose();  // (K.4)
-  if (precision_.has_frame(time - plan_.dt, time))
-    note_innovation(ReducedOrderFilter::mean_of(data.discrepancies), data.precision);
+  note_innovation(data);
 }
 
-void Identification::note_innovation(const VectorXd& mean, const VectorXd& precision) {
-  if (state_.last_mean.size() == mean.size()) {
-    state_.innovations.products += mean.dot(precision.asDiagonal() * state_.last_mean);
-    state_.innovations.squares += mean.dot(precision.asDiagonal() * mean);
+/// Each datum with itself at its series' last frame.
+void Identification::note_innovation(const Data& data) {
+  const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies);
+  VectorXd& last = state_.last_mean;
+  if (last.size() != mean.size()) last = VectorXd::Constant(mean.size(), std::nan(""));
+  for (Eigen::Index row = 0; row < mean.size(); ++row) {
+    const double precision = data.weights.precision(row), now = mean(row), before = last(row);
+    if (precision == 0 || !data.weights.on_frame[static_cast<std::size_t>(row)]) continue;
+    if (!std::isnan(before)) {
+      state_.innovations.products += precision * now * before;
+      state_.innovations.squares += precision * now * now;
+      state_.innovations.squares_before += precision * before * before;
+    }
+    last(row) = now;
   }
-  state_.last_mean = mean;
 }
 
 }  // namespace tether

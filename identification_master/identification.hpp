@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "common/observation/observations.hpp"
 #include "identification_master/data_precision.hpp"
 #include "identification_master/ensemble.hpp"
@@ -26,15 +28,28 @@ struct EstimateRecord {
   MatrixXd covariance;  ///< of theta
   double data = 0;      ///< effective number of independent data in this step
   double chi_square = 0;
-  double rejected = 0;     ///< share of the data's precision that was left out as outliers
-  double tempering = 1;    ///< share of the rest that was used
-  double evaluations = 0;  ///< of the coupled model, mean over the particles
+  double expected_chi_square = 0;  ///< if model and noise are right
+  double rejected = 0;             ///< effective number of data beside them that were left out as outliers
+  double tempering = 1;            ///< share of the rest that was used
+  double evaluations = 0;          ///< of the coupled model, mean over the particles
+
+  double rejected_share() const { return rejected > 0 ? rejected / (data + rejected) : 0; }
 };
 
-/// How the discrepancies of the mean behave from frame to frame: about zero if model and noise are right.
+/// Of all steps so far.
+struct DataTotals {
+  double data = 0, used = 0, rejected = 0;  ///< effective numbers of independent data; used: after tempering
+  double chi_square = 0, expected_chi_square = 0;
+  int tempered_steps = 0;
+};
+DataTotals totals_of(const std::vector<EstimateRecord>& records);
+
+/// How the discrepancies of the mean behave from frame to frame of a series: about zero if model and noise are right.
+/// Sums over pairs of successive frames, with the later one's precision.
 struct InnovationStatistics {
-  double products = 0, squares = 0;
-  double autocorrelation() const { return squares > 0 ? products / squares : 0; }
+  double products = 0, squares = 0, squares_before = 0;
+  /// From -1 to 1.
+  double autocorrelation() const { return products == 0 ? 0 : products / std::sqrt(squares * squares_before); }
 };
 
 /// Everything that an identification needs to continue.
@@ -44,7 +59,7 @@ struct IdentificationState {
   std::vector<std::vector<double>> memories;
   std::vector<EstimateRecord> records;
   InnovationStatistics innovations;
-  VectorXd last_mean;  ///< discrepancy of the mean at the last frame
+  VectorXd last_mean;  ///< discrepancy of the mean at each datum's last frame; NaN before the first
 };
 
 /// The filter's cycle: sample, predict, correct (K.3, K.4), once a time step.
@@ -67,13 +82,14 @@ class Identification {
  private:
   struct Data {
     MatrixXd discrepancies;  ///< data minus model, one particle a column
-    VectorXd precision;
+    DatumWeights weights;
   };
   bool is_observed(std::int64_t step) const;
   Data gather(const std::vector<ParticleReport>& reports, double time) const;
-  double reject_outliers(Data& data) const;
+  double effective_number(const Data& data) const;
+  void reject_outliers(Data& data) const;
   void correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
-  void note_innovation(const VectorXd& mean, const VectorXd& precision);
+  void note_innovation(const Data& data);
 
   IdentificationPlan plan_;
   const IdentifiedParameters& parameters_;

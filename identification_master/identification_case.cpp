@@ -31,17 +31,18 @@ void IdentificationCase::declare(Fields& f) {
   f.groups("parameters", parameters, "what is to be found, by names of your choice");
   f.choice("observe", observe,
            {{"every_step", "data are interpolated between frames, each frame counting once in all"},
-            {"frames", "only the steps in which a frame lies are corrected"}},
+            {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"}},
            "when the model is corrected");
   f.number("reject_beyond", reject_beyond, dimension::none, range::not_negative,
            "data whose distance exceeds its predicted standard deviation by this factor are left out; 0: none are");
   f.number("memory_time", memory_time, dimension::time, range::not_negative,
-           "what was learned loses weight as exp(-t/memory_time); 0: it does not");
+           "what was learned loses weight as exp(-t/memory_time), down to what was known before; 0: it does not");
   f.number(
       "largest_shift", largest_shift, dimension::none, range::positive,
-      "of the parameters in one correction, in their standard deviations; what the data say beyond waits for the next");
-  f.integer("groups", groups, {0, 10000},
-            "groups of processes that share the particles; 0: as many as cores and memory allow");
+      "of the parameters in one correction, in their standard deviations; beyond, its data get less weight for good");
+  f.integer(
+      "groups", groups, {0, 10000},
+      "groups of processes that share the particles; 0: one for each core, at most as many as there are particles");
 }
 
 }  // namespace tether

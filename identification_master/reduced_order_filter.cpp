@@ -105,9 +105,13 @@ void ReducedOrderFilter::diffuse(const VectorXd& variances) {
   particles_ = (L * root * around).colwise() + centre;
 }
 
-MatrixXd ReducedOrderFilter::forget(double share) {
-  const Eigen::Index p = parameters();
-  const MatrixXd mix = mix_of(VectorXd::Zero(p), MatrixXd::Identity(p, p) / std::sqrt(share));
+MatrixXd ReducedOrderFilter::forget(double share, const MatrixXd& prior) {
+  const MatrixXd L = spread_of(particles_);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> over_prior(L.transpose() * prior.llt().solve(L));
+  const Eigen::ArrayXd variances = over_prior.eigenvalues().array().min(1);
+  const VectorXd growth = ((1 - share) * variances + share).rsqrt();  // (K.6)
+  const MatrixXd mix = mix_of(VectorXd::Zero(parameters()),
+                              over_prior.eigenvectors() * growth.asDiagonal() * over_prior.eigenvectors().transpose());
   particles_ = (particles_ * mix.transpose()).eval();
   return mix;
 }

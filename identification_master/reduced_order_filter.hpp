@@ -39,8 +39,9 @@ class ReducedOrderFilter {
 
   /// The parameters have walked at random: adds variances [p] to their covariance; states do not follow. (K.6)
   void diffuse(const VectorXd& variances);
-  /// Older data lose weight: the covariance of parameters and states grows by 1/share. Returns the mix. (K.6)
-  MatrixXd forget(double share);
+  /// Of what is known beyond the prior only this share is kept: parameters and states spread, never beyond the prior's
+  /// covariance [p x p] by this; the mean stays. Returns the mix. (K.6)
+  MatrixXd forget(double share, const MatrixXd& prior);
 
   /// The columns' mean [m], and their derivative by the unit points, L of (K.3) [m x p].
   static VectorXd mean_of(const MatrixXd& columns);

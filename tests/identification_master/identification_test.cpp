@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/error.hpp"
+#include "identification_master/checkpoint.hpp"
 #include "tests/identification_master/breathing_tube.hpp"
 #include "tests/io/temporary_folder.hpp"
 
@@ -161,6 +163,174 @@ TEST(Identification, ResumesWhereItWas) {
   EXPECT_EQ(whole.last().mean, second.last().mean);
   EXPECT_EQ(whole.last().covariance, second.last().covariance);
   EXPECT_EQ(whole.state().records.size(), second.state().records.size());
+}
+
+/// The trace `fluid.front` of a tube whose front widens by 0.3.
+Trace front_trace(std::vector<double> times, double error = 0.01) {
+  std::vector<double> values;
+  for (const double time : times) values.push_back(0.3 * BreathingTube::swing(time));
+  const Curve curve(times, values);
+  return {"gauge", "fluid.front", std::move(times), std::move(values), curve, {error, 0, 0}, 0, 0.005};
+}
+
+/// Of a run from data as they are.
+IdentificationState state_after(const Observations& data, bool every_step, double reject_beyond = 0,
+                                double largest_shift = 1e9) {
+  BreathingEnsemble ensemble(data, 24, 20);
+  const IdentifiedParameters parameters = parameters_of_tube();
+  DataPrecision precision(data, ensemble.lumen(), 0.01, {0, BreathingTube::beat});
+  if (!every_step) precision.count_frames_whole();
+  const IdentificationPlan plan{.start = 0,
+                                .dt = 0.01,
+                                .steps = 80,
+                                .every_step = every_step,
+                                .reject_beyond = reject_beyond,
+                                .largest_shift = largest_shift};
+  Identification filter(plan, parameters, precision, data.traces, ensemble);
+  while (!filter.is_done()) filter.advance();
+  return filter.state();
+}
+
+double counted(const Observations& data, bool every_step) {
+  return totals_of(state_after(data, every_step).records).data;
+}
+
+TEST(Identification, HeldOutTracesAreAsIfTheyWereNotThere) {
+  Observations data = surfaces(24, 20, 0.3, -0.1, 24, 20);
+  const EstimateRecord without = state_after(data, true).records.back();
+  Trace wrong = front_trace({0, 0.2, 0.4, 0.6}, 0);  // without noise: nobody asks
+  wrong.held_out = true;
+  for (double& value : wrong.values) value += 5;
+  data.traces.push_back(wrong);
+  const EstimateRecord with = state_after(data, true).records.back();
+  EXPECT_LT((with.mean - without.mean).norm(), 1e-14);
+  EXPECT_LT((with.covariance - without.covariance).norm(), 1e-14);
+}
+
+TEST(Identification, EachValueOfATraceCountsOnceInBothModes) {
+  for (const bool every_step : {true, false}) {
+    Observations data;
+    data.traces.push_back(front_trace({0.2, 0.3, 0.4, 0.5, 0.6}));
+    EXPECT_NEAR(counted(data, every_step), 5, 1e-9) << every_step;
+    data.traces.front() = front_trace({0.4});
+    EXPECT_NEAR(counted(data, every_step), 1, 1e-9) << every_step;
+    const EstimateRecord found = state_after(data, every_step).records.back();
+    EXPECT_NEAR(found.mean(0), 0.3, 2e-3);
+    EXPECT_NEAR(found.covariance(0, 0), 1 / (1 / 0.04 + 1e4), 1e-8);  // swing(0.4) = 1
+  }
+}
+
+/// Surfaces and trace keep their own weights: neither counts in steps of the other's frames.
+TEST(Identification, AtFramesOnlyEachSeriesCountsInItsOwnSteps) {
+  Observations surfaces_only = surfaces(24, 20, 0.3, -0.1, 24, 20), both = surfaces(24, 20, 0.3, -0.1, 24, 20), trace;
+  trace.traces.push_back(front_trace({0.11, 0.13, 0.19, 0.24, 0.33, 0.42, 0.51, 0.6, 0.77}));
+  both.traces = trace.traces;
+  const double alone = counted(surfaces_only, false);
+  EXPECT_NEAR(counted(both, false), alone + 9, 0.01 * alone);
+  EXPECT_NEAR(counted(both, true), counted(surfaces_only, true) + 9, 0.01 * alone);
+}
+
+/// Errors of frames between which a step interpolates are averaged: what is expected of their squares says so.
+TEST(Identification, ChiSquareIsAsExpectedWhenAllIsRight) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (const bool every_step : {true, false}) {
+    double chi_square = 0, expected = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+      Observations data;
+      std::vector<double> times;
+      for (int k = 1; k < 20; ++k) times.push_back(0.04 * k);
+      Trace trace = front_trace(times, 0.05);
+      for (double& value : trace.values) value += 0.05 * normal(random);
+      trace.curve = Curve(trace.times, trace.values);
+      data.traces.push_back(trace);
+      const DataTotals totals = totals_of(state_after(data, every_step).records);
+      chi_square += totals.chi_square;
+      expected += totals.expected_chi_square;
+    }
+    EXPECT_NEAR(chi_square / expected, 1, 3 * std::sqrt(2.0 / (40 * 19))) << every_step;
+  }
+}
+
+/// Alternating errors are opposite from value to value, constant ones alike.
+TEST(Identification, AutocorrelationIsACorrelation) {
+  for (const double sign : {-1.0, 1.0}) {
+    Observations data;
+    std::vector<double> times;
+    for (int k = 1; k < 20; ++k) times.push_back(0.04 * k);
+    Trace trace = front_trace(times, 10);  // so that the estimate does not follow
+    for (std::size_t k = 0; k < times.size(); ++k) trace.values[k] = (k % 2 == 0 ? 1 : sign);
+    trace.curve = Curve(trace.times, trace.values);
+    data.traces.push_back(trace);
+    const double found = state_after(data, false).innovations.autocorrelation();
+    EXPECT_LE(std::abs(found), 1);
+    EXPECT_NEAR(found, sign, 0.05);
+  }
+}
+
+TEST(Identification, SaysWhichShareWasRejectedAndWhatWasUsed) {
+  Observations data = surfaces(24, 20, 0.3, -0.1, 24, 20);
+  Trace wrong = front_trace({0.1, 0.2, 0.3, 0.4});
+  for (double& value : wrong.values) value = 5;
+  wrong.curve = Curve(wrong.times, wrong.values);
+  data.traces.push_back(wrong);
+  const DataTotals frames = totals_of(state_after(data, false, 4).records);
+  EXPECT_NEAR(frames.rejected, 4, 1e-9);
+
+  Observations good;
+  good.traces.push_back(front_trace({0.3, 0.4}, 1e-3));
+  const DataTotals tempered = totals_of(state_after(good, false, 0, 0.1).records);
+  EXPECT_GT(tempered.tempered_steps, 0);
+  EXPECT_NEAR(tempered.data, 2, 1e-9);
+  EXPECT_LT(tempered.used, 0.1);
+}
+
+TEST(Identification, MemoryForgetsNothingBeforeTheFirstData) {
+  Observations data;
+  data.traces.push_back(front_trace({0.7}));
+  BreathingEnsemble ensemble(data, 24, 20);
+  const IdentifiedParameters parameters = parameters_of_tube();
+  const DataPrecision precision(data, ensemble.lumen(), 0.01, {0, BreathingTube::beat});
+  Identification filter({.start = 0, .dt = 0.01, .steps = 60, .memory_time = 0.1}, parameters, precision, data.traces,
+                        ensemble);
+  while (!filter.is_done()) filter.advance();
+  EXPECT_LT((deviations(filter.last()).array() - 0.2).abs().maxCoeff(), 1e-12);
+}
+
+/// Before the first data too, when there is no discrepancy yet.
+TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
+  const TemporaryFolder folder;
+  Observations data;
+  data.traces.push_back(front_trace({0.2, 0.4}));
+  for (const bool with_data : {false, true}) {
+    IdentificationState state = state_after(data, false);
+    if (!with_data) state.last_mean = VectorXd();
+    write_checkpoint(folder.path(), 7, state, {1.5, 2.5, 0.5, 3});
+    const IdentificationCheckpoint found = read_checkpoint(folder.path(), 7);
+    EXPECT_EQ(found.state.step, state.step);
+    EXPECT_EQ(found.state.theta, state.theta);
+    EXPECT_EQ(found.state.last_mean, state.last_mean);
+    EXPECT_EQ(found.state.records.size(), state.records.size());
+    EXPECT_EQ(found.state.records.back().expected_chi_square, state.records.back().expected_chi_square);
+    EXPECT_EQ(found.state.innovations.squares_before, state.innovations.squares_before);
+    EXPECT_EQ(found.cost.cpu_seconds, 2.5);
+    EXPECT_EQ(found.cost.moved_values, 3);
+    EXPECT_THROW(read_checkpoint(folder.path(), 8), InputError);
+  }
+}
+
+TEST(Observations, TheirContentNamesWhatWasMeasured) {
+  Observations data = surfaces(12, 10, 0.3, -0.1, 12, 10);
+  data.traces.push_back(front_trace({0.2, 0.4}));
+  const std::uint64_t content = data.content();
+  Observations again = surfaces(12, 10, 0.3, -0.1, 24, 20);
+  again.traces.push_back(front_trace({0.2, 0.4}));
+  EXPECT_EQ(again.content(), content);
+  again.traces.front().values[1] += 1e-9;
+  EXPECT_NE(again.content(), content);
+  Observations other = surfaces(12, 10, 0.3, -0.1001, 12, 10);
+  other.traces = data.traces;
+  EXPECT_NE(other.content(), content);
 }
 
 }  // namespace

@@ -157,11 +157,28 @@ TEST(ReducedOrderFilter, WalkAddsItsVariancesAndKeepsTheMean) {
 
 TEST(ReducedOrderFilter, ForgettingWidensParametersAndStates) {
   ReducedOrderFilter filter(VectorXd::Ones(2), MatrixXd::Identity(2, 2));
-  const MatrixXd X = MatrixXd::Random(5, 3), mixed = X * filter.forget(0.5).transpose();
+  const MatrixXd X = MatrixXd::Random(5, 3),
+                 mixed = X * filter.forget(0.5, 1e16 * MatrixXd::Identity(2, 2)).transpose();
   EXPECT_LT((filter.covariance() - 2 * MatrixXd::Identity(2, 2)).norm(), 1e-13);
   const MatrixXd S = ReducedOrderFilter::spread_of(X), wider = ReducedOrderFilter::spread_of(mixed);
   EXPECT_LT((wider - std::sqrt(2.0) * S).norm(), 1e-13);
   EXPECT_LT((ReducedOrderFilter::mean_of(mixed) - ReducedOrderFilter::mean_of(X)).norm(), 1e-14);
+}
+
+TEST(ReducedOrderFilter, ForgetsWhatWasLearnedAndNotThePrior) {
+  std::mt19937 random(9);
+  const MatrixXd L = random_matrix(random, 3, 3), prior = L * L.transpose() + MatrixXd::Identity(3, 3);
+  ReducedOrderFilter filter(VectorXd::Ones(3), prior);
+  filter.forget(0.5, prior);
+  EXPECT_LT((filter.covariance() - prior).norm(), 1e-12 * prior.norm()) << "nothing was learned yet";
+
+  const MatrixXd H = random_matrix(random, 5, 3);
+  filter.correct(-H * filter.particles(), VectorXd::Ones(5));
+  const VectorXd mean = filter.mean();
+  const MatrixXd learned = filter.covariance().inverse() - prior.inverse();
+  filter.forget(0.25, prior);
+  EXPECT_LT((filter.covariance().inverse() - prior.inverse() - 0.25 * learned).norm(), 1e-10 * learned.norm());
+  EXPECT_LT((filter.mean() - mean).norm(), 1e-12);
 }
 
 }  // namespace

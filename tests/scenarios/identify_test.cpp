@@ -65,9 +65,9 @@ class Identify : public testing::Test {
     }
   }
   ChildEnd tether(const std::string& verb, const fs::path& file, const std::string& output,
-                  const std::vector<std::string>& options) const {
-    std::vector<std::string> words{TETHER_PROGRAM,  verb,      file.string(),         "--output",
-                                   folder / output, "--steps", std::to_string(steps), "--quiet"};
+                  const std::vector<std::string>& options, int number = steps) const {
+    std::vector<std::string> words{TETHER_PROGRAM,  verb,      file.string(),          "--output",
+                                   folder / output, "--steps", std::to_string(number), "--quiet"};
     words.insert(words.end(), options.begin(), options.end());
     return capture({words, {}});
   }
@@ -142,6 +142,36 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
     ASSERT_EQ(tether("identify", case_file, output, {"--resume"}).exit_code, 0);
     expect_same("whole", output);
   }
+}
+
+/// From a checkpoint before the first frame that counts; neither with another step nor from other measurements.
+TEST_F(Identify, ContinuesOnlyFromTheSameCaseAndMeasurements) {
+  const Edits at_frames{{"identification:\n", "identification:\n  observe: frames\n"},
+                        {"checkpoint_every: 5", "checkpoint_every: 1"}};
+  const fs::path file = case_variant(case_file, folder / "frames", at_frames);
+  ASSERT_EQ(tether("identify", file, "part", {}, 1).exit_code, 0);
+  const Json nothing = estimate("part");
+  EXPECT_EQ(nothing["innovations"]["effective_data"], 0);
+  ASSERT_FALSE(nothing["notices"].empty());
+  EXPECT_NE(nothing["notices"].back().get<std::string>().find("no step met any data"), std::string::npos);
+
+  /// While the content of a file is another one.
+  const auto expect_refused = [&](const fs::path& changed, const std::string& content) {
+    const std::string before = content_of(changed);
+    std::ofstream(changed, std::ios::binary) << content;
+    const ChildEnd end = tether("identify", file, "part", {"--resume"}, 4);
+    EXPECT_EQ(end.exit_code, 2);
+    EXPECT_NE(end.errors.find("checkpoint of another case"), std::string::npos) << end.errors;
+    std::ofstream(changed, std::ios::binary) << before;
+  };
+  const fs::path finer = case_variant(file, folder / "finer", {{"step: 4e-3", "step: 2e-3"}});
+  expect_refused(file, content_of(finer));
+  expect_refused(file.parent_path() / "lumen_2.stl", content_of(file.parent_path() / "lumen_4.stl"));
+
+  ASSERT_EQ(tether("identify", file, "part", {"--resume"}, 4).exit_code, 0);
+  const Json found = estimate("part");
+  EXPECT_GT(found["innovations"]["effective_data"], 0);
+  EXPECT_GT(found["cost"]["cpu_seconds"], nothing["cost"]["cpu_seconds"]);
 }
 
 TEST_F(Identify, SaysWhichNumberItDoesNotKnow) {

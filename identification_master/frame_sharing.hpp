@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace tether {
+
+/// The steps of a run: their ends are start + i dt, i = 1, 2, ...
+struct StepEnds {
+  double start = 0, dt = 0;  ///< [time]
+  double length = 0;         ///< of the run [time]
+};
+
+/// What the end of a step sees of a series.
+struct SeenFrame {
+  double share = 0;     ///< of a frame's weight, that falls to this step: all steps nearest to a frame share it alike
+  bool is_own = false;  ///< of all steps' ends this is the one nearest to a frame
+  double apart = std::numeric_limits<double>::infinity();  ///< from its neighbours, as steps can tell [time]
+  double gap = 0;                                          ///< between the two frames around [time]
+  double place = 0;                                        ///< between them: s of (O.3)
+};
+
+/// How the frames of one series, or the values of a trace, are shared out to the steps that see them, such that each
+/// counts once. (K.5)
+class FrameSharing {
+ public:
+  /// times: ascending, of what is used; none: nothing is seen; one NaN: a frame that holds always. period: 0: the
+  /// series does not repeat. tolerance: how far from a frame that has no neighbour a time still is that frame's (O.3).
+  FrameSharing(std::vector<double> times, double period, double tolerance, const StepEnds& ends);
+
+  /// At the end of a step; a share of 0 if nothing is seen there.
+  SeenFrame at(double end_of_step) const;
+
+ private:
+  /// Frames are numbered through all repetitions of a series that repeats.
+  bool exists(std::int64_t frame) const;
+  double time_of(std::int64_t frame) const;
+  std::int64_t last_before(double time) const;
+  std::int64_t step_before(double time) const;
+  std::pair<std::int64_t, std::int64_t> steps_nearest_to(std::int64_t frame) const;
+  std::int64_t own_step_of(std::int64_t frame) const;
+  double spacing_at(std::int64_t frame) const;
+
+  std::vector<double> times_;
+  double period_, tolerance_;
+  StepEnds ends_;
+};
+
+}  // namespace tether
