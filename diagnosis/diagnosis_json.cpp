@@ -215,8 +215,11 @@ std::string verdict_sentence(const DiagnosisReport& report) {
     return fmt::format("THE NUMERICS are too coarse, no effect is missing: {}", fmt::join(named, "; and "));
   if (found.verdict == "missing") return fmt::format("MISSING: {}", fmt::join(named, "; and "));
   if (found.verdict == "nothing_missing")
-    return "NOTHING MISSING: no candidate explains more than chance, and what is left is within the noise and the "
-           "errors allowed";
+    return fmt::format(
+        "NOTHING MISSING: no candidate explains {}, and what is left is within the noise and the errors allowed",
+        found.path.empty() ? "more than chance"
+                           : fmt::format("enough (the best, {}, might be more than chance)",
+                                         name_of(problem.candidates[found.path.front().candidate])));
   if (found.verdict == "not_in_catalogue")
     return fmt::format("NOT IN THE CATALOGUE: something is missing that no candidate explains: {}",
                        where_left(problem, found.after));
