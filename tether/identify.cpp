@@ -59,11 +59,12 @@ std::string line_of(const Json& p) {
 /// What is consistent with what was assumed, and what is not.
 std::string judgement_of(const Json& estimate) {
   const Json& innovations = estimate["innovations"];
+  if (innovations["used_data"] == 0.0) return "  No data were used: the estimates are what was known before.\n";
   const double ratio = innovations["chi_square_per_datum"], repeated = innovations["autocorrelation_between_frames"];
   std::string text = fmt::format(
       "  misfit {:.2f} of what the stated noise explains ({:.0f} independent data); from frame to frame {:+.2f} "
       "alike\n",
-      ratio, innovations["effective_data"].get<double>(), repeated);
+      ratio, innovations["used_data"].get<double>(), repeated);
   if (ratio > 1.5)
     text +=
         "  The data are farther from the model than their noise: something is missing that these parameters cannot "

@@ -149,7 +149,11 @@ TEST_F(Identify, ContinuesOnlyFromTheSameCaseAndMeasurements) {
   const Edits at_frames{{"identification:\n", "identification:\n  observe: frames\n"},
                         {"checkpoint_every: 5", "checkpoint_every: 1"}};
   const fs::path file = case_variant(case_file, folder / "frames", at_frames);
-  ASSERT_EQ(tether("identify", file, "part", {}, 1).exit_code, 0);
+  const ChildEnd part =
+      capture({{TETHER_PROGRAM, "identify", file.string(), "--output", folder / "part", "--steps", "1"}, {}});
+  ASSERT_EQ(part.exit_code, 0) << part.errors;
+  EXPECT_NE(part.output.find("No data were used"), std::string::npos) << part.output;
+  EXPECT_EQ(part.output.find("misfit"), std::string::npos) << part.output;
   const Json nothing = estimate("part");
   EXPECT_EQ(nothing["innovations"]["effective_data"], 0);
   ASSERT_FALSE(nothing["notices"].empty());
