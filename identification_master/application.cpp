@@ -249,8 +249,8 @@ class Job {
 void diagnose(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool, const fs::path& output) {
   const auto& numbers = pool.model().parameters;
   const bool is_trial = given.diagnosis.runs == "trials";
-  const auto runs =
-      is_trial ? trial_runs(numbers, given.diagnosis, given.file) : sensitivity_runs(numbers, given.diagnosis, given.file);
+  const auto runs = is_trial ? trial_runs(numbers, given.diagnosis, given.file)
+                             : sensitivity_runs(numbers, given.diagnosis, given.file);
   const int steps = command.steps.value_or(given.file.common().time.steps());
   make_runs(pool, runs, given.file, output, steps, command.quiet);
 }
@@ -259,6 +259,7 @@ int run(const CommandLine& command) {
   return protocol::run_master("identification_master", [&command](protocol::Session& session) {
     IdentifiedCase given(command.case_file);
     const fs::path output = fs::absolute(claim_output(command, given.file));
+    if (!command.resume && !given.is_diagnosis()) remove_old_estimates(output);
     const std::vector<Partner*> groups =
         launch_groups(group_count(given, command, session), command.case_file, output, session);
     GroupPool pool(session, groups);
@@ -285,7 +286,12 @@ Program identification_master_program() {
             fields.group("identification", identification, meaning_of_section("identification"));
             fields.group("diagnosis", diagnosis, meaning_of_section("diagnosis"));
           },
-      .validate = [](const CommandLine& command) { IdentifiedCase given(command.case_file); },
+      .validate =
+          [](const CommandLine& command) {
+            const IdentifiedCase given(command.case_file);
+            if (!given.is_diagnosis())
+              check_noise(load_observations(given.observations, given.lumen(), given.file), given.file);
+          },
       .run = run};
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parameter_table.hpp"
+#include "common/base/transform.hpp"
 #include "identification_master/identifiability.hpp"
 
 namespace tether {
@@ -26,14 +27,13 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::string headings(const IdentifiedParameters& parameters) {
-  std::string line = "time [s]";
-  for (const IdentifiedParameter& p : parameters.list())
-    for (const char* part : {"", ".lower", ".upper"}) line += fmt::format(", {}{} [{}]", p.name, part, p.unit);
-  for (const IdentifiedParameter& p : parameters.list())
-    line += fmt::format(", {0}.theta, {0}.theta_deviation", p.name);
   const auto& list = parameters.list();
-  for (std::size_t i = 0; i < list.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) line += fmt::format(", correlation.{}.{}", list[j].name, list[i].name);
+  std::vector<std::string> names;
+  for (const IdentifiedParameter& p : list) names.push_back(p.name);
+  const std::vector<std::string> columns = columns_of(names);
+  std::string line = "time [s]";
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    line += ", " + columns[i] + (i < 3 * list.size() ? fmt::format(" [{}]", list[i / 3].unit) : "");
   return line + ", data, chi_square, expected_chi_square, rejected, tempering, evaluations\n";
 }
 
@@ -73,6 +73,12 @@ Json rows_of(const MatrixXd& matrix) {
   return rows;
 }
 
+/// The bound that holds the estimate back: "lower", "upper", or null.
+Json bound_at(const IdentifiedParameter& parameter, double mean) {
+  if (!parameter.is_moved(mean)) return {};
+  return parameter.value(mean) < parameter.value(parameter.prior_mean) ? "lower" : "upper";
+}
+
 Json parameters_json(const IdentifiedParameters& parameters, const Identification& done, const Identifiability& what) {
   Json all = Json::array();
   const EstimateRecord& last = done.last();
@@ -88,6 +94,7 @@ Json parameters_json(const IdentifiedParameters& parameters, const Identificatio
                    {"transform", name_of(p.transform)},
                    {"prior", range_of(p, p.prior_mean, p.prior_deviation)},
                    {"estimate", range_of(p, last.mean(k), std::sqrt(last.covariance(k, k)))},
+                   {"at_bound", bound_at(p, last.mean(k))},
                    {"retained_information", what.retained(k)}});
   }
   return all;
@@ -108,10 +115,20 @@ Json innovations_json(const Identification& done) {
 
 }  // namespace
 
+void remove_old_estimates(const std::filesystem::path& output) {
+  for (const char* name :
+       {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png", "checkpoint/identification.bin"})
+    std::filesystem::remove(output / name);
+}
+
 ValueEstimate estimate_of(const IdentifiedParameter& parameter, double mean, double deviation) {
-  const double low = parameter.value(mean - two_sided_95 * deviation),
-               high = parameter.value(mean + two_sided_95 * deviation);
-  return {parameter.value(mean), std::min(low, high), std::max(low, high)};
+  const auto bounded = [&](double theta) {
+    const Range& range = parameter.range;
+    return std::clamp(unstretched(parameter.transform, theta, range), range.lower, range.upper);
+  };
+  const double value = parameter.value(mean);
+  return {value, std::min(value, bounded(mean - two_sided_95 * deviation)),
+          std::max(value, bounded(mean + two_sided_95 * deviation))};
 }
 
 void write_estimates(const std::filesystem::path& path, const IdentifiedParameters& parameters,

@@ -15,7 +15,8 @@ struct IdentificationFacts {
   std::vector<std::string> notices;
 };
 
-/// Median and 95 % interval of a value whose theta is normally distributed.
+/// Median, as the model is told it, and 95 % interval, cut at the bounds, of a value whose theta is normally
+/// distributed.
 struct ValueEstimate {
   double median = 0, lower = 0, upper = 0;
 };
@@ -30,5 +31,8 @@ void write_estimates(const std::filesystem::path& path, const IdentifiedParamete
 /// cost. docs/identification.md
 void write_estimate(const std::filesystem::path& path, const IdentifiedParameters& parameters,
                     const Identification& done, const IdentificationFacts& facts);
+
+/// Takes away what an earlier run left in its folder, lest it be taken for what this one found.
+void remove_old_estimates(const std::filesystem::path& output);
 
 }  // namespace tether

@@ -4,6 +4,12 @@
 #include <Eigen/Eigenvalues>
 
 namespace tether {
+namespace {
+
+/// Information, in that of the prior, below which data told nothing: what curvature of the model alone can pretend.
+constexpr double told = 0.1;
+
+}  // namespace
 
 Identifiability identifiability(const MatrixXd& prior, const MatrixXd& posterior) {
   const auto p = prior.rows();
@@ -14,7 +20,7 @@ Identifiability identifiability(const MatrixXd& prior, const MatrixXd& posterior
   const MatrixXd inverse = (gramian + MatrixXd::Identity(p, p)).inverse();
   for (Eigen::Index i = 0; i < p; ++i) {
     const double alone = gramian(i, i), with_others = 1 / inverse(i, i) - 1;
-    result.retained(i) = alone > 0 ? std::max(0.0, with_others) / alone : 0;
+    result.retained(i) = alone > told ? std::max(0.0, with_others) / alone : 0;
   }
   return result;
 }

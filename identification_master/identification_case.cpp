@@ -1,6 +1,45 @@
 #include "identification_master/identification_case.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
 namespace tether {
+namespace {
+
+/// Characters that tables, plots and case files give a meaning of their own; control characters.
+bool is_special(char c) {
+  return std::string_view("\"'`,\\[]{}$#:").find(c) != std::string_view::npos || (static_cast<unsigned char>(c) < 32);
+}
+
+/// What is wrong with the names that a case gives its parameters; empty: nothing.
+std::string fault_of(const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (name.empty() || std::any_of(name.begin(), name.end(), is_special))
+      return fmt::format(
+          "the name \"{}\" holds a character that tables and plots cannot carry; take letters, digits, _", name);
+  std::set<std::string> seen{"time",     "data",      "chi_square", "expected_chi_square",
+                             "rejected", "tempering", "evaluations"};
+  for (const std::string& column : columns_of(names))
+    if (!seen.insert(column).second)
+      return fmt::format("two columns of estimate.csv would be called \"{}\"; choose other names", column);
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> columns_of(const std::vector<std::string>& parameters) {
+  std::vector<std::string> columns;
+  for (const std::string& name : parameters)
+    for (const char* part : {"", ".lower", ".upper"}) columns.push_back(name + part);
+  for (const std::string& name : parameters)
+    for (const char* part : {".theta", ".theta_deviation"}) columns.push_back(name + part);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      columns.push_back(fmt::format("correlation.{}.{}", parameters[j], parameters[i]));
+  return columns;
+}
 
 void ParameterCase::declare(Fields& f) {
   f.texts(
@@ -16,19 +55,25 @@ void ParameterCase::declare(Fields& f) {
            "what is assumed to be normally distributed");
   f.number("mean", mean, dimension::none, range::any,
            "value before the data, in the case's units; absent: that of the case");
-  f.number("deviation", deviation, dimension::none, range::positive,
-           "standard deviation before the data, of theta; absent: as the model announces");
+  f.number(
+      "deviation", deviation, dimension::none, range::positive,
+      "standard deviation before the data, of theta; absent: as the model announces, told in this theta at the mean");
   f.number("lower", lower, dimension::none, range::any,
            "smallest admissible value, in the case's units; absent: that of the model");
   f.number("upper", upper, dimension::none, range::any, "largest admissible value");
   f.number("walk", walk, dimension::none, range::not_negative,
            "the parameter changes in time: standard deviation of theta after one unit of time without data");
   f.flag("factor", factor, "the parameter is a factor: each number keeps its value of the case, times it");
+  f.check(!of.empty(), "of", "must name at least one number");
   f.check(!lower || !upper || *lower < *upper, "upper", "must be above lower");
 }
 
 void IdentificationCase::declare(Fields& f) {
   f.groups("parameters", parameters, "what is to be found, by names of your choice");
+  std::vector<std::string> names;
+  for (const auto& [name, parameter] : parameters) names.push_back(name);
+  const std::string fault = fault_of(names);
+  f.check(fault.empty(), "parameters", fault);
   f.choice("observe", observe,
            {{"every_step", "data are interpolated between frames, each frame counting once in all"},
             {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"}},

@@ -24,4 +24,8 @@ struct IdentificationCase {
   void declare(Fields& f);
 };
 
+/// The columns of estimate.csv that belong to parameters of these names, in order: value, lower, upper of each, theta
+/// and its deviation of each, correlations.
+std::vector<std::string> columns_of(const std::vector<std::string>& parameters);
+
 }  // namespace tether

@@ -6,7 +6,7 @@ namespace tether {
 
 void write_identified_case(const std::filesystem::path& path, const CaseFile& from,
                            const IdentifiedParameters& parameters, const VectorXd& theta) {
-  const NamedValues found = parameters.values(theta);
+  const NamedValues found = parameters.values_at(theta);
   Overlay overlay{
       from.path(), from.common().name + "_identified", from.common().title + ", with identified parameters", {}};
   for (std::size_t i = 0; i < found.names.size(); ++i)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/base/parameter_table.hpp"
 #include "common/config/rules.hpp"
 
 namespace tether {
@@ -23,10 +24,34 @@ const ParameterInfo& find(const std::vector<ParameterInfo>& announced, const std
                     near.empty() ? "it has " + listed(known) : fmt::format("did you mean {}?", near));
 }
 
-Range narrowed(Range range, const ParameterCase& given) {
-  if (given.lower) range.lower = std::max(range.lower, *given.lower);
-  if (given.upper) range.upper = std::min(range.upper, *given.upper);
-  return range;
+/// What the model admits of a number, for a parameter that times `scale` is that number.
+Range admitted(const ParameterInfo& info, double scale) {
+  if (scale == 0) return {};
+  const double one = info.lower / scale, other = info.upper / scale;
+  return {std::min(one, other), std::max(one, other)};
+}
+
+Range common(const Range& a, const Range& b) {
+  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+}
+
+bool is_logarithmic(Transform transform) {
+  return transform == Transform::log || transform == Transform::log2;
+}
+
+/// Change of the value with theta.
+double slope(Transform transform, double value, const Range& range) {
+  switch (transform) {
+    case Transform::log:
+      return value;
+    case Transform::log2:
+      return value * std::log(2.0);
+    case Transform::bounded:
+      return (value - range.lower) * (range.upper - value) / (range.upper - range.lower);
+    case Transform::linear:
+      break;
+  }
+  return 1;
 }
 
 /// Builds one parameter of a case from what the model announces.
@@ -41,10 +66,12 @@ class Builder {
     made_.name = name;
     made_.unit = given.factor ? "1" : first_.unit;
     made_.walk = given.walk;
-    for (const std::string& target : given.of) add(find(announced, target, where("of")));
     made_.transform = transform_named(given.transform == "announced" ? first_.transform : given.transform);
-    made_.range = narrowed(given.factor ? Range{} : Range{first_.lower, first_.upper}, given);
-    set_prior();
+    for (const std::string& target : given.of) add(find(announced, target, where("of")));
+    bound();
+    made_.prior_mean = theta_of(mean_ = given.mean.value_or(given.factor ? 1 : usual_value()));
+    made_.prior_deviation = given.deviation ? *given.deviation : announced_deviation();
+    check_reach();
   }
   IdentifiedParameter take() { return std::move(made_); }
 
@@ -55,33 +82,74 @@ class Builder {
     if (!given_.factor && info.unit != first_.unit)
       throw input_error("{}: {} is in {}, {} in {}: one parameter cannot set both", where("of"), first_.name,
                         first_.unit, info.name, info.unit);
-    made_.targets.push_back({info.name, given_.factor ? info.value : 1, {info.lower, info.upper}});
+    if (given_.factor && info.value == 0)
+      throw input_error("{}: {} is 0 in the case, and stays 0 whatever the factor", where("of"), info.name);
+    made_.targets.push_back({info.name, given_.factor ? info.value : 1});
+    made_.range = common(made_.range, admitted(info, made_.targets.back().scale));
   }
-  void set_prior() {
+  void bound() {
+    const Range model = made_.range;
+    made_.range = common(model, {given_.lower.value_or(-infinite), given_.upper.value_or(infinite)});
+    if (!(made_.range.lower < made_.range.upper))
+      throw input_error("{}: the model admits {} to {} only", where(given_.lower ? "lower" : "upper"), model.lower,
+                        model.upper);
     if (made_.transform == Transform::bounded &&
         !(std::isfinite(made_.range.lower) && std::isfinite(made_.range.upper)))
       throw input_error("{}: must be given for a bounded parameter, and upper too", where("lower"));
-    const double mean = given_.mean.value_or(given_.factor ? 1 : usual_value());
-    try {
-      made_.prior_mean = stretched(made_.transform, mean, made_.range);
-    } catch (const InputError& error) {
-      throw input_error("{}: {}{}", where("mean"), error.what(), given_.mean ? "" : " (the case's value; give a mean)");
-    }
-    made_.prior_deviation = given_.deviation.value_or(first_.prior_deviation);
-    if (!(made_.prior_deviation > 0))
+  }
+  double theta_of(double mean) const {
+    const char* whose = given_.mean ? "" : " (the case's value; give a mean)";
+    if (is_logarithmic(made_.transform) && !(mean > 0))
+      throw input_error("{}: {} has no logarithm{}", where("mean"), mean, whose);
+    if (!(mean > made_.range.lower && mean < made_.range.upper))
+      throw input_error("{}: {} is not between the bounds {} and {}{}", where("mean"), mean, made_.range.lower,
+                        made_.range.upper, whose);
+    return stretched(made_.transform, mean, made_.range);
+  }
+
+  /// The deviation that the model announces, in the number's own theta, is that of this parameter's theta at the mean.
+  double announced_deviation() const {
+    if (!(first_.prior_deviation > 0))
       throw input_error("{}: must be given: the model announces none for {}", where("deviation"), first_.name);
+    const double scale = made_.targets.front().scale;
+    const Transform own = transform_named(first_.transform);
+    const double of_value =
+        first_.prior_deviation * std::abs(slope(own, mean_ * scale, {first_.lower, first_.upper}) / scale);
+    const double deviation = of_value / slope(made_.transform, mean_, made_.range);
+    const bool is_converted = own != made_.transform || given_.factor;
+    const bool reaches = made_.transform == Transform::linear &&
+                         (mean_ - deviation <= made_.range.lower || mean_ + deviation >= made_.range.upper);
+    if (!std::isfinite(deviation) || (is_converted && reaches))
+      throw input_error(
+          "{}: must be given: what the model announces for {}, {} of its {}, reaches beyond the bounds {} and {} if "
+          "the "
+          "transform is {}",
+          where("deviation"), first_.name, first_.prior_deviation, first_.transform, made_.range.lower,
+          made_.range.upper, name_of(made_.transform));
+    return deviation;
+  }
+
+  /// Two deviations from the mean there must still be numbers.
+  void check_reach() const {
+    for (const double side : {-2.0, 2.0}) {
+      const double value = unstretched(made_.transform, made_.prior_mean + side * made_.prior_deviation, made_.range);
+      if (!std::isfinite(value) || (is_logarithmic(made_.transform) && !(value > 0)))
+        throw input_error("{}: {} of the {} is too large: two deviations from the mean the value would be {}",
+                          where("deviation"), made_.prior_deviation,
+                          made_.transform == Transform::linear ? "value" : name_of(made_.transform), value);
+    }
   }
 
   /// The case's value; of an effect that is absent, and has no logarithm there, the scale that the model announces.
   double usual_value() const {
-    const bool logarithmic = made_.transform == Transform::log || made_.transform == Transform::log2;
-    return logarithmic && first_.value == 0 && first_.scale > 0 ? first_.scale : first_.value;
+    return is_logarithmic(made_.transform) && first_.value == 0 && first_.scale > 0 ? first_.scale : first_.value;
   }
 
   const ParameterCase& given_;
   std::string path_;
   const CaseFile& file_;
   const ParameterInfo& first_;
+  double mean_ = 0;  ///< value before the data
   IdentifiedParameter made_;
 };
 
@@ -108,7 +176,11 @@ double admissible(const Range& range, double value, double inside) {
 }  // namespace
 
 double IdentifiedParameter::value(double theta) const {
-  return unstretched(transform, theta, range);
+  return admissible(range, unstretched(transform, theta, range), unstretched(transform, prior_mean, range));
+}
+
+bool IdentifiedParameter::is_moved(double theta) const {
+  return value(theta) != unstretched(transform, theta, range);
 }
 
 IdentifiedParameters::IdentifiedParameters(const IdentificationCase& given, const std::vector<ParameterInfo>& announced,
@@ -140,22 +212,22 @@ VectorXd IdentifiedParameters::walked(double dt) const {
   return variances;
 }
 
-NamedValues IdentifiedParameters::values(const VectorXd& theta) const {
+NamedValues IdentifiedParameters::values_at(const VectorXd& theta) const {
   NamedValues all;
   for (std::size_t i = 0; i < list_.size(); ++i) {
-    const IdentifiedParameter& parameter = list_[i];
-    const double value = parameter.value(theta(static_cast<Eigen::Index>(i))),
-                 prior = parameter.value(parameter.prior_mean), kept = admissible(parameter.range, value, prior);
-    bool was_moved = kept != value;
-    for (const auto& target : parameter.targets) {
-      const double wanted = kept * target.scale, admitted = admissible(target.range, wanted, prior * target.scale);
-      was_moved = was_moved || admitted != wanted;
+    const double value = list_[i].value(theta(static_cast<Eigen::Index>(i)));
+    for (const auto& target : list_[i].targets) {
       all.names.push_back(target.name);
-      all.values.push_back(admitted);
+      all.values.push_back(value * target.scale);
     }
-    moved_ += was_moved ? 1 : 0;
   }
   return all;
+}
+
+NamedValues IdentifiedParameters::values(const VectorXd& theta) const {
+  for (std::size_t i = 0; i < list_.size(); ++i)
+    moved_ += list_[i].is_moved(theta(static_cast<Eigen::Index>(i))) ? 1 : 0;
+  return values_at(theta);
 }
 
 }  // namespace tether

@@ -48,12 +48,17 @@ std::vector<std::string> draw(const fs::path& output, const Json& estimate) {
   return {"estimate.png"};
 }
 
+std::string remark_on(const Json& p, double shrunk) {
+  if (p["at_bound"].is_string()) return fmt::format("at its {} bound", p["at_bound"].get<std::string>());
+  return shrunk > 0.7 ? "these data hardly tell" : "";
+}
+
 std::string line_of(const Json& p) {
   const Json &now = p["estimate"], &prior = p["prior"];
   const double shrunk = now["theta_deviation"].get<double>() / prior["theta_deviation"].get<double>();
   return fmt::format("  {:<22} {:>10.4g}  ({:.3g} .. {:.3g}) {:<14} {:>6.3f} {}\n", p["name"].get<std::string>(),
                      now["value"].get<double>(), now["lower_95"].get<double>(), now["upper_95"].get<double>(),
-                     p["unit"].get<std::string>(), shrunk, shrunk > 0.7 ? "these data hardly tell" : "");
+                     p["unit"].get<std::string>(), shrunk, remark_on(p, shrunk));
 }
 
 /// What is consistent with what was assumed, and what is not.
@@ -93,6 +98,7 @@ std::string text_of(const Json& estimate, const fs::path& output, const std::vec
 
 int identify(const CommandLine& command) {
   check_case(command);
+  check_identification(command);
   const CaseFile file(command.case_file);
   const fs::path output = claim_output(command, file);
   if (const int code = run_in_foreground(parallel_run("identification_master", command)); code != exit_done)

@@ -6,6 +6,8 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/output_folder.hpp"
 
 namespace tether {
 namespace {
@@ -29,6 +31,39 @@ void add_terminal(std::vector<std::pair<std::string, std::string>>& environment)
     environment.emplace_back("COLUMNS", std::to_string(size.ws_col));
 }
 
+/// The file by which a run's programs let this process know that they said why they failed; gone with this process.
+class NoteOfFailure {
+ public:
+  NoteOfFailure() { remove(); }
+  ~NoteOfFailure() { remove(); }
+  NoteOfFailure(const NoteOfFailure&) = delete;
+  NoteOfFailure& operator=(const NoteOfFailure&) = delete;
+  std::string path() const { return path_.string(); }
+  /// Whether there was one.
+  bool remove() {
+    std::error_code error;
+    return std::filesystem::remove(path_, error);
+  }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() / fmt::format("tether_told_{}", getpid());
+};
+
+NoteOfFailure& note_of_failure() {
+  static NoteOfFailure note;
+  return note;
+}
+
+/// How to go on from the last state saved; nothing if there is none.
+std::string way_on(const char* verb, const CommandLine& command) {
+  const std::filesystem::path output = output_of(command, CaseFile(command.case_file));
+  std::error_code error;
+  if (!std::filesystem::exists(output / "checkpoint", error) || std::filesystem::is_empty(output / "checkpoint", error))
+    return {};
+  return fmt::format("To continue: tether {} {} --output {} --resume\n", verb, command.case_file.string(),
+                     output.string());
+}
+
 }  // namespace
 
 std::filesystem::path sibling(const std::string& name) {
@@ -43,6 +78,8 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
               {}};
   add_options(run.words, command);
   add_terminal(run.environment);
+  note_of_failure().remove();
+  run.environment.emplace_back("TETHER_TOLD", note_of_failure().path());
   if (geteuid() == 0) {
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
@@ -51,10 +88,11 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
 }
 
 int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command) {
-  if (code > 128)
-    std::cerr << fmt::format(
-        "tether: {} was ended by signal {}{}; the last checkpoint is kept: tether {} {} --resume\n", master, code - 128,
-        code == 128 + 9 ? " (killed; out of memory?)" : "", verb, command.case_file.string());
+  const bool is_told = note_of_failure().remove();
+  if (code > 128 && !is_told)
+    std::cerr << fmt::format("tether: {} was ended by signal {}{}\n", master, code - 128,
+                             code == 128 + 9 ? " (killed; out of memory?)" : "");
+  if (code > 128) std::cerr << way_on(verb, command);
   return code == exit_input_wrong ? code : exit_run_failed;
 }
 

@@ -16,8 +16,9 @@ std::filesystem::path sibling(const std::string& name);
 /// the superuser, that this is meant.
 Command parallel_run(const std::string& master, const CommandLine& command);
 
-/// The master says why a run failed, unless it was killed itself: mpirun then ends with 128 and the signal's number.
-/// Says that, and how to go on; returns the exit code of the front-end.
+/// The master says why a run failed, unless it was killed itself: mpirun ends with 128 and the signal's number if any
+/// process was. Says so if the master could not, and how to go on from what is saved; returns the front-end's exit
+/// code.
 int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command);
 
 }  // namespace tether

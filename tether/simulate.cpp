@@ -35,9 +35,14 @@ void check_case(const CommandLine& command) {
   check_with("fsi_master", command);
 }
 
+void check_identification(const CommandLine& command) {
+  check_with("identification_master", command);
+}
+
 int validate(const CommandLine& command) {
   check_case(command);
   check_with("observation_manager", command);
+  if (CaseFile(command.case_file).has("identification")) check_identification(command);
   check_twin(command);
   if (!command.quiet) std::cout << command.case_file.string() << ": valid\n";
   return exit_done;

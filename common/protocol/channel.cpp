@@ -2,8 +2,18 @@
 
 namespace tether::protocol {
 
+namespace {
+
+/// By what users see of it: both roles of observations are played by one program.
+std::string program_of(const std::string& role) {
+  return role.ends_with("_observation") ? "observation_manager" : role;
+}
+
+}  // namespace
+
 std::string Peer::describe() const {
-  return pid == 0 ? role : fmt::format("{} (pid {} on {})", role, pid, host);
+  const std::string program = program_of(role);
+  return pid == 0 ? program : fmt::format("{} (pid {} on {})", program, pid, host);
 }
 
 std::string Peer::failure(const std::string& message) const {

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "identification_master/estimate_files.hpp"
+#include "identification_master/identified_case.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {
@@ -14,7 +19,8 @@ const std::vector<protocol::ParameterInfo> announced{
     {"solid.poisson", "", "1", "bounded", 0.4, undefined, 0, 0.5, 0.3, undefined},
     {"solid.none.stiffness", "", "g/(cm2 s2)", "log2", 0, 0, 0, infinite, 2, undefined},
     {"solid.absent.stiffness", "", "g/(cm2 s2)", "log2", 0, 0, 0, infinite, 2, 3e5},
-    {"fluid.shift", "", "s", "linear", 0, 0, -0.1, 0.1, undefined, undefined}};
+    {"fluid.shift", "", "s", "linear", 0, 0, -0.1, 0.1, undefined, undefined},
+    {"fluid.age", "", "s", "linear", 50, undefined, 0, infinite, 5, undefined}};
 
 class Parameters : public testing::Test {
  protected:
@@ -77,6 +83,50 @@ TEST_F(Parameters, StayWithinWhatTheModelAdmits) {
   EXPECT_EQ(parameters.moved(), 1);
 }
 
+TEST_F(Parameters, OutputsSayTheValueThatIsRun) {
+  const IdentifiedParameters parameters =
+      made("    a: {of: [solid.a.stiffness], upper: 2e5}\n    nu: {of: [solid.poisson]}\n");
+  const VectorXd beyond = Eigen::Vector2d(std::log2(8e5), 0);
+  const double run = parameters.values(beyond).values[0];
+  EXPECT_NEAR(run, 2e5 - 1e-3 * 1e5, 1e-6);
+  const IdentifiedParameter& a = parameters.list()[0];
+  EXPECT_EQ(a.value(beyond(0)), run);
+  EXPECT_TRUE(a.is_moved(beyond(0)));
+  EXPECT_FALSE(a.is_moved(a.prior_mean));
+  const ValueEstimate estimate = estimate_of(a, beyond(0), 3);
+  EXPECT_EQ(estimate.median, run);
+  EXPECT_NEAR(estimate.lower, 8e5 * std::exp2(-1.959963984540054 * 3), 1);
+  EXPECT_EQ(estimate.upper, 2e5) << "the interval ends at the bound";
+  EXPECT_EQ(estimate_of(a, std::log2(8e5), 0.1).lower, run);
+
+  const CaseFile file(folder / "case.yaml");
+  write_identified_case(folder / "identified.yaml", file, parameters, beyond);
+  const CaseFile found(folder / "identified.yaml");
+  EXPECT_DOUBLE_EQ(std::stod(found.given("solid.a.stiffness")), run);
+  write_estimates(folder / "estimate.csv", parameters, {{.mean = beyond, .covariance = MatrixXd::Identity(2, 2)}});
+  EXPECT_DOUBLE_EQ(CsvTable(folder / "estimate.csv").numbers("a").front(), run);
+  EXPECT_EQ(parameters.moved(), 1) << "writing is no move";
+}
+
+TEST_F(Parameters, OfAFactorAreBoundedByAllItsNumbers) {
+  const IdentifiedParameters parameters =
+      made("    nu: {of: [solid.poisson], factor: true, transform: linear, deviation: 0.1}\n");
+  const NamedValues values = parameters.values(VectorXd::Constant(1, 2));
+  EXPECT_NEAR(values.values[0], 0.5 - 1e-3 * 0.1, 1e-12);
+  EXPECT_NEAR(parameters.list()[0].value(2) * 0.4, values.values[0], 1e-14) << "the factor that is run";
+}
+
+TEST_F(Parameters, ToldInAnotherThetaKeepTheAnnouncedDeviation) {
+  const auto deviation = [&](const std::string& text) { return made(text).list()[0].prior_deviation; };
+  EXPECT_NEAR(deviation("    a: {of: [solid.a.stiffness], transform: log}\n"), 2 * std::log(2), 1e-12);
+  EXPECT_NEAR(deviation("    a: {of: [solid.a.stiffness], factor: true}\n"), 2, 1e-12) << "a factor of four";
+  EXPECT_NEAR(deviation("    nu: {of: [solid.poisson], transform: linear}\n"), 0.3 * 0.4 * 0.1 / 0.5, 1e-12);
+  EXPECT_NEAR(deviation("    age: {of: [fluid.age], factor: true}\n"), 5.0 / 50, 1e-12) << "of a factor, not of 50";
+  EXPECT_NE(refusal("    a: {of: [solid.a.stiffness], transform: linear}\n").find("deviation: must be given"),
+            std::string::npos)
+      << "a factor of four either way is no normal distribution of the value";
+}
+
 TEST_F(Parameters, BadOnesAreNamedWithTheirLine) {
   const auto expect = [&](const std::string& text, const std::string& part) {
     const std::string told = refusal(text);
@@ -88,8 +138,34 @@ TEST_F(Parameters, BadOnesAreNamedWithTheirLine) {
   expect("    shift: {of: [fluid.shift]}\n", "must be given: the model announces none for fluid.shift");
   expect("    a: {of: [solid.a.stiffness, solid.poisson]}\n", "one parameter cannot set both");
   expect("    a: {of: [solid.a.stiffness], transform: bounded}\n", "must be given for a bounded parameter");
+  expect("    a: {of: []}\n", "of: must name at least one number");
+  expect("    a: {of: [solid.a.stiffness], upper: 2e5, mean: 3e5}\n",
+         "mean: 300000 is not between the bounds 0 and 200000");
+  expect("    a: {of: [solid.a.stiffness], lower: 2e5}\n",
+         "100000 is not between the bounds 200000 and inf (the case's");
+  expect("    nu: {of: [solid.poisson], transform: linear, mean: 0.7}\n",
+         "mean: 0.7 is not between the bounds 0 and 0.5");
+  expect("    a: {of: [solid.a.stiffness], transform: linear, mean: -1e5, deviation: 1}\n",
+         "mean: -100000 is not between");
+  expect("    nu: {of: [solid.poisson], lower: 0.6}\n", "lower: the model admits 0 to 0.5 only");
+  expect("    n: {of: [solid.none.stiffness], factor: true}\n", "stays 0 whatever the factor");
+  expect("    a: {of: [solid.a.stiffness], deviation: 1000}\n", "deviation: 1000 of the log2 is too large");
   EXPECT_NE(refusal("    a: {of: [solid.a.stiffness]}\n    b: {of: [solid.a.stiffness]}\n").find("already set by a"),
             std::string::npos);
+}
+
+TEST_F(Parameters, NamesThatTablesAndPlotsCannotCarryAreRefused) {
+  const auto expect = [&](const std::string& text, const std::string& part) {
+    const std::string told = refusal(text);
+    EXPECT_NE(told.find(part), std::string::npos) << told;
+    EXPECT_NE(told.find("case.yaml:"), std::string::npos) << told;
+  };
+  for (const char* name : {"'a\"b'", "'a,b'", "'a`b'", "'a[b]'"})
+    expect(fmt::format("    {}: {{of: [solid.a.stiffness]}}\n", name), "tables and plots cannot carry");
+  expect("    a: {of: [solid.a.stiffness]}\n    a.lower: {of: [solid.b.stiffness]}\n",
+         "two columns of estimate.csv would be called \"a.lower\"");
+  expect("    time: {of: [solid.a.stiffness]}\n", "two columns");
+  EXPECT_EQ(refusal("    left spine.k_1: {of: [solid.a.stiffness]}\n"), "accepted");
 }
 
 }  // namespace

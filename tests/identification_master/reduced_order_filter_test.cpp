@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "identification_master/identifiability.hpp"
 #include "identification_master/sigma_points.hpp"
 #include "tests/identification_master/linear_system.hpp"
 
@@ -179,6 +180,26 @@ TEST(ReducedOrderFilter, ForgetsWhatWasLearnedAndNotThePrior) {
   filter.forget(0.25, prior);
   EXPECT_LT((filter.covariance().inverse() - prior.inverse() - 0.25 * learned).norm(), 1e-10 * learned.norm());
   EXPECT_LT((filter.mean() - mean).norm(), 1e-12);
+}
+
+/// The prior's information is 1 each; the data add J.
+VectorXd retained(const MatrixXd& J) {
+  const MatrixXd prior = MatrixXd::Identity(2, 2);
+  return identifiability(prior, (prior + J).inverse()).retained;
+}
+
+TEST(Identifiability, WhatOthersCanSayAsWellIsNotRetained) {
+  const VectorXd alone = retained(Eigen::Vector2d(3, 8).asDiagonal()),
+                 alike = retained((MatrixXd(2, 2) << 8, 7.9, 7.9, 8).finished());
+  EXPECT_NEAR(alone(0), 1, 1e-12);
+  EXPECT_NEAR(alone(1), 1, 1e-12);
+  EXPECT_NEAR(alike(0), (8 - 7.9 * 7.9 / 9) / 8, 1e-12);
+}
+
+TEST(Identifiability, NumbersWithoutEffectRetainNothing) {
+  const VectorXd found = retained((MatrixXd(2, 2) << 0.04, 0.02, 0.02, 8).finished());
+  EXPECT_EQ(found(0), 0);
+  EXPECT_GT(found(1), 0.99);
 }
 
 }  // namespace

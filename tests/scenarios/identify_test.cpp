@@ -122,6 +122,8 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
   ASSERT_EQ(tether("identify", case_file, "whole", {}).exit_code, 0);
   for (const char* program : {"solid", "fsi_master", "observation_manager"}) {
     const std::string output = std::string("killed_") + program;
+    fs::copy(folder / "whole", folder / output, fs::copy_options::recursive);  // what a run before left
+    fs::remove_all(folder / output / "checkpoint");
     auto end = std::async(std::launch::async, [&] { return tether("identify", case_file, output, {}); });
     const auto saved = folder / output / "checkpoint/identification.bin";
     while (!fs::exists(saved) && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
@@ -132,10 +134,11 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
     const ChildEnd ended = end.get();
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - killed).count(), 10);
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_NE(
-        ended.errors.find(fmt::format(
-            "{} (pid {}", std::string_view(program) == "observation_manager" ? "solid_observation" : program, process)),
-        std::string::npos)
+    EXPECT_NE(ended.errors.find(fmt::format("{} (pid {}", program, process)), std::string::npos) << ended.errors;
+    for (const char* old : {"estimate.json", "identified.yaml", "plots/estimate.png"})
+      EXPECT_FALSE(fs::exists(folder / output / old)) << old << " of the run before";
+    EXPECT_EQ(ended.errors.find("ended by signal"), std::string::npos) << "one message is enough: " << ended.errors;
+    EXPECT_NE(ended.errors.find(fmt::format("--output {} --resume", (folder / output).string())), std::string::npos)
         << ended.errors;
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     EXPECT_EQ(process_of("fluid", case_file), 0) << "an orphan";

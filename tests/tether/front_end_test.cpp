@@ -118,6 +118,25 @@ TEST_F(FrontEnd, CallsAKilledRunFailed) {
   EXPECT_NE(end.errors.find("tether: fsi_master was ended by signal 9"), std::string::npos) << end.errors;
 }
 
+TEST_F(FrontEnd, AddsHowToGoOnToWhatTheRunSaid) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; touch results/checkpoint/state; "
+          "echo 'fsi_master: solid died' >&2; touch $TETHER_TOLD; kill -KILL $$");
+  EXPECT_EQ(tether("simulate case.yaml --quiet --output results").errors,
+            "fsi_master: solid died\nTo continue: tether simulate case.yaml --output results --resume\n");
+}
+
+TEST_F(FrontEnd, ValidatesAnIdentificationToo) {
+  program("identification_master", "echo 'case.yaml:5: identification.observe: sometimes' >&2; exit 2");
+  EXPECT_EQ(tether("validate case.yaml").exit_code, 0) << "the case identifies nothing";
+  std::ofstream(folder_ / "case.yaml", std::ios::app) << "identification: {observe: sometimes}\n";
+  for (const char* verb : {"validate", "identify"}) {
+    const ChildEnd end = tether(std::string(verb) + " case.yaml");
+    EXPECT_EQ(end.exit_code, 2);
+    EXPECT_EQ(end.errors, "case.yaml:5: identification.observe: sometimes\n") << verb;
+  }
+}
+
 TEST_F(FrontEnd, KeepsAnotherCasesResults) {
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0);
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "the same case may run again";
