@@ -21,6 +21,7 @@
 #include "identification_master/group_pool.hpp"
 #include "identification_master/identification_case.hpp"
 #include "identification_master/identified_case.hpp"
+#include "identification_master/sensitivity_tables.hpp"
 
 namespace tether {
 namespace {
@@ -65,7 +66,8 @@ IdentificationPlan plan_of(const IdentifiedCase& given, const CommandLine& comma
   plan.start = time.start;
   plan.dt = time.step;
   plan.steps = command.steps.value_or(time.steps());
-  plan.every_step = given.identification.observe == "every_step";
+  plan.every_step = given.identification.observe != "frames";
+  plan.corrects = given.identification.observe != "never";
   plan.reject_beyond = given.identification.reject_beyond;
   plan.memory_time = given.identification.memory_time;
   plan.largest_shift = given.identification.largest_shift;
@@ -134,6 +136,16 @@ std::vector<std::string> notices_of(const std::vector<EstimateRecord>& records) 
       all.tempered_steps, records.size() - 1, all.used, all.data)};
 }
 
+SensitivityTables tables_of(const IdentifiedCase& given, const fs::path& output, const Observations& data,
+                            const DataPrecision& precision, const protocol::Hello& model) {
+  std::vector<std::string> names, units{given.file.units().symbol(dimension::length)};
+  for (const auto& [name, parameter] : given.identification.parameters) names.push_back(name);
+  for (const Trace& trace : data.traces)
+    for (const auto& observable : model.observables)
+      if (observable.name == trace.observable) units.push_back(observable.unit);
+  return {output, data, given.lumen(), names, precision.deviations(), units};
+}
+
 /// One identification from the launch of the groups to its files.
 class Job {
  public:
@@ -171,7 +183,8 @@ class Job {
       throw run_error("{}\n{}", error.what(), what_is_saved());
     }
     save();
-    write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
+    if (plan_.corrects)
+      write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
     const std::vector<std::string> notices = notices_of(filter_.state().records);
     write_estimate(output_ / "estimate.json", parameters_, filter_, facts(notices));
     if (!command_.quiet)
@@ -191,6 +204,7 @@ class Job {
       cost_before_ = checkpoint.cost;
       saved_ = filter_.state().step;
     }
+    if (!plan_.corrects) begin_sensitivities();
     if (command_.quiet) return;
     for (const std::string& notice : pool_.model().notices) std::cout << notice << "\n";
     std::cout << fmt::format("{} parameters, {} particles on {} groups of processes\n", parameters_.list().size(),
@@ -198,6 +212,11 @@ class Job {
               << std::flush;
     if (const int last = given_.file.common().time.steps(); plan_.steps > last)
       std::cout << fmt::format("--steps {}: beyond time.end, which {} steps reach\n", plan_.steps, last) << std::flush;
+  }
+  void begin_sensitivities() {
+    auto tables = std::make_shared<SensitivityTables>(tables_of(given_, output_, data_, precision_, pool_.model()));
+    command_.resume ? tables->continue_from(filter_.last().time) : tables->begin();
+    filter_.report_sensitivities([tables](const StepSensitivities& step) { tables->add(step); });
   }
   void save() {
     write_estimates(output_ / "estimate.csv", parameters_, filter_.state().records);

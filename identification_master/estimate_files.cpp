@@ -9,6 +9,7 @@
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
 #include "identification_master/identifiability.hpp"
+#include "identification_master/sensitivity_tables.hpp"
 
 namespace tether {
 namespace {
@@ -116,8 +117,8 @@ Json innovations_json(const Identification& done) {
 }  // namespace
 
 void remove_old_estimates(const std::filesystem::path& output) {
-  for (const char* name :
-       {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png", "checkpoint/identification.bin"})
+  for (const char* name : {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png",
+                           SensitivityTables::by_region, SensitivityTables::by_datum, "checkpoint/identification.bin"})
     std::filesystem::remove(output / name);
 }
 
@@ -148,11 +149,14 @@ void write_estimate(const std::filesystem::path& path, const IdentifiedParameter
                   {"case_file", facts.case_file},
                   {"time", last.time},
                   {"steps", done.state().step},
+                  {"corrected", done.plan().corrects},
                   {"parameters", parameters_json(parameters, done, what)},
                   {"correlations", rows_of(correlations(last.covariance))},
                   {"covariance_of_theta", rows_of(last.covariance)},
                   {"identifiability",
-                   {{"information", list_of(what.information)}, {"directions", rows_of(what.directions.transpose())}}},
+                   {{"gramian", rows_of(what.gramian)},
+                    {"information", list_of(what.information)},
+                    {"directions", rows_of(what.directions.transpose())}}},
                   {"innovations", innovations_json(done)},
                   {"values_moved_into_their_range", facts.cost.moved_values},
                   {"notices", facts.notices},

@@ -16,7 +16,8 @@ Identifiability identifiability(const MatrixXd& prior, const MatrixXd& posterior
   const MatrixXd root = Eigen::SelfAdjointEigenSolver<MatrixXd>(prior).operatorSqrt();
   const MatrixXd gramian = root * posterior.llt().solve(root) - MatrixXd::Identity(p, p);  // (K.7)
   const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum((gramian + gramian.transpose()) / 2);
-  Identifiability result{spectrum.eigenvalues().reverse(), spectrum.eigenvectors().rowwise().reverse(), VectorXd(p)};
+  Identifiability result{(gramian + gramian.transpose()) / 2, spectrum.eigenvalues().reverse(),
+                         spectrum.eigenvectors().rowwise().reverse(), VectorXd(p)};
   const MatrixXd inverse = (gramian + MatrixXd::Identity(p, p)).inverse();
   for (Eigen::Index i = 0; i < p; ++i) {
     const double alone = gramian(i, i), with_others = 1 / inverse(i, i) - 1;

@@ -6,7 +6,8 @@ namespace tether {
 
 /// What the data said about each combination of parameters, in units of the prior. (K.7)
 struct Identifiability {
-  VectorXd information;  ///< eigenvalues of P0^1/2 (P^-1 - P0^-1) P0^1/2, largest first: the prior's variance over the
+  MatrixXd gramian;      ///< P0^1/2 (P^-1 - P0^-1) P0^1/2: the data's information, in prior deviations of theta
+  VectorXd information;  ///< its eigenvalues, largest first: the prior's variance over the
                          ///< data's
   MatrixXd directions;   ///< their eigenvectors, one a column, in prior deviations of theta
   VectorXd retained;     ///< of each parameter: share of its information that the others do not explain away; 0 if the

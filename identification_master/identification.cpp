@@ -1,5 +1,6 @@
 #include "identification_master/identification.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +20,10 @@ std::size_t observable_of(const Trace& trace, const protocol::Hello& model) {
   throw input_error("observations.traces.{}: the model has no observable {}; {}", trace.name, trace.observable,
                     near.empty() ? "it has " + listed(known) : fmt::format("did you mean {}?", near));
 }
+
+/// Spread of the particles over that of the prior if nothing is corrected: so near the mean, the model's curvature
+/// gives no sensitivity to numbers that have none (at 1 it does), and the coupling's tolerance does not show yet.
+constexpr double nearness = 0.05;
 
 MatrixXd diagonal(const VectorXd& variances) {
   return variances.asDiagonal();
@@ -46,13 +51,14 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
       precision_(precision),
       traces_(traces),
       ensemble_(ensemble),
-      filter_(parameters.prior_mean(), diagonal(parameters.prior_variances())) {
+      filter_(parameters.prior_mean(),
+              diagonal(parameters.prior_variances() * (plan.corrects ? 1 : nearness * nearness))) {
   for (const Trace& trace : traces) observable_.push_back(observable_of(trace, ensemble.model()));
   const Eigen::Index particles = filter_.particles().cols();
   state_.theta = filter_.particles();
   state_.states = ensemble.initial_state().replicate(1, particles);  // L_x = 0
   state_.memories.resize(static_cast<std::size_t>(particles));
-  state_.records.push_back({plan.start, filter_.mean(), filter_.covariance()});
+  state_.records.push_back({plan.start, parameters.prior_mean(), diagonal(parameters.prior_variances())});
 }
 
 void Identification::restore(IdentificationState state) {
@@ -74,16 +80,25 @@ void Identification::advance() {
   record.time = end;
   for (const ParticleReport& report : reports)
     record.evaluations += static_cast<double>(report.evaluations) / static_cast<double>(reports.size());
-  if (is_observed(step)) correct(reports, end, record);
+  if (plan_.corrects) {
+    if (is_observed(step)) correct(reports, end, record);
+    diffuse_and_forget();
+    record.covariance = filter_.covariance();
+  } else {
+    record.covariance = last().covariance;
+    if (is_observed(step)) note_sensitivities(reports, end, record);
+  }
+  record.mean = filter_.mean();
+  state_.theta = filter_.particles();
+  state_.records.push_back(std::move(record));
+  ++state_.step;
+}
+
+void Identification::diffuse_and_forget() {
   filter_.diffuse(parameters_.walked(plan_.dt));
   if (plan_.memory_time > 0)
     state_.states *=
         filter_.forget(std::exp(-plan_.dt / plan_.memory_time), diagonal(parameters_.prior_variances())).transpose();
-  record.mean = filter_.mean();
-  record.covariance = filter_.covariance();
-  state_.theta = filter_.particles();
-  state_.records.push_back(std::move(record));
-  ++state_.step;
 }
 
 bool Identification::is_observed(std::int64_t step) const {
@@ -141,6 +156,25 @@ void Identification::correct(const std::vector<ParticleReport>& reports, double 
   record.tempering = done.tempering;
   state_.states *= done.mix.transpose();  // (K.4)
   note_innovation(data);
+}
+
+/// The particles stay near the prior's mean, and the data of all steps add up to what they would leave: P^-1 =
+/// P_0^-1 + sum L_theta^-T L_d' W L_d L_theta^-1. (K.7)
+void Identification::note_sensitivities(const std::vector<ParticleReport>& reports, double time,
+                                        EstimateRecord& record) const {
+  const Data data = gather(reports, time);
+  const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies), &W = data.weights.precision;
+  const MatrixXd L_theta = ReducedOrderFilter::spread_of(filter_.particles());
+  const MatrixXd changes = -ReducedOrderFilter::spread_of(data.discrepancies) * L_theta.inverse() *
+                           parameters_.prior_variances().cwiseSqrt().asDiagonal();
+  const VectorXd scale = parameters_.prior_variances().cwiseSqrt().cwiseInverse();
+  const MatrixXd information =
+      scale.asDiagonal() * MatrixXd(changes.transpose() * W.asDiagonal() * changes) * scale.asDiagonal();
+  record.covariance = MatrixXd(record.covariance.inverse() + information).inverse();
+  record.data = effective_number(data);
+  record.expected_chi_square = W.dot(precision_.deviations().cwiseAbs2().cwiseProduct(data.weights.expected_squares));
+  record.chi_square = mean.dot(W.asDiagonal() * mean);
+  if (report_) report_({time, changes, W, data.weights.on_frame});
 }
 
 /// Each datum with itself at its series' last frame.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 
 #include "common/observation/observations.hpp"
 #include "identification_master/data_precision.hpp"
@@ -14,6 +15,7 @@ struct IdentificationPlan {
   double start = 0, dt = 0;  ///< [time]
   std::int64_t steps = 0;
   bool every_step = true;    ///< else only steps with frames
+  bool corrects = true;      ///< else particles stay as they are, and only what data would tell is noted
   double reject_beyond = 0;  ///< predicted standard deviations; 0: nothing is rejected
   double memory_time = 0;    ///< 0: nothing is forgotten
   double largest_shift = 2;  ///< of a correction, in deviations
@@ -34,6 +36,14 @@ struct EstimateRecord {
   double evaluations = 0;          ///< of the coupled model, mean over the particles
 
   double rejected_share() const { return rejected > 0 ? rejected / (data + rejected) : 0; }
+};
+
+/// How the model's observations change with the parameters at the end of a step: of samples, then of traces.
+struct StepSensitivities {
+  double time = 0;
+  MatrixXd changes;            ///< [m x p] per prior deviation of theta
+  VectorXd precision;          ///< [m] zero where there is no datum
+  std::vector<bool> on_frame;  ///< [m] whether it is a frame's own
 };
 
 /// Of all steps so far.
@@ -78,6 +88,8 @@ class Identification {
   /// Continues from such a state. Throws InputError if it does not fit.
   void restore(IdentificationState state);
   const EstimateRecord& last() const { return state_.records.back(); }
+  /// Called in each observed step if nothing is corrected.
+  void report_sensitivities(std::function<void(const StepSensitivities&)> to) { report_ = std::move(to); }
 
  private:
   struct Data {
@@ -90,6 +102,8 @@ class Identification {
   void reject_outliers(Data& data) const;
   void correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
   void note_innovation(const Data& data);
+  void note_sensitivities(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record) const;
+  void diffuse_and_forget();
 
   IdentificationPlan plan_;
   const IdentifiedParameters& parameters_;
@@ -99,6 +113,7 @@ class Identification {
   Ensemble& ensemble_;
   ReducedOrderFilter filter_;
   IdentificationState state_;
+  std::function<void(const StepSensitivities&)> report_;
 };
 
 }  // namespace tether

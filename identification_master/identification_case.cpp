@@ -76,7 +76,8 @@ void IdentificationCase::declare(Fields& f) {
   f.check(fault.empty(), "parameters", fault);
   f.choice("observe", observe,
            {{"every_step", "data are interpolated between frames, each frame counting once in all"},
-            {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"}},
+            {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"},
+            {"never", "nothing is corrected: only what the data would tell is written, with all sensitivities"}},
            "when the model is corrected");
   f.number("reject_beyond", reject_beyond, dimension::none, range::not_negative,
            "data whose distance exceeds its predicted standard deviation by this factor are left out; 0: none are");

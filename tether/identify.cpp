@@ -80,10 +80,22 @@ std::string judgement_of(const Json& estimate) {
   return text;
 }
 
+/// Instead of what is consistent and where the identified case is, if nothing was corrected.
+std::string what_data_would_tell(const fs::path& output) {
+  return fmt::format(
+      "  Nothing was corrected (observe: never): intervals and deviations are those that the data would leave.\n"
+      "In {}:\n  estimate.json      what the data would tell: Gramian, spectrum, correlations, retained information\n"
+      "  estimate.csv       the same over time\n"
+      "  sensitivities.csv  how each observation changes with each parameter, by region and step\n"
+      "  sensitivities_of_data.csv  the same, datum by datum, in the steps with frames\n",
+      output.string());
+}
+
 std::string text_of(const Json& estimate, const fs::path& output, const std::vector<std::string>& pictures) {
   std::string text =
       fmt::format("\n  {:<22} {:>10}  {:<38} {}\n", "parameter", "estimate", "95 % interval", "deviation after/before");
   for (const Json& p : estimate["parameters"]) text += line_of(p);
+  if (!estimate["corrected"].get<bool>()) return text + what_data_would_tell(output);
   text += judgement_of(estimate);
   text += fmt::format(
       "In {}:\n  estimate.json      estimates, correlations, what the data can tell, cost\n"

@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "identification_master/checkpoint.hpp"
+#include "identification_master/identifiability.hpp"
 #include "tests/identification_master/breathing_tube.hpp"
 #include "tests/io/temporary_folder.hpp"
 
@@ -129,6 +130,37 @@ TEST(Identification, ItsIntervalsHoldTheTruth) {
   }
   EXPECT_GE(inside, 108);
   std::printf("inside the 95 %% interval: %d of 120; mean error %.2g, %.2g\n", inside, mean_error(0), mean_error(1));
+}
+
+/// The tube is linear in its parameters, so what its data tell does not depend on where the particles are.
+TEST(Identification, WithoutCorrectionsItKnowsWhatTheDataWouldTell) {
+  Observations data = surfaces(24, 20, 0.3, -0.1, 24, 20);
+  data.traces.push_back({"gauge", "fluid.front", {0, 0.4}, {0, 0}, Curve({0, 0.4}, {0, 0}), {0.1, 0, 0}, 0.8});
+  BreathingEnsemble ensemble(data, 24, 20);
+  const IdentifiedParameters parameters = parameters_of_tube();
+  const DataPrecision precision(data, ensemble.lumen(), 0.01, {0, BreathingTube::beat});
+  IdentificationPlan plan{.start = 0, .dt = 0.01, .steps = 80, .largest_shift = 1e9};
+  Identification correcting(plan, parameters, precision, data.traces, ensemble);
+  plan.corrects = false;
+  Identification watching(plan, parameters, precision, data.traces, ensemble);
+  MatrixXd gramian = MatrixXd::Zero(2, 2);
+  watching.report_sensitivities([&](const StepSensitivities& step) {
+    const double swing = BreathingTube::swing(step.time);
+    gramian += step.changes.transpose() * step.precision.asDiagonal() * step.changes;
+    const auto gauge = step.changes.rows() - 1;
+    EXPECT_NEAR(step.changes(gauge, 0), 0.2 * swing, 1e-12) << "the trace is swing * front, front's deviation 0.2";
+    EXPECT_NEAR(step.changes(gauge, 1), 0, 1e-12);
+    EXPECT_NEAR(step.changes.col(0).head(gauge).maxCoeff(), 0.2 * swing, 0.02) << "the front moves outward";
+  });
+  while (!correcting.is_done()) correcting.advance();
+  while (!watching.is_done()) watching.advance();
+  EXPECT_LT((watching.last().mean - parameters.prior_mean()).norm(), 1e-14);
+  const MatrixXd apart = watching.state().theta.colwise() - parameters.prior_mean();
+  EXPECT_LT(apart.cwiseAbs().maxCoeff(), 0.1 * 0.2) << "so near that the model's curvature is no sensitivity";
+  EXPECT_LT((deviations(watching.last()).cwiseQuotient(deviations(correcting.last())).array() - 1).abs().maxCoeff(),
+            0.02);
+  const Identifiability what = identifiability(parameters.prior_variances().asDiagonal(), watching.last().covariance);
+  EXPECT_LT((what.gramian - gramian).norm(), 1e-9 * gramian.norm());
 }
 
 TEST(Identification, LeavesOutlyingDataOut) {

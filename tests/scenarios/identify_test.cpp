@@ -7,6 +7,7 @@
 #include <csignal>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <thread>
 
 #include "common/base/child_process.hpp"
@@ -179,6 +180,29 @@ TEST_F(Identify, ContinuesOnlyFromTheSameCaseAndMeasurements) {
   const Json found = estimate("part");
   EXPECT_GT(found["innovations"]["effective_data"], 0);
   EXPECT_GT(found["cost"]["cpu_seconds"], nothing["cost"]["cpu_seconds"]);
+}
+
+TEST_F(Identify, WithoutCorrectionsItWritesAllSensitivities) {
+  const fs::path watching =
+      case_variant(case_file, folder / "watching", {{"identification:", "identification:\n  observe: never"}});
+  const ChildEnd end = tether("identify", watching, "watched", {});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  const Json found = estimate("watched");
+  EXPECT_FALSE(found["corrected"]);
+  for (const Json& p : found["parameters"]) {
+    EXPECT_NEAR(p["estimate"]["theta"], p["prior"]["theta"].get<double>(), 1e-12);
+    EXPECT_LT(p["estimate"]["theta_deviation"], 0.5 * p["prior"]["theta_deviation"].get<double>());
+  }
+  EXPECT_FALSE(fs::exists(folder / "watched/identified.yaml"));
+  const CsvTable table(folder / "watched/sensitivities.csv");
+  const auto information = table.numbers("spine.information");
+  EXPECT_NEAR(std::accumulate(information.begin(), information.end(), 0.0),
+              found["identifiability"]["gramian"][0][0].get<double>(),
+              1e-3 * found["identifiability"]["gramian"][0][0].get<double>());
+  const auto regions = table.texts("region");
+  for (const char* region : {"spine", "opposite"})
+    EXPECT_NE(std::find(regions.begin(), regions.end(), region), regions.end());
+  EXPECT_GT(CsvTable(folder / "watched/sensitivities_of_data.csv").rows(), 100U);
 }
 
 TEST_F(Identify, SaysWhichNumberItDoesNotKnow) {
