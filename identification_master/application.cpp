@@ -18,6 +18,7 @@
 #include "identification_master/checkpoint.hpp"
 #include "identification_master/diagnosis_runs.hpp"
 #include "identification_master/estimate_files.hpp"
+#include "identification_master/group_memory.hpp"
 #include "identification_master/group_pool.hpp"
 #include "identification_master/identification_case.hpp"
 #include "identification_master/identified_case.hpp"
@@ -48,7 +49,8 @@ struct IdentifiedCase {
       throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
   }
   /// The wall's element does not matter: interface nodes are the same.
-  LumenSurface lumen() const { return lumen_of(load_mesh(mesh, file.units(), WallElement::prism)); }
+  VesselMesh vessel() const { return load_mesh(mesh, file.units(), WallElement::prism); }
+  LumenSurface lumen() const { return lumen_of(vessel()); }
   /// Prepared by tether diagnose: whole runs are wanted instead.
   bool is_diagnosis() const { return diagnosis.runs != "none"; }
   std::size_t particles() const { return identification.parameters.size() + 1; }
@@ -80,12 +82,19 @@ std::size_t cores() {
   return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
 }
 
-/// Groups that share the particles: what the mpirun line holds, what the user wants, or a group for each core.
+/// A group for each core, as far as memory goes.
+std::size_t groups_of_machine(const IdentifiedCase& given) {
+  const VesselMesh vessel = given.vessel();
+  const auto nodes = static_cast<std::size_t>(vessel.fluid.points.cols() + vessel.wall.points.cols());
+  return std::max<std::size_t>(1, std::min(cores(), groups_within(available_memory(), nodes)));
+}
+
+/// Groups that share the particles: what the mpirun line holds, what the user wants, or what the machine can hold.
 std::size_t group_count(const IdentifiedCase& given, const CommandLine& command, const protocol::Session& session) {
   if (const auto offered = session.offered("fsi_master")) return *offered;
   const int wanted = command.processes > 0 ? command.processes : given.identification.groups;
   const std::size_t most = given.is_diagnosis() ? cores() : given.particles();
-  return std::min(most, wanted > 0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(1, cores()));
+  return std::min(most, wanted > 0 ? static_cast<std::size_t>(wanted) : groups_of_machine(given));
 }
 
 std::vector<Partner*> launch_groups(std::size_t count, const fs::path& case_file, const fs::path& output,

@@ -86,9 +86,9 @@ void IdentificationCase::declare(Fields& f) {
   f.number(
       "largest_shift", largest_shift, dimension::none, range::positive,
       "of the parameters in one correction, in their standard deviations; beyond, its data get less weight for good");
-  f.integer(
-      "groups", groups, {0, 10000},
-      "groups of processes that share the particles; 0: one for each core, at most as many as there are particles");
+  f.integer("groups", groups, {0, 10000},
+            "groups of processes that share the particles; 0: one for each core as far as memory goes, at most as many "
+            "as there are particles");
 }
 
 }  // namespace tether
