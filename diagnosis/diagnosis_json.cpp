@@ -295,7 +295,7 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
     all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(named_of(report), "; and ")));
   if (found.verdict == "missing" && found.after.p < report.alpha / 5)
     all.push_back(fmt::format("Something smaller is left: {}", where_left(report.problem, found.after)));
-  if (found.verdict == "undecided" && found.doubtful)
+  if (found.verdict == "undecided" && found.doubtful && !report.problem.pattern_names.empty())
     all.push_back(fmt::format("Farthest off: {}", where_left(report.problem, found.after)));
   return all;
 }

@@ -240,6 +240,27 @@ TEST(EffectSearch, DoesNotDecideWhatTheDataCannotShow) {
   EXPECT_EQ(found(problem).verdict, "undecided");
 }
 
+/// Errors 1.3 times as large as stated, everywhere or in the held-out data only: no candidate does that.
+TEST(EffectSearch, DoubtsWhatChanceDoesNotExplain) {
+  const auto undecided = [](bool everywhere, double factor) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = band();
+          problem.residual = noise(generator);
+          if (everywhere)
+            problem.residual *= factor;
+          else
+            problem.residual(problem.held_out) *= factor;
+          const SearchResult result = found(problem);
+          return result.verdict == "undecided" && result.doubtful;
+        },
+        100);
+  };
+  EXPECT_GT(undecided(true, 1.3), 0.7);
+  EXPECT_GT(undecided(false, 1.6), 0.7);
+  EXPECT_LT(undecided(true, 1), 0.1);
+}
+
 TEST(EffectSearch, HeldOutDataDecide) {
   std::mt19937_64 generator(5);
   EffectProblem problem = band();
