@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 namespace tether {
 
 Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunResults& run) {
@@ -16,12 +18,31 @@ Comparison compare(const Observations& data, const std::vector<std::string>& reg
   return comparison;
 }
 
+namespace {
+
+/// What is to be looked at before any physics.
+std::string sentence_of(const Registration& found, const std::string& source, const UnitSystem& units) {
+  const Vec3 by = found.motion.displacement, turned = found.motion.rotation;
+  return fmt::format(
+      "{}: CHECK THE REGISTRATION: even the frame closest to the imaged lumen lies {:.2g} mm off it, and {:.2g} mm if "
+      "the data are moved back by ({:.2g}, {:.2g}, {:.2g}) mm and turned back by {:.2g} degrees about ({:.2g}, {:.2g}, "
+      "{:.2g})",
+      source, units.to_mm(found.before), units.to_mm(found.after), units.to_mm(by(0)), units.to_mm(by(1)),
+      units.to_mm(by(2)), turned.norm() * 180 / std::numbers::pi, turned.normalized()(0), turned.normalized()(1),
+      turned.normalized()(2));
+}
+
+}  // namespace
+
 std::vector<std::string> sentences_of(const Comparison& comparison) {
   std::vector<std::string> all;
   if (!comparison.run.is_evidence())
     all.push_back(fmt::format(
         "NO EVIDENCE: this run was pulled toward the data (observer.gain {:g} 1/s), which hides what the model lacks",
         comparison.run.observer_gain));
+  for (const SourceDiscrepancy& source : comparison.sources)
+    if (source.registration && source.registration->stands_out())
+      all.push_back(sentence_of(*source.registration, source.name, comparison.units));
   for (const SourceDiscrepancy& source : comparison.sources) {
     for (const bool held_out : {false, true})
       for (std::string& sentence : sentences_of(judge(source, held_out), source, held_out, comparison.units))

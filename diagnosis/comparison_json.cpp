@@ -88,6 +88,21 @@ Json verdict_json(const SourceDiscrepancy& source, bool held_out, const UnitSyst
   return json;
 }
 
+Json vector_json(const Vec3& v) {
+  return {v(0), v(1), v(2)};
+}
+
+Json registration_json(const SourceDiscrepancy& source) {
+  if (!source.registration) return nullptr;
+  const Registration& r = *source.registration;
+  return {{"displacement", vector_json(r.motion.displacement)},
+          {"rotation", vector_json(r.motion.rotation)},
+          {"centre", vector_json(r.motion.centre)},
+          {"before", r.before},
+          {"after", r.after},
+          {"stands_out", r.stands_out()}};
+}
+
 Json source_json(const SourceDiscrepancy& source, const UnitSystem& units) {
   Json json{{"name", source.name},
             {"kind", source.dimension == 2 ? "surfaces" : "contours"},
@@ -98,6 +113,7 @@ Json source_json(const SourceDiscrepancy& source, const UnitSystem& units) {
               {"correlation_length", source.noise.correlation_length},
               {"correlation_time", source.noise.correlation_time}}},
             {"notes", source.notes},
+            {"registration", registration_json(source)},
             {"frames", source.frames()},
             {"frames_outside_the_run", frames_json(source.outside, source)}};
   for (const auto& [name, held_out] : {std::pair{"training", false}, {"held_out", true}})

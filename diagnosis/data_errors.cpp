@@ -69,6 +69,41 @@ std::vector<Amplitude> in_space(const std::string& unit) {
   return all;
 }
 
+/// How far the data lie farther out if a source is turned about its middle, one column for each axis [n x 3]; and which
+/// of them the data show: a round tube does not, about its own axis.
+struct Turned {
+  Turned(const Evidence& evidence, std::size_t source) : columns(MatrixXd::Zero(evidence.places().cols(), 3)) {
+    Vec3 middle = Vec3::Zero();
+    double count = 0;
+    for (const auto& part : evidence.parts())
+      if (part.source == source) {
+        middle += evidence.places().middleCols(part.first, part.count).rowwise().sum();
+        count += static_cast<double>(part.count);
+      }
+    middle /= count;
+    for (const auto& part : evidence.parts())
+      for (Index i = part.first; part.source == source && i < part.first + part.count; ++i)
+        columns.row(i) = (evidence.places().col(i) - middle).cross(Vec3(evidence.normals().col(i))).transpose();
+    const Vec3 squares = columns.colwise().squaredNorm();
+    for (Index axis = 0; axis < 3; ++axis)
+      if (squares(axis) > hardly_seen * squares.maxCoeff()) seen.push_back(axis);
+  }
+  MatrixXd columns;
+  std::vector<Index> seen;
+  static constexpr double hardly_seen = 0.03;
+};
+
+std::vector<Amplitude> in_angle(const std::vector<Index>& axes) {
+  constexpr double far = 0.35;  // 20 degrees: beyond, first order says nothing
+  std::vector<Amplitude> all;
+  for (const Index axis : axes) {
+    const std::string name(1, "xyz"[axis]);
+    all.push_back(
+        {"about_" + name, "rotation of the data about " + name, "rad", false, undefined, 0, false, -far, far});
+  }
+  return all;
+}
+
 }  // namespace
 
 void append_columns(MatrixXd& to, const MatrixXd& columns) {
@@ -87,7 +122,8 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
                      const AllowanceCase& allowed, const std::string& unit_of_length, const std::string& unit_of_time) {
   DataErrors errors(problem, evidence);
   const MatrixXd ones = MatrixXd::Ones(problem.residual.size(), 1), normals = evidence.normals().transpose(),
-                 velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
+                 blurred = -0.5 * Eigen::Map<const VectorXd>(evidence.curvatures().data(), ones.rows()),  // (D.17)
+      velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
   const auto kind = Candidate::Kind::data;
   std::map<std::size_t, int> frames;
   for (const auto& part : evidence.parts()) frames[part.source] += 1;
@@ -102,9 +138,15 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
       errors.add({"misregistration", name, "The data are displaced as a whole", kind, {}, true},
                  in_space(unit_of_length), errors.only(normals, part.source, nullptr),
                  allowed.displacement.value_or(0.5 * sigma));
+      const Turned turned(evidence, part.source);
+      errors.add({"misrotation", name, "The data are turned as a whole, about their middle", kind, {}, true},
+                 in_angle(turned.seen), turned.columns(Eigen::all, turned.seen), 0);
       errors.add({"segmentation_bias", name, "The measured lumen is too large or too small all over", kind, {}, true},
                  {{"bias", "along the outward normal", unit_of_length}}, errors.only(ones, part.source, nullptr),
                  allowed.bias.value_or(0.5 * sigma));
+      errors.add({"blur", name, "The image is blurred, which draws a curved surface inward", kind, {}, true},
+                 {{"variance", "of the image's blur", unit_of_length + "2", true, undefined, 0, false, 0}},
+                 errors.only(blurred, part.source, nullptr), 0);
       errors.add({"gating_shift", name, "The times of all frames are off", kind, {}, true}, {shift},
                  errors.only(velocity, part.source, nullptr), allowed.time_shift.value_or(0));
     }

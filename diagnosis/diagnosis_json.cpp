@@ -43,7 +43,7 @@ Json json_of(const EffectProblem& problem, const TestedEffect& effect, Index own
   const FoundValue found = value_of(problem, effect, own);
   return {{"parameter", amplitude.name},  {"meaning", amplitude.meaning}, {"value", number(found.value)},
           {"lower", number(found.lower)}, {"upper", number(found.upper)}, {"unit", amplitude.unit},
-          {"without", amplitude.base}};
+          {"without", amplitude.base},    {"at_limit", effect.at_limit}};
 }
 
 Json json_of(const Gain& gain) {
@@ -167,9 +167,8 @@ std::string amplitude_text(const EffectProblem& problem, const TestedEffect& eff
   const Amplitude& amplitude = amplitude_of(problem, effect, own);
   const FoundValue found = value_of(problem, effect, own);
   const std::string name = amplitude.name.substr(amplitude.name.rfind('.') + 1);
-  return fmt::format("{} {}{} ({} .. {})", name, short_number(found.value),
-                     amplitude.unit == "1" ? "" : " " + amplitude.unit, short_number(found.lower),
-                     short_number(found.upper));
+  return fmt::format("{} {}{} ({})", name, short_number(found.value), amplitude.unit == "1" ? "" : " " + amplitude.unit,
+                     interval_text(effect, found));
 }
 
 std::string where_left(const EffectProblem& problem, const LackOfFit& lack) {
@@ -196,6 +195,10 @@ std::vector<std::string> named_of(const DiagnosisReport& report) {
     named.push_back(fmt::format("{}, {}", name_of(report.problem.candidates[effect->candidate]),
                                 amplitude_text(report.problem, *effect)));
   return named;
+}
+
+std::string refusal_text(const EffectProblem& problem, const SearchStep& step) {
+  return fmt::format("{} stands out, but {}", name_of(problem.candidates[step.candidate]), step.reason);
 }
 
 std::string verdict_sentence(const DiagnosisReport& report) {
@@ -231,9 +234,7 @@ std::string verdict_sentence(const DiagnosisReport& report) {
             fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect)));
     return fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
   }
-  if (!found.path.empty())
-    return fmt::format("UNDECIDED: {} stands out, but {}", name_of(problem.candidates[found.path.front().candidate]),
-                       found.path.front().reason);  // the best of them
+  if (!found.path.empty()) return "UNDECIDED: " + refusal_text(problem, found.path.front());  // the best of them
   return found.doubtful ? "UNDECIDED: no candidate stands out, but the model is off by more than noise and the errors "
                           "allowed make by chance"
                         : "UNDECIDED: these data would not show any candidate at the size that it may have";
@@ -267,6 +268,10 @@ FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, In
   return {amplitude.value(size), amplitude.value(size / factor), amplitude.value(size * factor)};
 }
 
+std::string interval_text(const TestedEffect& effect, const FoundValue& found) {
+  return effect.at_limit ? "its limit" : fmt::format("{} .. {}", short_number(found.lower), short_number(found.upper));
+}
+
 std::vector<std::string> sentences_of(const DiagnosisReport& report) {
   const SearchResult& found = report.found;
   std::vector<std::string> all{verdict_sentence(report)};
@@ -293,6 +298,8 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
         "More stands out beside it, which this diagnosis does not look for: refit it first, as tether explain does");
   if (found.verdict == "not_in_catalogue" && !named_of(report).empty())
     all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(named_of(report), "; and ")));
+  if (found.verdict == "not_in_catalogue" && !found.path.empty() && !found.path.back().accepted)
+    all.push_back(refusal_text(report.problem, found.path.back()));
   if (found.verdict == "missing" && found.after.p < report.alpha / 5)
     all.push_back(fmt::format("Something smaller is left: {}", where_left(report.problem, found.after)));
   if (found.verdict == "undecided" && found.doubtful && !report.problem.pattern_names.empty())

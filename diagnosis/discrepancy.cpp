@@ -109,12 +109,16 @@ SourceDiscrepancy compare(const LumenSeries& data, const std::vector<std::string
   for (Moment& moment : result.moments) {
     const Points lumen = run.positions(moment.time);
     Grouped now(data, region_names.size());
+    std::vector<Sample> against_image;
     for (const Frame& frame : moment.frames) {
       const std::vector<Sample> model = data.observe(lumen, frame), apparent = data.observe(run.imaged, frame);
+      against_image.insert(against_image.end(), apparent.begin(), apparent.end());
       for (Grouped* grouped : {&now, moment.held_out ? &held_out : &training}) grouped->add(model, apparent);
     }
     moment.groups = now.groups();
     set_effective_numbers(moment.groups, result.dimension, result.noise.correlation_length);
+    const auto found = registration_of(against_image, result.noise.deviation, group_of_region(moment, -1)->effective);
+    if (found && (!result.registration || found->before < result.registration->before)) result.registration = found;
   }
   result.training = training.groups();
   result.held_out = held_out.groups();

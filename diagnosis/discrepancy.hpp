@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/registration.hpp"
 #include "diagnosis/run_motion.hpp"
 #include "diagnosis/statistics.hpp"
 
@@ -35,7 +36,8 @@ struct SourceDiscrepancy {
       held_out;                    ///< over all moments of the kind; an effective number with a correlation time only
   std::vector<std::string> notes;  ///< what was found and done on loading the data
   std::vector<Frame> outside;      ///< that the run does not reach
-  std::size_t frames() const;      ///< in and outside the run
+  std::optional<Registration> registration;  ///< of the frame that is closest to the imaged lumen, against that lumen
+  std::size_t frames() const;                ///< in and outside the run
 };
 
 /// Compares the lumen of a run with every frame of a source, held-out ones too.

@@ -10,12 +10,20 @@ constexpr double farthest = 4;  ///< in scales: beyond, a number is that of no p
 
 }  // namespace
 
-double Amplitude::value(double amplitude) const {
-  const double far = scale > 0 ? farthest * scale : infinite;
-  const double value = doubles ? base * std::exp2(std::clamp(amplitude, -far, far)) : base + amplitude;
+double Amplitude::limited(double amplitude) const {
   const double least = std::isfinite(lower) ? lower + 0.01 * (base - lower) : lower;
   const double most = std::isfinite(upper) ? upper - 0.01 * (upper - base) : upper;
-  return std::clamp(value, std::min(least, base), std::max(most, base));
+  double low = least - base, high = most - base;
+  if (doubles) {
+    const double far = scale > 0 ? farthest * scale : infinite;
+    low = least > 0 ? std::max(-far, std::log2(least / base)) : -far;
+    high = std::min(far, std::log2(most / base));
+  }
+  return std::clamp(amplitude, std::min(low, 0.0), std::max(high, 0.0));
+}
+
+double Amplitude::value(double amplitude) const {
+  return doubles ? base * std::exp2(limited(amplitude)) : base + limited(amplitude);
 }
 
 bool is_variant(const Candidate& one, const Candidate& other) {

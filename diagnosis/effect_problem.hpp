@@ -17,9 +17,10 @@ struct Amplitude {
   double base = 0;                             ///< value of the model
   bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
   double lower = -infinite, upper = infinite;  ///< of the value
-  /// Admissible: short of the bounds by a hundredth of the way from the base; of what doubles, not beyond four times
-  /// the scale.
-  double value(double amplitude) const;
+  /// The admissible one that is nearest: its value is short of the bounds by a hundredth of the way from the base; of
+  /// what doubles, it is not beyond four times the scale.
+  double limited(double amplitude) const;
+  double value(double amplitude) const;  ///< of the admissible one
 };
 
 /// What may be missing or wrong: one effect at one place.

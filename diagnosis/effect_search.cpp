@@ -15,6 +15,7 @@ using Index = Eigen::Index;
 constexpr double convincing = 6;    ///< of BIC
 constexpr double sure = 0.95;       ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
+constexpr double the_same = 0.99;   ///< cosine
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
 constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
@@ -116,20 +117,21 @@ class Search {
     });
     for (TestedEffect& effect : all) {
       effect.amplitudes = as_in_patients(problem_, effect);
-      effect.gain = plain_.misfit(now_.residual);
+      effect.gain = now_misfit();
     }
     return all;
   }
 
   /// By so many of the deviations that noise gives the misfit.
   bool is_far_beyond_noise(double deviations) const {
-    return plain_.misfit(now_.residual) > result_.independent + deviations * std::sqrt(2 * result_.independent);
+    return now_misfit() > result_.independent + deviations * std::sqrt(2 * result_.independent);
   }
 
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
   std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) const {
     std::vector<Refinement> all;
     for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, trained, plain_, problem_);
+    const Scores scores = trained.scores(problem_.changes, now_.residual);
     while (true) {
       std::vector<Refinement*> open;
       for (Refinement& one : all)
@@ -138,6 +140,7 @@ class Search {
       std::stable_sort(open.begin(), open.end(), [](const auto* a, const auto* b) { return a->hope() < b->hope(); });
       if (open.size() > at_once) open.resize(at_once);
       run(open);
+      learn_from_look_alikes(all, scores);
       give_up_hopeless(all);
     }
   }
@@ -148,6 +151,16 @@ class Search {
     const MatrixXd residuals = residual_at_(wanted);
     for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(residuals.col(static_cast<Index>(i)));
   }
+
+  /// What does the same to first order saturates alike.
+  void learn_from_look_alikes(std::vector<Refinement>& all, const Scores& scores) const {
+    for (Refinement& one : all)
+      for (const Refinement& other : all)
+        if (!one.begun() && other.begun() &&
+            std::abs(cosine(problem_, scores, one.effect(), other.effect())) > the_same)
+          one.expect_at_most(now_misfit() - std::min(other.best(), other.hope()));
+  }
+  double now_misfit() const { return plain_.misfit(now_.residual); }
 
   static void give_up_hopeless(std::vector<Refinement>& all) {
     double best = infinite;
@@ -197,6 +210,7 @@ class Search {
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && effect.held_out && effect.held_out->positive < sure) return "held-out data do not confirm it";
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return "the lack of fit does not fall";
+    if (effect.at_limit) return "it would have to be larger than it may be";
     return {};
   }
 
@@ -220,7 +234,7 @@ class Search {
     std::vector<const Refinement*> order;
     for (const Refinement& one : all)
       if (one.begun()) order.push_back(&one);
-    if (order.empty() && !all.empty()) result_.path.push_back(broken(all.front()));
+    if (order.empty() && !all.empty() && all.front().runs() > 0) result_.path.push_back(broken(all.front()));
     std::stable_sort(order.begin(), order.end(),
                      [&](const auto* a, const auto* b) { return is_worth_more(a->effect(), b->effect()); });
     const AmplitudeState before = now_;
@@ -256,7 +270,7 @@ class Search {
 
   /// The model could not be run with any of its amplitudes.
   SearchStep broken(const Refinement& one) const {
-    const double misfit = plain_.misfit(now_.residual);
+    const double misfit = now_misfit();
     return {one.effect().candidate, false, breaks_down, misfit, misfit, result_.after};
   }
 
@@ -265,12 +279,8 @@ class Search {
     const VectorXd residual = one.state().residual;
     TestedEffect effect = one.effect();
     effect.held_out = confirmation(now_.residual, residual);
-    SearchStep step{effect.candidate,
-                    false,
-                    {},
-                    plain_.misfit(now_.residual),
-                    plain_.misfit(residual),
-                    lack_of_fit(problem_, plain_, residual)};
+    SearchStep step{
+        effect.candidate, false, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
     step.reason = objection(effect, dispersion(residual), step.left);
     step.accepted = step.reason.empty();
     return step;
@@ -317,7 +327,7 @@ class Search {
   double level() const { return asks_for_more() ? settings_.alpha : strict(); }
   /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
-    const double removed = plain_.misfit(problem_.residual) - plain_.misfit(now_.residual);
+    const double removed = plain_.misfit(problem_.residual) - now_misfit();
     return leaves_something() && result_.after.excess > settings_.enough &&
            result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
   }

@@ -46,6 +46,10 @@ TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores
     effect.z = scores.response(own[0]) / std::sqrt(spread * information(0, 0));
   effect.amplitudes = fit.amplitudes;
   effect.deviations = information.diagonal().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const double size = effect.amplitudes(static_cast<Index>(k));
+    if (problem.amplitudes[static_cast<std::size_t>(own[k])].limited(size) != size) effect.at_limit = true;
+  }
   const double alone = scores.alone(own).sum();
   effect.retained = alone > 0 ? information.trace() / alone : 0;
   return effect;

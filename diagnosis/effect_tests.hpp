@@ -16,6 +16,7 @@ struct TestedEffect {
   double retained = 0;              ///< share of its information that errors allowed cannot explain as well
   bool confirmed = false;           ///< the amplitudes are those of runs
   double confirmed_gain = 0;        ///< of the misfit, by those runs
+  bool at_limit = false;            ///< one of its amplitudes would have to be larger than it may be
   VectorXd run;                     ///< amplitudes of all candidates in the best of those runs [q]
   std::optional<Gain> held_out;
   bool accepted = false;

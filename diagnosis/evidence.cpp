@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "diagnosis/curvature.hpp"
+
 namespace tether {
 namespace {
 
@@ -49,7 +51,7 @@ Eigen::Matrix3Xd as_columns(const std::vector<Vec3>& list) {
 }  // namespace
 
 Evidence::Evidence(const Observations& data, const LumenSurface& lumen, const FinishedMotion& base)
-    : data_(data), lumen_(lumen), region_names_(lumen.region_names) {
+    : data_(data), lumen_(lumen), nodal_curvature_(tether::curvatures(lumen)), region_names_(lumen.region_names) {
   for (std::size_t s = 0; s < data.lumen.size(); ++s) add_frames(s, base);
   for (std::size_t t = 0; t < data.traces.size(); ++t) add_trace(t, base);
   normals_ = as_columns(normal_list_);
@@ -84,6 +86,7 @@ void Evidence::add_frames(std::size_t source, const FinishedMotion& base) {
       normal_list_.push_back(sample.normal);
       place_list_.push_back(sample.position);
       along_.push_back(along_vessel(sample));
+      curvature_.push_back(sample.shares.dot(Vec3(nodal_curvature_(sample.nodes))));
     }
   }
 }
@@ -124,6 +127,7 @@ void Evidence::add_trace(std::size_t number, const FinishedMotion& base) {
     normal_list_.push_back(Vec3::Zero());
     place_list_.push_back(Vec3::Zero());
     along_.push_back(0);
+    curvature_.push_back(0);
   }
   ++blocks_;
 }

@@ -42,6 +42,8 @@ class Evidence {
   /// Of the data on the lumen at the base: n out of the lumen, region (-1: none). Zero for traces.
   const Eigen::Matrix3Xd& normals() const { return normals_; }
   const std::vector<int>& regions() const { return region_; }
+  /// Of the data on the lumen, the sum of the imaged lumen's two curvatures there; zero for traces [1/length].
+  const std::vector<double>& curvatures() const { return curvature_; }
   /// Of the data on the lumen, how far along the vessel they are: 0 at an inlet, 1 at an outlet. Zero for traces.
   const std::vector<double>& along() const { return along_; }
   const std::vector<std::string>& region_names() const { return region_names_; }
@@ -55,9 +57,10 @@ class Evidence {
 
   const Observations& data_;
   const LumenSurface& lumen_;
+  VectorXd nodal_curvature_;
   std::vector<std::string> region_names_;
   std::vector<Part> parts_;
-  std::vector<double> residual_, precision_, independent_, along_;
+  std::vector<double> residual_, precision_, independent_, along_, curvature_;
   std::vector<bool> held_out_;
   std::vector<int> region_, block_;
   std::vector<Vec3> normal_list_, place_list_;

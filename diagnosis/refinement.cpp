@@ -31,6 +31,12 @@ Refinement::Refinement(TestedEffect effect, const AmplitudeState& from, const Tr
   expected_ = effect_.gain;
   others_ = best_others_ = VectorXd::Zero(from.changes.cols());
   next_others_ = others_for(from.residual - first_order_);
+  for (const Eigen::Index i : own(effect_.candidate))
+    if (const double d = direction_(i); d != 0)
+      farthest_ =
+          std::min(farthest_, problem.amplitudes[static_cast<std::size_t>(i)].limited(std::copysign(infinite, d)) / d);
+  next_ = std::min(1.0, farthest_);
+  done_ = !(farthest_ > 0);
 }
 
 VectorXd Refinement::at(double factor, const VectorXd& others) const {
@@ -108,9 +114,13 @@ void Refinement::take(const VectorXd& residual) {
     if (const double way = std::log(last_ / before); std::abs(way) > 0.02) per_factor_ = own_change / way;
     next_ = later_step(residual);
   }
+  next_ = std::min(next_, farthest_);
+  if (next_ == last_) expected_ = 0;
   const double information = square(trained_, per_factor_);
   done_ = !(expected_ >= too_little);  // also if the run changed nothing
-  effect_.amplitudes = (done_ && best_factor_ == last_ ? next_ : best_factor_) * direction_(own(effect_.candidate));
+  const double factor = done_ && best_factor_ == last_ ? next_ : best_factor_;
+  effect_.amplitudes = factor * direction_(own(effect_.candidate));
+  effect_.at_limit = factor > 0.99 * farthest_;
   effect_.deviations = effect_.amplitudes.cwiseAbs() / std::sqrt(std::max(information, 1e-300));
   effect_.confirmed = true;
   effect_.confirmed_gain = start_ - best_;

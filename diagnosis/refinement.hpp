@@ -32,6 +32,8 @@ class Refinement {
   double best() const { return best_; }
   double hope() const;
   void give_up() { done_ = true; }
+  /// What does the same to first order removes so much of the misfit: before any run no more is expected of this one.
+  void expect_at_most(double gain) { expected_ = begun() ? expected_ : std::min(expected_, gain); }
 
   const TestedEffect& effect() const { return effect_; }
   /// At the best amplitudes, with this effect as the last of the accepted ones.
@@ -56,6 +58,7 @@ class Refinement {
   VectorXd first_order_;           ///< change of -r to first order at factor 1 [n]
   VectorXd per_factor_;            ///< change of -r per logarithm of the factor, by the last runs [n]
   double next_ = 1, last_ = 0;     ///< factors
+  double farthest_ = infinite;     ///< factor beyond which an amplitude is not admissible
   VectorXd next_others_, others_;  ///< logarithms of the accepted effects' factors, next and last [m]
   VectorXd residual_;              ///< of the last run
   double best_factor_ = 0;

@@ -19,8 +19,8 @@ std::string line_of(const EffectProblem& problem, const TestedEffect& effect) {
   const Amplitude& amplitude = problem.amplitudes[number];
   const FoundValue found = value_of(problem, effect, own);
   std::string line =
-      fmt::format("  {:<42} {:>6.1f} {:>9.2g}  {:>9.3g} ({:.3g} .. {:.3g}) {}", name_of(candidate), effect.z, effect.q,
-                  found.value, found.lower, found.upper, amplitude.unit == "1" ? "" : amplitude.unit);
+      fmt::format("  {:<42} {:>6.1f} {:>9.2g}  {:>9.3g} ({}) {}", name_of(candidate), effect.z, effect.q, found.value,
+                  interval_text(effect, found), amplitude.unit == "1" ? "" : amplitude.unit);
   if (effect.held_out) line += fmt::format("  held out {:+.0f} %", -100 * effect.held_out->value);
   if (effect.group >= 0) line += fmt::format("  group {}", effect.group + 1);
   return line + (effect.accepted ? "  ACCEPTED\n" : "\n");

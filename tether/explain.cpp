@@ -47,6 +47,16 @@ std::vector<std::string> identified_numbers(const fs::path& case_file) {
   return all;
 }
 
+/// Of a comparison: which data to look at before any physics, and where and when the model fails.
+std::vector<std::string> first_sentences(const Json& comparison) {
+  std::size_t unregistered = 0;
+  for (const Json& source : comparison["sources"])
+    if (const Json& r = source["registration"]; !r.is_null() && r["stands_out"]) ++unregistered;
+  std::vector<std::string> all = comparison["sentences"];
+  if (all.size() > 1 + unregistered) all.resize(1 + unregistered);
+  return all;
+}
+
 /// How far the data of these rows are from a run.
 Misfit misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
                  const std::vector<Eigen::Index>& rows) {
@@ -120,8 +130,7 @@ class Explainer {
     model.name = "as given";
     if (given_.file.has("observer")) model.values.push_back({"observer", ""});  // it would hide what is missing
     simulate_and_compare(model);
-    for (const Json& sentence : read_json(output_ / model.folder() / "comparison.json")["sentences"])
-      if (explanation_.failure.empty()) explanation_.failure.push_back(sentence);
+    explanation_.failure = first_sentences(read_json(output_ / model.folder() / "comparison.json"));
     first_ = std::make_unique<StoredRun>(output_ / model.folder());
     first_motion_ = first_->motion();
     evidence_ = std::make_unique<Evidence>(given_.data, given_.lumen, first_motion_);

@@ -45,8 +45,10 @@ std::string amplitude_text(const Json& effect) {
     return a[key].is_null() ? "?" : fmt::format("{:.3g}", a[key].get<double>());
   };
   const std::string unit = a["unit"];
-  return fmt::format("{} {}{} ({} .. {})", parameter.substr(parameter.rfind('.') + 1), number("value"),
-                     unit == "1" ? "" : " " + unit, number("lower"), number("upper"));
+  const bool at_limit = a.value("at_limit", false);
+  return fmt::format("{} {}{} ({})", parameter.substr(parameter.rfind('.') + 1), number("value"),
+                     unit == "1" ? "" : " " + unit,
+                     at_limit ? "its limit" : fmt::format("{} .. {}", number("lower"), number("upper")));
 }
 
 /// All that was added on the way to the best model, and errors of the data that were named.

@@ -10,7 +10,7 @@ function amplitudeDrawing(a) {
   const width = 130, low = Math.min(...ends), high = Math.max(...ends);
   const x = scaleOf(low, high === low ? low + 1 : high, 6, width - 6);
   const svg = shape("svg", { width, height: 16, "aria-hidden": "true" }, line(6, 8, width - 6, 8, { class: "grid" }));
-  if (isNumber(a.lower) && isNumber(a.upper)) svg.append(line(x(a.lower), 8, x(a.upper), 8, { stroke: "var(--accent)", "stroke-width": 5, "stroke-linecap": "round", opacity: 0.35 }));
+  if (isNumber(a.lower) && isNumber(a.upper) && !a.at_limit) svg.append(line(x(a.lower), 8, x(a.upper), 8, { stroke: "var(--accent)", "stroke-width": 5, "stroke-linecap": "round", opacity: 0.35 }));
   if (isNumber(a.without)) svg.append(line(x(a.without), 2, x(a.without), 14, { stroke: "var(--faint)", "stroke-width": 1.5 }));
   svg.append(shape("circle", { cx: x(a.value), cy: 8, r: 4, fill: "var(--accent)" }));
   return svg;

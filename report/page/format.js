@@ -57,7 +57,7 @@ function interval(a) {
   const exponent = isNumber(a.value) && a.value !== 0 ? Math.floor(Math.log10(Math.abs(a.value))) : 0;
   const common = exponent >= 5 || exponent < -3 ? exponent : 0;
   const [value, lower, upper] = [a.value, a.lower, a.upper].map((x) => (isNumber(x) ? number(x / 10 ** common) : "–"));
-  return withUnit(`${value} (${lower} … ${upper})${common ? ` × ${powerOfTen(common)}` : ""}`, unitText(a.unit));
+  return withUnit(`${value} (${a.at_limit ? "its limit" : `${lower} … ${upper}`})${common ? ` × ${powerOfTen(common)}` : ""}`, unitText(a.unit));
 }
 /** A sentence of the results as people write numbers, units and names. */
 const prose = (sentence) => sentence.replace(/(\d)e([+-]?)0*(\d+)/g, (all, digit, sign, power) => `${digit}\u00a0×\u00a0${powerOfTen((sign === "-" ? "-" : "") + power)}`)

@@ -328,6 +328,36 @@ TEST(EffectSearch, FindsAnAmplitudeThatSaturates) {
   EXPECT_GT(result.effects.front().amplitudes(0), 6) << "first order says 4";
 }
 
+/// What imitates another effect only where it is larger than it may be is not named, whatever it explains.
+TEST(EffectSearch, DoesNotNameWhatWouldHaveToBeLargerThanItMayBe) {
+  std::mt19937_64 generator(29);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 6 * problem.changes.col(4);
+  ASSERT_EQ(found(problem).verdict, "missing");
+  problem.amplitudes[4].upper = 2;
+  const SearchResult result = found(problem);
+  EXPECT_EQ(result.verdict, "not_in_catalogue");
+  EXPECT_EQ(result.path.front().reason, "it would have to be larger than it may be");
+  EXPECT_TRUE(result.effects.front().at_limit);
+  EXPECT_NEAR(result.effects.front().amplitudes(0), 0.99 * 2, 1e-9);
+}
+
+TEST(Amplitude, StaysShortOfItsBounds) {
+  const Amplitude bounded{"stiffness", "", "1", false, 0.5, 2, false, 0, 4};
+  EXPECT_DOUBLE_EQ(bounded.value(1), 3);
+  EXPECT_DOUBLE_EQ(bounded.value(5), 4 - 0.02);
+  EXPECT_NEAR(bounded.value(-5), 0.02, 1e-12);
+  const Amplitude doubling{"factor", "", "1", false, 0.5, 3, true};
+  EXPECT_DOUBLE_EQ(doubling.value(1), 6);
+  EXPECT_DOUBLE_EQ(doubling.value(9), 12) << "four times the scale";
+  EXPECT_DOUBLE_EQ(doubling.limited(-9), -2);
+  const Amplitude both{"factor", "", "1", false, 0.5, 3, true, 1, 6};
+  EXPECT_DOUBLE_EQ(both.value(9), 6 - 0.03);
+  EXPECT_DOUBLE_EQ(both.value(-9), 1.02);
+  const Amplitude at_bound{"share", "", "1", true, 0.5, 0, false, 0, 1};
+  EXPECT_DOUBLE_EQ(at_bound.limited(-1), 0);
+}
+
 /// The amplitude of the first, found alone, has taken in some of the second: both are refitted.
 TEST(EffectSearch, RefitsWhatWasAcceptedBefore) {
   EffectProblem problem = band();
@@ -421,6 +451,26 @@ TEST(EffectSearch, RunsNothingThatIsHopeless) {
   };
   EXPECT_EQ(search_effects(problem, {}, counted).verdict, "missing");
   EXPECT_LE(runs, 4);
+}
+
+/// Two that do the same saturate alike: what one run showed of the first need not be shown of the second.
+TEST(EffectSearch, LearnsFromLookAlikes) {
+  std::mt19937_64 generator(19);
+  EffectProblem problem = band();
+  add_candidate(problem, "weak", response(1, 8.5, beat));
+  add_candidate(problem, "weak_too", response(1, 8.6, beat));
+  problem.residual = noise(generator) + 5 * problem.changes.col(2);
+  int first = 0, second = 0;
+  const ResidualAt counted = [&](const MatrixXd& amplitudes) -> MatrixXd {
+    MatrixXd saturated = amplitudes;
+    for (const Index k : {8, 9}) saturated.row(k) = amplitudes.row(k).array() / (1 + amplitudes.row(k).array().abs());
+    first += static_cast<int>((amplitudes.row(8).array() != 0).count());
+    second += static_cast<int>((amplitudes.row(9).array() != 0).count());
+    return linear_residual(problem)(saturated);
+  };
+  EXPECT_EQ(search_effects(problem, {}, counted).effects.front().candidate, 2U);
+  EXPECT_EQ(std::min(first, second), 0) << first << " and " << second << " runs";
+  EXPECT_GT(std::max(first, second), 0);
 }
 
 /// Two effects that the data at hand see alike, and a trace that sees the first only.
