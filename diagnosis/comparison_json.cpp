@@ -56,7 +56,7 @@ Json frames_json(const std::vector<Frame>& frames, const SourceDiscrepancy& sour
   Json json = Json::array();
   for (const Frame& frame : frames)
     json.push_back({{"series", source.series[static_cast<std::size_t>(frame.series)]},
-                    {"frame", frame.number},
+                    {"frame", frame.label},
                     {"time", time_json(frame.time)}});
   return json;
 }

@@ -73,7 +73,6 @@ std::vector<Amplitude> in_space(const std::string& unit) {
 /// of them the data show: a round tube does not, about its own axis.
 struct Turned {
   Turned(const Evidence& evidence, std::size_t source) : columns(MatrixXd::Zero(evidence.places().cols(), 3)) {
-    Vec3 middle = Vec3::Zero();
     double count = 0;
     for (const auto& part : evidence.parts())
       if (part.source == source) {
@@ -89,6 +88,7 @@ struct Turned {
       if (squares(axis) > hardly_seen * squares.maxCoeff()) seen.push_back(axis);
   }
   MatrixXd columns;
+  Vec3 middle{0, 0, 0};
   std::vector<Index> seen;
   static constexpr double hardly_seen = 0.03;
 };
@@ -124,7 +124,6 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
   const MatrixXd ones = MatrixXd::Ones(problem.residual.size(), 1), normals = evidence.normals().transpose(),
                  blurred = -0.5 * Eigen::Map<const VectorXd>(evidence.curvatures().data(), ones.rows()),  // (D.17)
       velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
-  const auto kind = Candidate::Kind::data;
   std::map<std::size_t, int> frames;
   for (const auto& part : evidence.parts()) frames[part.source] += 1;
   std::size_t last = evidence.parts().size();
@@ -133,28 +132,36 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
     const std::string name = evidence.name_of(part);
     const double sigma = evidence.noise(part).deviation;
     const Amplitude shift{"time_shift", "the frames show the vessel that much later than they say", unit_of_time};
+    const Turned turned(evidence, part.source);
+    Candidate error{"misregistration", name, "The data are displaced as a whole", Candidate::Kind::data, {}};
+    error.data = {evidence.field_of(part), undefined, turned.middle};
+    const auto named = [&](const char* type, const char* meaning) {
+      Candidate other = error;
+      other.name = type, other.meaning = meaning;
+      return other;
+    };
     if (part.source != last) {
       last = part.source;
-      errors.add({"misregistration", name, "The data are displaced as a whole", kind, {}, true},
-                 in_space(unit_of_length), errors.only(normals, part.source, nullptr),
+      errors.add(error, in_space(unit_of_length), errors.only(normals, part.source, nullptr),
                  allowed.displacement.value_or(0.5 * sigma));
-      const Turned turned(evidence, part.source);
-      errors.add({"misrotation", name, "The data are turned as a whole, about their middle", kind, {}, true},
-                 in_angle(turned.seen), turned.columns(Eigen::all, turned.seen), 0);
-      errors.add({"segmentation_bias", name, "The measured lumen is too large or too small all over", kind, {}, true},
+      errors.add(named("misrotation", "The data are turned as a whole, about their middle"), in_angle(turned.seen),
+                 turned.columns(Eigen::all, turned.seen), 0);
+      errors.add(named("segmentation_bias", "The measured lumen is too large or too small all over"),
                  {{"bias", "along the outward normal", unit_of_length}}, errors.only(ones, part.source, nullptr),
                  allowed.bias.value_or(0.5 * sigma));
-      errors.add({"blur", name, "The image is blurred, which draws a curved surface inward", kind, {}, true},
+      errors.add(named("blur", "The image is blurred, which draws a curved surface inward"),
                  {{"variance", "of the image's blur", unit_of_length + "2", true, undefined, 0, false, 0}},
                  errors.only(blurred, part.source, nullptr), 0);
-      errors.add({"gating_shift", name, "The times of all frames are off", kind, {}, true}, {shift},
+      errors.add(named("gating_shift", "The times of all frames are off"), {shift},
                  errors.only(velocity, part.source, nullptr), allowed.time_shift.value_or(0));
     }
     if (part.frame.held_out || frames[part.source] < 2) continue;
-    const std::string where = fmt::format("{}, {:.4g} s", name, part.frame.time);
-    errors.add({"misplaced_frame", where, "One frame is displaced", kind, {}, false}, in_space(unit_of_length),
+    error.where = fmt::format("{}, {:.4g} s", name, part.frame.time);
+    error.confirmable = false;
+    error.data.frame = part.frame.label;
+    errors.add(named("misplaced_frame", "One frame is displaced"), in_space(unit_of_length),
                errors.only(normals, part.source, &part), allowed.frame_displacement);
-    errors.add({"mistimed_frame", where, "One frame shows another moment than it says", kind, {}, false}, {shift},
+    errors.add(named("mistimed_frame", "One frame shows another moment than it says"), {shift},
                errors.only(velocity, part.source, &part), 0);
   }
 }

@@ -269,6 +269,8 @@ FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, In
 }
 
 std::string interval_text(const TestedEffect& effect, const FoundValue& found) {
+  constexpr double anything = 1e4;  // between its ends
+  if (found.lower > 0 && found.upper > anything * found.lower) return "hardly known";
   return effect.at_limit ? "its limit" : fmt::format("{} .. {}", short_number(found.lower), short_number(found.upper));
 }
 

@@ -36,7 +36,7 @@ struct FoundValue {
 };
 FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
 
-/// "lower .. upper", or that the value is at its limit.
+/// "lower .. upper", or that the value is at its limit, or hardly known.
 std::string interval_text(const TestedEffect& effect, const FoundValue& found);
 
 }  // namespace tether

@@ -23,6 +23,13 @@ struct Amplitude {
   double value(double amplitude) const;  ///< of the admissible one
 };
 
+/// Which data are wrong.
+struct DataPlace {
+  std::string field;         ///< of the source in the case: observations.surfaces.ct
+  double frame = undefined;  ///< of one frame its number, as the case counts them
+  Vec3 middle{0, 0, 0};      ///< of the places that were compared [length]
+};
+
 /// What may be missing or wrong: one effect at one place.
 struct Candidate {
   enum class Kind { effect, input, data, numerics };
@@ -31,6 +38,7 @@ struct Candidate {
   std::vector<Eigen::Index> amplitudes;  ///< numbers of its amplitudes
   bool confirmable = true;               ///< it acts on held-out data as well
   std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
+  DataPlace data = {};                   ///< of an error of the data
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };

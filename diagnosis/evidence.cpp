@@ -152,6 +152,15 @@ std::string Evidence::name_of(const Part& part) const {
                         : data_.lumen[part.source]->settings().name;
 }
 
+std::string Evidence::field_of(const Part& part) const {
+  const bool contours = !is_trace(part) && data_.lumen[part.source]->sample_dimension() == 1;
+  return std::string("observations.") +
+         (is_trace(part) ? "traces."
+          : contours     ? "contours."
+                         : "surfaces.") +
+         name_of(part);
+}
+
 MatrixXd Evidence::residuals(const std::vector<const FinishedMotion*>& runs) const {
   MatrixXd all = MatrixXd::Constant(static_cast<Eigen::Index>(residual_.size()), static_cast<Eigen::Index>(runs.size()),
                                     undefined);

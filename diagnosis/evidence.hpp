@@ -37,6 +37,8 @@ class Evidence {
   const std::vector<Part>& parts() const { return parts_; }
   bool is_trace(const Part& part) const { return part.source >= data_.lumen.size(); }
   std::string name_of(const Part& part) const;
+  /// Its section in the case.
+  std::string field_of(const Part& part) const;
   /// Of the data on the lumen at the base, where they are; zero for traces [length].
   const Eigen::Matrix3Xd& places() const { return places_; }
   /// Of the data on the lumen at the base: n out of the lumen, region (-1: none). Zero for traces.

@@ -83,7 +83,7 @@ class Job {
         {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed, SearchSettings{}.compared, d.refused},
         [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
     report.splits = splits_of(report, evidence, motions);
-    if (write_suggested(output_ / "suggested.yaml", given_.file, report, effects_)) report.suggested = "suggested.yaml";
+    if (write_suggested(output_ / "suggested.yaml", given_, report, effects_)) report.suggested = "suggested.yaml";
     report.runs = runs_.all;
     report.runs_made = runs_.made;
     report.cpu_seconds = runs_.cpu_seconds;
@@ -194,6 +194,12 @@ class Job {
   int trials_ = 0;
 };
 
+bool accepts_physics(const DiagnosisReport& report) {
+  return std::any_of(report.found.effects.begin(), report.found.effects.end(), [&](const TestedEffect& effect) {
+    return effect.accepted && report.problem.candidates[effect.candidate].takes_runs();
+  });
+}
+
 std::string where_to_look(const fs::path& output, const DiagnosisReport& report,
                           const std::vector<std::string>& pictures) {
   std::string text = fmt::format(
@@ -201,7 +207,8 @@ std::string where_to_look(const fs::path& output, const DiagnosisReport& report,
       "would show, cost\n",
       report.runs, report.runs_made, report.cpu_seconds, output.string());
   if (!report.suggested.empty())
-    text += fmt::format("  suggested.yaml     the case with the effect: tether identify {}\n",
+    text += fmt::format("  suggested.yaml     the case with {} {}\n",
+                        accepts_physics(report) ? "the effect: tether identify" : "corrected data: tether explain",
                         (output / report.suggested).string());
   for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
   return text;

@@ -343,6 +343,9 @@ std::string text_of(const Explanation& explanation, const fs::path& output) {
   if (explanation.best > 0)
     text += fmt::format("  {}.yaml       the case with what was found, ready for tether simulate\n",
                         explanation.models[explanation.best].folder());
+  if (const std::string corrected = corrected_case(explanation); !corrected.empty())
+    text += fmt::format("  {}   the data without these errors: look again with tether explain {}\n", corrected,
+                        (output / corrected).string());
   return text;
 }
 

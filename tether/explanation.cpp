@@ -184,6 +184,18 @@ std::string accepted_effects(const std::string& diagnosis, bool of_data) {
   return accepted(Json::parse(diagnosis), of_data).dump();
 }
 
+std::string corrected_case(const Explanation& e) {
+  for (std::size_t i = e.best + 1; i-- > 0;) {
+    if (!is_diagnosed(e.models[i])) continue;
+    const Json diagnosis = Json::parse(e.models[i].diagnosis);
+    const bool any = !accepted(diagnosis, true).empty() && accepted(diagnosis, false).empty();
+    return any && !diagnosis["suggested_case"].is_null()
+               ? e.models[i].diagnosis_folder() + "/" + diagnosis["suggested_case"].get<std::string>()
+               : "";
+  }
+  return "";
+}
+
 std::string verdict_of(const Explanation& e) {
   const Json last = last_diagnosis(e);
   if (last["verdict"] == "not_in_catalogue") return "not_in_catalogue";
@@ -221,6 +233,8 @@ void write_json(const std::filesystem::path& path, const Explanation& e) {
   json["held_out"] = e.held_out ? json_of(*e.held_out) : Json();
   json["missing_force"] = e.force == "null" ? Json() : Json("force/force.json");
   json["suggested_case"] = e.best > 0 ? Json(best_of(e).folder() + ".yaml") : Json();
+  const std::string corrected = corrected_case(e);
+  json["corrected_case"] = corrected.empty() ? Json() : Json(corrected);
   const auto sum = [&](double ExplainedStep::*part) {
     return std::accumulate(e.steps.begin(), e.steps.end(), 0.0,
                            [&](double all, const ExplainedStep& step) { return all + step.*part; });

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config/overlay.hpp"
+#include "tether/corrected_data.hpp"
 
 namespace tether {
 namespace {
@@ -42,12 +43,11 @@ void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValu
 
 }  // namespace
 
-bool write_suggested(const std::filesystem::path& file, const CaseFile& from, const DiagnosisReport& report,
+bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report,
                      const std::vector<PlacedEffect>& effects) {
-  Overlay overlay{std::filesystem::absolute(from.path()),
-                  from.common().name + "_suggested",
-                  from.common().title + ", with what the diagnosis adds",
-                  {}};
+  const CaseFile& from = given.file;
+  Overlay overlay{std::filesystem::absolute(from.path()), from.common().name + "_suggested",
+                  from.common().title + ", with what the diagnosis adds", corrections_of(report, given.observations)};
   std::vector<std::string> added;
   for (const TestedEffect& effect : report.found.effects) {
     const Candidate& candidate = report.problem.candidates[effect.candidate];

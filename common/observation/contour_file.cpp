@@ -151,6 +151,7 @@ void add(ContourTrack& track, const Drawn& one, const SlicesCase& given, int& re
   track.times.push_back(time);
   track.contours.push_back(contour_of(one, track.plane, repeated));
   const auto& out = given.data.held_out;
+  track.labels.push_back(one.frame);
   track.held_out.push_back(std::find(out.begin(), out.end(), one.frame) != out.end());
 }
 
@@ -163,13 +164,22 @@ auto different(const std::vector<Drawn>& drawn, const Get& get) {
   return all;
 }
 
-void check_held_out(const std::vector<Drawn>& drawn, const SlicesCase& given) {
+void check_frames(const std::vector<Drawn>& drawn, const SlicesCase& given) {
   std::vector<double> frames = different(drawn, [](const Drawn& one) { return one.frame; });
   std::sort(frames.begin(), frames.end());
-  for (const double number : given.data.held_out)
-    if (std::find(frames.begin(), frames.end(), number) == frames.end())
-      throw input_error("{}: held_out: there is no frame {:g}; its frames are {:g}", given.file.string(), number,
-                        fmt::join(frames, ", "));
+  for (const auto& [field, numbers] : {std::pair{"held_out", &given.data.held_out}, {"left_out", &given.data.left_out}})
+    for (const double number : *numbers)
+      if (std::find(frames.begin(), frames.end(), number) == frames.end())
+        throw input_error("{}: {}: there is no frame {:g}; its frames are {:g}", given.file.string(), field, number,
+                          fmt::join(frames, ", "));
+}
+
+/// Only the frames that the case does not leave out, where they should be.
+void correct(std::vector<Drawn>& drawn, const SlicesCase& given) {
+  const auto& out = given.data.left_out;
+  std::erase_if(drawn, [&](const Drawn& one) { return std::find(out.begin(), out.end(), one.frame) != out.end(); });
+  if (drawn.empty()) throw input_error("{}: left_out: no frame is left", given.file.string());
+  for (Drawn& one : drawn) one.points = given.data.correction.corrected(one.points);
 }
 
 /// Only the slices that the case names.
@@ -190,7 +200,8 @@ std::vector<ContourTrack> read_contour_tracks(const SlicesCase& given, const Uni
                                               std::vector<std::string>& notes) {
   std::vector<Drawn> drawn = Table(given, units).drawn();
   keep_wanted(drawn, given);
-  check_held_out(drawn, given);
+  check_frames(drawn, given);
+  correct(drawn, given);
   std::map<std::string, std::vector<const Drawn*>> of_slice;
   for (const Drawn& one : drawn) of_slice[one.slice].push_back(&one);
   std::map<std::string, SlicePlane> planes;

@@ -102,11 +102,11 @@ Sample ContourSeries::sample(const CutStation& station, std::size_t t, std::size
   sample.nodes = station.place.nodes;
   sample.shares = station.place.shares;
   sample.position = station.position;
-  sample.distance = found.distance;
+  sample.distance = found.distance + settings_.outward;
   sample.normal = plane.lifted(found.normal);
   sample.region = settings_.region[node];
   if (sample.excluded == Exclusion::none && found.at_end) sample.excluded = Exclusion::rim;
-  if (sample.excluded == Exclusion::none && std::abs(found.distance) > settings_.trust_distance)
+  if (sample.excluded == Exclusion::none && std::abs(sample.distance) > settings_.trust_distance)
     sample.excluded = Exclusion::too_far;
   if (sample.excluded == Exclusion::none) sample.weight = length_[t] / samples_;  // (O.6)
   return sample;
@@ -145,6 +145,7 @@ std::vector<std::string> ContourSeries::series_names() const {
 
 std::uint64_t ContourSeries::content() const {
   std::uint64_t hash = 0;
+  if (settings_.outward != 0) hash = hash_bytes(&settings_.outward, sizeof settings_.outward, hash);
   for (const ContourTrack& track : tracks_) {
     for (const Vec3& part : {track.plane.origin, track.plane.e1, track.plane.e2}) hash = hash_values(part, hash);
     hash = hash_values(track.times, hash);
@@ -157,7 +158,8 @@ std::vector<Frame> ContourSeries::frames() const {
   std::vector<Frame> frames;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t i = 0; i < tracks_[t].times.size(); ++i)
-      frames.push_back({static_cast<int>(t), i, tracks_[t].times[i], times_[t].held_out(i)});
+      frames.push_back({static_cast<int>(t), i, tracks_[t].times[i], times_[t].held_out(i),
+                        tracks_[t].labels.empty() ? static_cast<double>(i) : tracks_[t].labels[i]});
   return frames;
 }
 

@@ -13,6 +13,7 @@ struct ContourTrack {
   std::vector<double> times;        ///< ascending [time]
   std::vector<Contour> contours;    ///< one a time, in the plane's coordinates; a closed one counterclockwise
   std::vector<bool> held_out = {};  ///< empty: none
+  std::vector<double> labels = {};  ///< numbers by which the case names the frames; empty: from 0
 };
 
 /// Contours in slices over time (cine images). The model's surface is cut by the slice's plane, and compared in that

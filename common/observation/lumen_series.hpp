@@ -21,6 +21,7 @@ struct SourceSettings {
   std::vector<Exclusion> of_node;                                   ///< of the lumen, none or why it is never observed
   std::vector<int> region;                                          ///< of the lumen's nodes
   Noise noise;
+  double outward = 0;  ///< added to distances: the data are too far inward by it [length]
 };
 
 /// A frame of a source: one surface, or one contour.
@@ -29,6 +30,7 @@ struct Frame {
   std::size_t number = 0;
   double time = 0;
   bool held_out = false;
+  double label = 0;  ///< number by which the case names it: `number` counts those only that are used
 };
 
 /// Measurements of the moving lumen: surfaces, or contours in slices.

@@ -1,9 +1,15 @@
 #include "common/observation/observation_case.hpp"
 
+#include <Eigen/Geometry>
+
 namespace tether {
 namespace {
 
 constexpr Word millimetre{"mm", "millimetre"}, centimetre{"cm", "centimetre"}, metre{"m", "metre"};
+
+Vec3 vector_of(const std::vector<double>& numbers) {
+  return numbers.size() == 3 ? Vec3(numbers.data()) : Vec3::Zero();
+}
 
 }  // namespace
 
@@ -14,6 +20,24 @@ void NoiseCase::declare(Fields& f) {
            "distance along the wall within which errors are alike; 0: not known");
   f.number("correlation_time", correlation_time, dimension::time, range::not_negative,
            "time within which errors are alike; 0: not known");
+}
+
+void CorrectionCase::declare(Fields& f) {
+  f.numbers("displacement", displacement, {3, dimension::length, range::any}, "added to the data's coordinates");
+  f.numbers("rotation", rotation, {3, dimension::none, range::any},
+            "axis times angle in radians by which the data are turned, before they are displaced");
+  f.numbers("about", about, {3, dimension::length, range::any}, "point about which they are turned; absent: 0, 0, 0");
+  f.number("outward", outward, dimension::length, range::any,
+           "by which the measured lumen is moved out along its normal: that much was segmented too small");
+}
+
+Points CorrectionCase::corrected(Points points) const {
+  const Vec3 turned = vector_of(rotation), by = vector_of(displacement), middle = vector_of(about);
+  if (turned.norm() > 0)
+    points = (Eigen::AngleAxisd(turned.norm(), turned.normalized()).toRotationMatrix() * (points.colwise() - middle))
+                 .colwise() +
+             middle;
+  return points.colwise() + by;
 }
 
 void LumenDataCase::declare(Fields& f) {
@@ -27,6 +51,9 @@ void LumenDataCase::declare(Fields& f) {
            "nothing is observed within this distance of an outlet's rim");
   f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
             "numbers of frames (from 0) that the model never sees: they judge it");
+  f.numbers("left_out", left_out, {0, dimension::none, range::not_negative},
+            "numbers of frames (from 0) that are not used at all; the others keep their numbers");
+  f.group("correction", correction, "what is wrong with the data, taken off them");
   f.group("noise", noise, "errors of the distances");
 }
 

@@ -12,12 +12,22 @@ struct NoiseCase {
   void declare(Fields& f);
 };
 
+/// What is known to be wrong with data, and is taken off them before they are used.
+struct CorrectionCase {
+  std::vector<double> displacement, rotation, about;  ///< empty: zero; else three numbers [length], [rad], [length]
+  double outward = 0;                                 ///< [length]
+  void declare(Fields& f);
+  /// Points of the data where they should be.
+  Points corrected(Points points) const;
+};
+
 /// What sources of lumen data have in common: where on the wall and when they count, and their errors.
 struct LumenDataCase {
   double time_shift = 0, inlet_band = 0, outlet_band = 0;
   std::optional<double> trust_distance;
   std::vector<std::string> masked_regions;
-  std::vector<double> held_out;
+  std::vector<double> held_out, left_out;
+  CorrectionCase correction;
   NoiseCase noise;
   void declare(Fields& f);
 };

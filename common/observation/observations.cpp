@@ -55,17 +55,42 @@ SourceSettings settings_of(const LumenDataCase& data, double period, const Lumen
   settings.of_node = excluded_nodes(data, lumen, place);
   settings.region = lumen.region;
   settings.noise = noise_of(data.noise);
+  settings.outward = data.correction.outward;
   return settings;
 }
 
-void check_held_out(const LumenDataCase& data, const std::vector<double>& frames, const Place& place) {
-  for (const double number : data.held_out)
-    if (std::find(frames.begin(), frames.end(), number) == frames.end())
-      throw input_error("{}: there is no frame {:g}; frames are numbered {:g} to {:g}", place.where("held_out"), number,
-                        frames.front(), frames.back());
-  if (data.held_out.size() >= frames.size())
-    throw input_error("{}: all {} frames: one at least must be left to the model", place.where("held_out"),
-                      frames.size());
+bool holds(const std::vector<double>& numbers, double number) {
+  return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
+}
+
+/// Frames are numbered from 0 to `count` - 1.
+void check_frames(const LumenDataCase& data, std::size_t count, const Place& place) {
+  for (const auto& [field, numbers] : {std::pair{"held_out", &data.held_out}, {"left_out", &data.left_out}})
+    for (const double number : *numbers)
+      if (number >= static_cast<double>(count) || number != std::floor(number))
+        throw input_error("{}: there is no frame {:g}; frames are numbered 0 to {}", place.where(field), number,
+                          count - 1);
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (const auto number = static_cast<double>(i); !holds(data.held_out, number) && !holds(data.left_out, number))
+      ++used;
+  if (used == 0)
+    throw input_error("{}: of {} frames one at least must be left to the model",
+                      place.where(data.held_out.empty() ? "left_out" : "held_out"), count);
+}
+
+/// The files that are used; returns their numbers.
+std::vector<double> drop_left_out(std::vector<TimedFile>& files, const LumenDataCase& data, const Place& place) {
+  check_frames(data, files.size(), place);
+  std::vector<double> labels;
+  std::vector<TimedFile> used;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (const auto number = static_cast<double>(i); !holds(data.left_out, number)) {
+      labels.push_back(number);
+      used.push_back(files[i]);
+    }
+  files = used;
+  return labels;
 }
 
 /// A series that does not repeat must have something to say during the run.
@@ -119,29 +144,29 @@ double checked_placing(const std::string& name, CheckedSurface& checked, const L
 
 std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface& lumen, const Place& place) {
   const UnitSystem& units = place.file.units();
-  const std::vector<TimedFile> files = files_of(given, units);
+  std::vector<TimedFile> files = files_of(given, units);
+  const std::vector<double> labels = drop_left_out(files, given.data, place);
   const double scale = units.quantity("1 " + given.unit, dimension::length), period = given.period.value_or(0);
   std::vector<SurfaceFrame> frames;
   std::vector<std::string> notes;
-  std::vector<double> numbers;
   std::vector<bool> held_out;
   const std::vector<Opening> openings = openings_of(lumen);
   const double reach = reach_of(given.data, lumen);
   double best = 0;
   for (const TimedFile& timed : files) {
+    const double label = labels[frames.size()];
     const std::string name = timed.file.string();
-    CheckedSurface checked = checked_surface(name, read_surface(timed.file, scale));
+    TriangleSurface read = read_surface(timed.file, scale);
+    read.points = given.data.correction.corrected(read.points);
+    CheckedSurface checked = checked_surface(name, std::move(read));
     check_size(name, checked.surface, lumen, given.unit);
     open_ends(checked, openings);
     const bool must_be_near = &timed == &files.back() && best < least_share;
     best = std::max(best, checked_placing(name, checked, lumen, reach, must_be_near));
     for (const std::string& note : checked.notes) notes.push_back(timed.file.filename().string() + ": " + note);
-    numbers.push_back(static_cast<double>(frames.size()));
-    held_out.push_back(std::find(given.data.held_out.begin(), given.data.held_out.end(), numbers.back()) !=
-                       given.data.held_out.end());
-    frames.push_back({timed.time, std::move(checked.surface), std::move(checked.flawed)});
+    held_out.push_back(holds(given.data.held_out, label));
+    frames.push_back({timed.time, std::move(checked.surface), std::move(checked.flawed), label});
   }
-  check_held_out(given.data, numbers, place);
   check_range(frames.front().time, frames.back().time, period, place);
   return std::make_unique<SurfaceSeries>(settings_of(given.data, period, lumen, place), std::move(frames), held_out,
                                          lumen, std::move(notes));

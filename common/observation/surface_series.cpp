@@ -56,12 +56,12 @@ std::vector<Sample> SurfaceSeries::against(const Points& x, std::size_t frame) c
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto node = static_cast<Eigen::Index>(i);
     Sample& sample = samples.emplace_back(sample_of_node(node, x.col(node)));
-    sample.distance = found[i].distance;
+    sample.distance = found[i].distance + settings_.outward;
     sample.normal = found[i].normal;
     if (sample.excluded != Exclusion::none) continue;
     if (found[i].on_rim)
       exclude(sample, Exclusion::rim);
-    else if (std::abs(found[i].distance) > settings_.trust_distance)
+    else if (std::abs(sample.distance) > settings_.trust_distance)
       exclude(sample, Exclusion::too_far);
     else if (!flawed.empty() && flawed[static_cast<std::size_t>(found[i].triangle)])
       exclude(sample, Exclusion::flawed);
@@ -92,12 +92,14 @@ std::vector<Sample> SurfaceSeries::observe(const Points& x, const Frame& frame) 
 
 std::vector<Frame> SurfaceSeries::frames() const {
   std::vector<Frame> frames;
-  for (std::size_t i = 0; i < frames_.size(); ++i) frames.push_back({0, i, frames_[i].time, times_.held_out(i)});
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    frames.push_back({0, i, frames_[i].time, times_.held_out(i), frames_[i].label});
   return frames;
 }
 
 std::uint64_t SurfaceSeries::content() const {
   std::uint64_t hash = hash_values(times_.times(), 0);
+  if (settings_.outward != 0) hash = hash_bytes(&settings_.outward, sizeof settings_.outward, hash);
   for (const SurfaceFrame& frame : frames_)
     hash = hash_values(frame.surface.triangles, hash_values(frame.surface.points, hash));
   return hash;

@@ -13,6 +13,7 @@ struct SurfaceFrame {
   double time = 0;
   TriangleSurface surface;
   std::vector<bool> flawed;  ///< triangles whose distance means nothing; empty: none
+  double label = 0;          ///< number by which the case names it
 };
 
 /// Surfaces over time: a sample at each node of the model's lumen.
