@@ -63,6 +63,7 @@ Json json_of(const EffectProblem& problem, const TestedEffect& effect) {
           {"where", candidate.where},
           {"meaning", candidate.meaning},
           {"kind", word_of(candidate.kind)},
+          {"frame", number(candidate.data.frame)},
           {"accepted", effect.accepted},
           {"rival", effect.rival},
           {"testable", effect.testable},
@@ -216,7 +217,13 @@ std::string verdict_sentence(const DiagnosisReport& report) {
                        fmt::join(named, "; and "));
   if (found.verdict == "missing" && all_are(Candidate::Kind::numerics))
     return fmt::format("THE NUMERICS are too coarse, no effect is missing: {}", fmt::join(named, "; and "));
-  if (found.verdict == "missing") return fmt::format("MISSING: {}", fmt::join(named, "; and "));
+  if (found.verdict == "missing") {
+    std::vector<std::string> missing, wrong;
+    for (std::size_t i = 0; i < named.size(); ++i)
+      (problem.candidates[accepted[i]->candidate].kind == Candidate::Kind::data ? wrong : missing).push_back(named[i]);
+    return fmt::format("MISSING: {}{}{}", fmt::join(missing, "; and "),
+                       wrong.empty() ? "" : "; and THE DATA are off: ", fmt::join(wrong, "; and "));
+  }
   if (found.verdict == "nothing_missing")
     return fmt::format(
         "NOTHING MISSING: no candidate explains {}, and what is left is within the noise and the errors allowed",
@@ -329,6 +336,7 @@ void write_json(const std::filesystem::path& path, const DiagnosisReport& report
   json["split_by"] = split_by(report.splits);
   json["path"] = path_of(report);
   json["suggested_case"] = report.suggested.empty() ? Json() : Json(report.suggested);
+  json["corrected_case"] = report.corrected.empty() ? Json() : Json(report.corrected);
   json["cost"] = {{"runs", report.runs},
                   {"sensitivity_runs", report.sensitivity_runs},
                   {"runs_made", report.runs_made},

@@ -9,7 +9,8 @@ namespace tether {
 
 /// What a diagnosis found, and what it took.
 struct DiagnosisReport {
-  std::string case_name, title, suggested;  ///< suggested: the case with the effect; empty: none
+  std::string case_name, title;
+  std::string suggested, corrected;  ///< cases with the effect, with corrected data; empty: none
   EffectProblem problem;
   SearchResult found;
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none

@@ -79,6 +79,11 @@ class Search {
       return std::find(settings_.refused.begin(), settings_.refused.end(), name) != settings_.refused.end();
     });
   }
+  /// Of those accepted, what is added to the model: errors of the data are not.
+  int added() const {
+    return static_cast<int>(std::count_if(now_.accepted.begin(), now_.accepted.end(),
+                                          [&](std::size_t c) { return problem_.candidates[c].takes_runs(); }));
+  }
   bool is_accepted(std::size_t candidate) const {
     return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
   }
@@ -218,13 +223,13 @@ class Search {
   bool add_one() {
     const Trained trained(problem_, now_.changes);
     const std::vector<TestedEffect> strongest = wanted(trained);
-    const bool refit_first = !now_.accepted.empty() && !asks_for_more();
-    if (refit_first || static_cast<int>(now_.accepted.size()) == settings_.most) {
+    const bool refit_first = added() > 0 && !asks_for_more();
+    if (refit_first || added() == settings_.most) {
       result_.more = !strongest.empty();
       if (result_.more || refit_first) return false;
     }
     std::vector<Refinement> all = refined(strongest, trained);
-    if (asks_for_more() && is_far_beyond_noise(worth_runs) && static_cast<int>(now_.accepted.size()) < settings_.most)
+    if (asks_for_more() && is_far_beyond_noise(worth_runs))
       for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
     return settle(all);
   }

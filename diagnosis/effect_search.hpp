@@ -8,7 +8,7 @@ struct SearchSettings {
   double alpha = 0.05;                    ///< probability of a false alarm over all candidates
   double unexplained = 0.1;               ///< if more of what the data ask for remains, something else is missing
   double enough = 0;                      ///< excess (D.11) below which another effect must stand out at alpha/5
-  int most = 3;                           ///< effects that are added
+  int most = 3;                           ///< effects that are added to the model, errors of the data aside
   int refinements = 5;                    ///< runs at most for an effect's amplitude
   int confirmed = 8;                      ///< candidates whose amplitude is found with runs, before one is chosen
   int compared = 12;                      ///< of the strongest, how much each looks like each other is kept

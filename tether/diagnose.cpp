@@ -83,6 +83,7 @@ class Job {
         {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed, SearchSettings{}.compared, d.refused},
         [&](const MatrixXd& amplitudes) { return residual_at(report.problem, evidence, amplitudes); });
     report.splits = splits_of(report, evidence, motions);
+    if (write_corrected(output_ / "corrected.yaml", given_, report)) report.corrected = "corrected.yaml";
     if (write_suggested(output_ / "suggested.yaml", given_, report, effects_)) report.suggested = "suggested.yaml";
     report.runs = runs_.all;
     report.runs_made = runs_.made;
@@ -194,12 +195,6 @@ class Job {
   int trials_ = 0;
 };
 
-bool accepts_physics(const DiagnosisReport& report) {
-  return std::any_of(report.found.effects.begin(), report.found.effects.end(), [&](const TestedEffect& effect) {
-    return effect.accepted && report.problem.candidates[effect.candidate].takes_runs();
-  });
-}
-
 std::string where_to_look(const fs::path& output, const DiagnosisReport& report,
                           const std::vector<std::string>& pictures) {
   std::string text = fmt::format(
@@ -207,9 +202,11 @@ std::string where_to_look(const fs::path& output, const DiagnosisReport& report,
       "would show, cost\n",
       report.runs, report.runs_made, report.cpu_seconds, output.string());
   if (!report.suggested.empty())
-    text += fmt::format("  suggested.yaml     the case with {} {}\n",
-                        accepts_physics(report) ? "the effect: tether identify" : "corrected data: tether explain",
+    text += fmt::format("  suggested.yaml     the case with the effect: tether identify {}\n",
                         (output / report.suggested).string());
+  if (!report.corrected.empty())
+    text += fmt::format("  corrected.yaml     the case with corrected data: tether explain {}\n",
+                        (output / report.corrected).string());
   for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
   return text;
 }

@@ -178,7 +178,16 @@ class Explainer {
     steps_.make(fmt::format("model {}: what it lacks", model.number), case_of(folder), folder, "diagnosis.json",
                 [&](bool) { return diagnose(command_for(folder, folder)); });
     model.diagnosis = content_of(output_ / folder / "diagnosis.json");
-    return effects_added() < given_.diagnosis.most && accepted_effects(model.diagnosis, false) != "[]";
+    return effects_added() < given_.diagnosis.most && accepted_effects(model.diagnosis, false) != "[]" &&
+           !are_data_to_be_checked();
+  }
+
+  /// Whether the last diagnosis says that all frames of a source are off: the user must see to that, and held-out
+  /// frames are no judges of what else is missing. One wrong frame is left out.
+  bool are_data_to_be_checked() {
+    const Json errors = Json::parse(accepted_effects(best().diagnosis, true));
+    return std::any_of(errors.begin(), errors.end(),
+                       [](const Json& error) { return error["kind"] == "data" && error["frame"].is_null(); });
   }
 
   /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.

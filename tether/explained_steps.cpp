@@ -13,6 +13,7 @@
 #include "common/base/progress_line.hpp"
 #include "common/config/case_essence.hpp"
 #include "common/config/case_tree.hpp"
+#include "report/built_from.hpp"
 
 namespace tether {
 namespace {
@@ -44,8 +45,9 @@ std::string first_line(const fs::path& path) {
   return line;
 }
 
+/// Of the case and of the version, whose files others may not understand.
 std::string key_of(const fs::path& case_file) {
-  return fmt::format("{:016x}", hash_case(yaml_text(as_one_file(read_case_tree(case_file))), 0));
+  return fmt::format("{:016x} {}", hash_case(yaml_text(as_one_file(read_case_tree(case_file))), 0), built_from);
 }
 
 }  // namespace

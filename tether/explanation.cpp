@@ -185,15 +185,12 @@ std::string accepted_effects(const std::string& diagnosis, bool of_data) {
 }
 
 std::string corrected_case(const Explanation& e) {
-  for (std::size_t i = e.best + 1; i-- > 0;) {
-    if (!is_diagnosed(e.models[i])) continue;
-    const Json diagnosis = Json::parse(e.models[i].diagnosis);
-    const bool any = !accepted(diagnosis, true).empty() && accepted(diagnosis, false).empty();
-    return any && !diagnosis["suggested_case"].is_null()
-               ? e.models[i].diagnosis_folder() + "/" + diagnosis["suggested_case"].get<std::string>()
-               : "";
-  }
-  return "";
+  const ExplainedModel& last = best_of(e);
+  if (!is_diagnosed(last)) return "";
+  const Json diagnosis = Json::parse(last.diagnosis);
+  return diagnosis["corrected_case"].is_null()
+             ? ""
+             : last.diagnosis_folder() + "/" + diagnosis["corrected_case"].get<std::string>();
 }
 
 std::string verdict_of(const Explanation& e) {

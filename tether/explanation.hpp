@@ -62,7 +62,7 @@ std::string accepted_effects(const std::string& diagnosis, bool of_data);
 /// diagnosis.json of the first model that was diagnosed; "null": none was.
 std::string first_diagnosis(const Explanation& explanation);
 
-/// The case with its data corrected of the errors that the last diagnosis found, in the output folder; empty if it
+/// The case with its data corrected of the errors that the best model's diagnosis found, in the output folder; empty if it
 /// found none, or none that a case can take off.
 std::string corrected_case(const Explanation& explanation);
 

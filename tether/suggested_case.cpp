@@ -43,12 +43,22 @@ void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValu
 
 }  // namespace
 
+bool write_corrected(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report) {
+  const std::vector<Overlay::Value> corrections = corrections_of(report, given.observations);
+  if (corrections.empty()) return false;
+  const CommonCase& common = given.file.common();
+  write_overlay(file, {std::filesystem::absolute(given.file.path()), common.name + "_corrected",
+                       (common.title.empty() ? common.name : common.title) + ", with corrected data", corrections});
+  return true;
+}
+
 bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report,
                      const std::vector<PlacedEffect>& effects) {
   const CaseFile& from = given.file;
   Overlay overlay{std::filesystem::absolute(from.path()), from.common().name + "_suggested",
                   from.common().title + ", with what the diagnosis adds", corrections_of(report, given.observations)};
   std::vector<std::string> added;
+  bool nothing_added = true;
   for (const TestedEffect& effect : report.found.effects) {
     const Candidate& candidate = report.problem.candidates[effect.candidate];
     if (!effect.accepted || !candidate.takes_runs()) continue;
@@ -56,6 +66,7 @@ bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& giv
       const auto number = static_cast<std::size_t>(candidate.amplitudes[static_cast<std::size_t>(own)]);
       const Amplitude& amplitude = report.problem.amplitudes[number];
       if (effect.amplitudes(own) == 0) continue;
+      nothing_added = false;
       const auto placed = std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) {
         return e.is_new && amplitude.name.starts_with(e.path + ".");
       });
@@ -68,7 +79,7 @@ bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& giv
       add_parameter(overlay, amplitude, found);
     }
   }
-  if (overlay.values.empty()) return false;
+  if (nothing_added) return false;
   write_overlay(file, overlay);
   return true;
 }
