@@ -61,7 +61,7 @@ class Search {
   bool is_worth_more(const TestedEffect& a, const TestedEffect& b) const { return worth_of(a) > worth_of(b); }
 
   double dispersion(const VectorXd& residual) const {
-    const VectorXd r = residual(problem_.training), w = problem_.precision(problem_.training);
+    const VectorXd r = refitted(residual)(problem_.training), w = problem_.precision(problem_.training);
     return std::max(1.0, r.dot(w.cwiseProduct(r)) / result_.independent);
   }
 

@@ -34,7 +34,8 @@ struct SearchResult {
   VectorXd residual;       ///< with them [n]
   double independent = 0;  ///< number of independent training data
   bool more = false;       ///< another effect is wanted, but `most` were added
-  double dispersion = 1;   ///< misfit per independent datum that is left, at least 1: intervals are widened by its root
+  double dispersion = 1;   ///< misfit per independent datum that is left, at least 1, numbers that may be anything
+                          ///< refitted: intervals are widened by its root
   std::optional<Gain> held_out;
   bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
 };

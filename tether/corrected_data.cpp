@@ -21,7 +21,7 @@ const LumenDataCase& data_of(const ObservationsCase& observations, const std::st
 
 std::string list_of(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(number_text(number));
+  for (const double number : numbers) texts.push_back(number_text(number + 0.0));  // not -0
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 std::string list_of(const Vec3& v) {

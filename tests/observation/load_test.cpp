@@ -200,6 +200,53 @@ TEST_F(Load, RefusesBadSurfaces) {
             "case.yaml:5: observations.surfaces.ct.held_out: there is no frame 3; frames are numbered 0 to 0");
 }
 
+/// Data that were displaced, turned about (0.1, 0, 1) and made too small read as the others do, once that is taken off.
+TEST_F(Load, TakesKnownErrorsOff) {
+  const std::string exact = "  surfaces: {ct: {file: exact.stl, unit: cm}}\n";
+  folder.file("exact.stl", stl(vessel(1.1)));
+  TriangleSurface wrong = vessel(1.05);
+  const Vec3 middle(0.1, 0, 1), by(0.03, -0.02, 0.01);
+  const Eigen::AngleAxisd turn(0.05, Vec3::UnitX());
+  for (auto point : wrong.points.colwise()) point = turn * (point - middle) + middle + by;
+  folder.file("wrong.stl", stl(wrong));
+  // x' = R^-1 (x - by - middle) + middle: turned back about middle + by, then displaced by -by.
+  const Observations right = load(exact),
+                     mended = load(
+                         "  surfaces: {ct: {file: wrong.stl, unit: cm, correction: {rotation: [-0.05, 0, 0], about: "
+                         "[1.3 mm, -0.02, 1.01], displacement: [-0.03, 0.02, -0.01], outward: 0.05}}}\n");
+  const std::vector<Sample> expected = right.observe(model.points, 0), found = mended.observe(model.points, 0);
+  int compared = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (expected[i].weight > 0 && found[i].weight > 0) {
+      EXPECT_NEAR(found[i].distance, expected[i].distance, 1e-3) << "chords of another radius";
+      ++compared;
+    }
+  EXPECT_GT(compared, 90);
+  EXPECT_NE(mended.content(), load("  surfaces: {ct: {file: wrong.stl, unit: cm}}\n").content());
+}
+
+TEST_F(Load, LeavesFramesOut) {
+  for (const int i : {1, 2, 3}) folder.file(fmt::format("f_{}.stl", i), stl(vessel(1 + 0.1 * i)));
+  const std::string ct = "  surfaces: {ct: {folder: ., pattern: f_*.stl, first_time: 0, interval: 0.2, unit: cm, ";
+  const Observations data = load(ct + "left_out: [1], held_out: [2]}}\n");
+  const std::vector<Frame> frames = data.lumen[0]->frames();
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].label, 2) << "the others keep their numbers";
+  EXPECT_TRUE(frames[1].held_out);
+  EXPECT_DOUBLE_EQ(frames[1].time, 0.4);
+  EXPECT_EQ(message(ct + "left_out: [3]}}\n"),
+            "case.yaml:5: observations.surfaces.ct.left_out: there is no frame 3; frames are numbered 0 to 2");
+  EXPECT_EQ(message(ct + "left_out: [0, 1, 2]}}\n"),
+            "case.yaml:5: observations.surfaces.ct.left_out: of 3 frames one at least must be left to the model");
+  folder.file("c.csv", heading + circle_rows("A", 5, 0, 11, 15) + circle_rows("A", 6, 200, 13, 15));
+  const Observations contours = load("  contours: {mr: {file: c.csv, left_out: [5], correction: {outward: -1 mm}}}\n");
+  ASSERT_EQ(contours.lumen[0]->frames().size(), 1U);
+  EXPECT_EQ(contours.lumen[0]->frames()[0].label, 6);
+  EXPECT_NEAR(contours.observe(model.points, 0.2)[3].distance, 0.2, 2e-2);
+  EXPECT_EQ(message("  contours: {mr: {file: c.csv, left_out: [7]}}\n"),
+            "c.csv: left_out: there is no frame 7; its frames are 5, 6");
+}
+
 TEST_F(Load, ReadsContoursWithTimesOfTheirOwn) {
   folder.file("c.csv", heading + circle_rows("A", 0, 0, 11, 15) + circle_rows("A", 1, 200, 13, 15) +
                            circle_rows("B", 0, 100, 12, 25) + circle_rows("B", 1, 400, 9, 25));
