@@ -353,8 +353,7 @@ std::string text_of(const Explanation& explanation, const fs::path& output) {
     text += fmt::format("  {}.yaml       the case with what was found, ready for tether simulate\n",
                         explanation.models[explanation.best].folder());
   if (const std::string corrected = corrected_case(explanation); !corrected.empty())
-    text += fmt::format("  {}   the data without these errors: look again with tether explain {}\n", corrected,
-                        (output / corrected).string());
+    text += fmt::format("  {}   the case with corrected data\n", corrected);
   return text;
 }
 

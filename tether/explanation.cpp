@@ -205,6 +205,9 @@ std::string verdict_of(const Explanation& e) {
 std::vector<std::string> sentences_of(const Explanation& e) {
   std::vector<std::string> all{verdict_sentence(e)};
   if (e.held_out && e.best > 0) all.push_back(held_out_sentence(e));
+  if (const std::string corrected = corrected_case(e); !corrected.empty())
+    all.push_back(
+        fmt::format("Is it so? Then look again without these errors of the data: tether explain {}", corrected));
   for (const std::string& sentence : e.failure) all.push_back("The model as given: " + sentence);
   const Json last = last_diagnosis(e);
   for (std::size_t i = 1; i < last["sentences"].size(); ++i) {

@@ -29,8 +29,11 @@ Json effect(const std::string& name, const std::string& kind, bool accepted, boo
 }
 
 Json diagnosis(const std::string& verdict, const Json& effects) {
-  return {
-      {"verdict", verdict}, {"sentences", {verdict + " it says"}}, {"effects", effects}, {"detectable", Json::array()}};
+  return {{"verdict", verdict},
+          {"sentences", {verdict + " it says"}},
+          {"effects", effects},
+          {"detectable", Json::array()},
+          {"corrected_case", nullptr}};
 }
 
 ExplainedModel model(int number, const Json& diagnosed, const Json& added) {
@@ -62,6 +65,11 @@ TEST(Explanation, CallsAnErrorOfTheDataNoEffect) {
       model(0, diagnosis("missing", Json::array({effect("misplaced_frame", "data", true, false, 2)})), Json::array())};
   EXPECT_EQ(verdict_of(e), "missing");
   EXPECT_EQ(sentences_of(e).front(), "missing it says") << "the diagnosis's own sentence: the data are off";
+  Json with_correction = Json::parse(e.models[0].diagnosis);
+  with_correction["corrected_case"] = "corrected.yaml";
+  e.models[0].diagnosis = with_correction.dump();
+  EXPECT_EQ(corrected_case(e), "diagnosis_0/corrected.yaml");
+  EXPECT_TRUE(sentences_of(e)[1].ends_with("tether explain diagnosis_0/corrected.yaml")) << sentences_of(e)[1];
   e.models = {model(0, diagnosis("missing", Json::array({effect("contact", "effect", true, false, 2)})), Json::array()),
               model(1, nullptr, Json::array({effect("contact", "effect", true, false, 7)}))};
   e.best = 1;
