@@ -75,10 +75,10 @@ int wait_for(pid_t child, const std::string& mark, double limit) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// What is left after a grace of 1.5 s; ended here so that no test leaves a process behind.
+/// What is left after a grace of 10 s, which a busy machine may take; ended here so that no test leaves a process.
 std::vector<int> remaining(const std::string& mark) {
   const auto start = Clock::now();
-  while (!marked_processes(mark).empty() && seconds_since(start) < 1.5) nap(0.05);
+  while (!marked_processes(mark).empty() && seconds_since(start) < 10) nap(0.05);
   const auto orphans = marked_processes(mark);
   for (const int pid : orphans) kill(pid, SIGKILL);
   return orphans;

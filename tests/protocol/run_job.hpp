@@ -12,7 +12,7 @@ struct JobResult {
   double seconds = 0;
   double seconds_after_fault = 0;  ///< from the fault that a fake was told to make to the end; 0 without one
   std::string output, errors;      ///< stdout, stderr
-  std::vector<int> orphans;        ///< the job's programs that still run 1.5 s after its end
+  std::vector<int> orphans;        ///< the job's programs that still run 10 s after its end
 };
 
 using Environment = std::map<std::string, std::string>;

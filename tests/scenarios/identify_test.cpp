@@ -141,7 +141,8 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
     EXPECT_EQ(ended.errors.find("ended by signal"), std::string::npos) << "one message is enough: " << ended.errors;
     EXPECT_NE(ended.errors.find(fmt::format("--output {} --resume", (folder / output).string())), std::string::npos)
         << ended.errors;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    for (int wait = 0; wait < 100 && process_of("fluid", case_file) != 0; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_EQ(process_of("fluid", case_file), 0) << "an orphan";
     ASSERT_EQ(tether("identify", case_file, output, {"--resume"}).exit_code, 0);
     expect_same("whole", output);
