@@ -72,26 +72,30 @@ std::vector<Amplitude> in_space(const std::string& unit) {
 /// How far the data lie farther out if a source is turned about its middle, one column for each axis [n x 3]; and which
 /// of them the data show: a round tube does not, about its own axis.
 struct Turned {
-  Turned(const Evidence& evidence, std::size_t source) : columns(MatrixXd::Zero(evidence.places().cols(), 3)) {
-    double count = 0;
-    for (const auto& part : evidence.parts())
-      if (part.source == source) {
-        middle += evidence.places().middleCols(part.first, part.count).rowwise().sum();
-        count += static_cast<double>(part.count);
-      }
-    middle /= count;
-    for (const auto& part : evidence.parts())
-      for (Index i = part.first; part.source == source && i < part.first + part.count; ++i)
-        columns.row(i) = (evidence.places().col(i) - middle).cross(Vec3(evidence.normals().col(i))).transpose();
-    const Vec3 squares = columns.colwise().squaredNorm();
-    for (Index axis = 0; axis < 3; ++axis)
-      if (squares(axis) > hardly_seen * squares.maxCoeff()) seen.push_back(axis);
-  }
   MatrixXd columns;
   Vec3 middle{0, 0, 0};
   std::vector<Index> seen;
-  static constexpr double hardly_seen = 0.03;
 };
+
+Turned turned_about_middle(const Evidence& evidence, std::size_t source) {
+  constexpr double hardly_seen = 0.03;  // of the best seen axis's squares
+  Turned turned{MatrixXd::Zero(evidence.places().cols(), 3)};
+  double count = 0;
+  for (const auto& part : evidence.parts())
+    if (part.source == source) {
+      turned.middle += evidence.places().middleCols(part.first, part.count).rowwise().sum();
+      count += static_cast<double>(part.count);
+    }
+  turned.middle /= count;
+  for (const auto& part : evidence.parts())
+    for (Index i = part.first; part.source == source && i < part.first + part.count; ++i)
+      turned.columns.row(i) =
+          (evidence.places().col(i) - turned.middle).cross(Vec3(evidence.normals().col(i))).transpose();
+  const Vec3 squares = turned.columns.colwise().squaredNorm();
+  for (Index axis = 0; axis < 3; ++axis)
+    if (squares(axis) > hardly_seen * squares.maxCoeff()) turned.seen.push_back(axis);
+  return turned;
+}
 
 std::vector<Amplitude> in_angle(const std::vector<Index>& axes) {
   constexpr double far = 0.35;  // 20 degrees: beyond, first order says nothing
@@ -127,12 +131,13 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
   std::map<std::size_t, int> frames;
   for (const auto& part : evidence.parts()) frames[part.source] += 1;
   std::size_t last = evidence.parts().size();
+  Turned turned;
   for (const auto& part : evidence.parts()) {
     if (evidence.is_trace(part)) continue;
     const std::string name = evidence.name_of(part);
     const double sigma = evidence.noise(part).deviation;
     const Amplitude shift{"time_shift", "the frames show the vessel that much later than they say", unit_of_time};
-    const Turned turned(evidence, part.source);
+    if (part.source != last) turned = turned_about_middle(evidence, part.source);
     Candidate error{"misregistration", name, "The data are displaced as a whole", Candidate::Kind::data, {}};
     error.data = {evidence.field_of(part), undefined, turned.middle};
     const auto named = [&](const char* type, const char* meaning) {
