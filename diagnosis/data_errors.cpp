@@ -79,7 +79,8 @@ struct Turned {
 
 Turned turned_about_middle(const Evidence& evidence, std::size_t source) {
   constexpr double hardly_seen = 0.03;  // of the best seen axis's squares
-  Turned turned{MatrixXd::Zero(evidence.places().cols(), 3)};
+  Turned turned;
+  turned.columns = MatrixXd::Zero(evidence.places().cols(), 3);
   double count = 0;
   for (const auto& part : evidence.parts())
     if (part.source == source) {
