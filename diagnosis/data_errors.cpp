@@ -43,7 +43,7 @@ class DataErrors {
     for (Index k = 0; k < columns.cols(); ++k) {
       added.amplitudes.push_back(problem_.changes.cols() + k);
       problem_.amplitudes.push_back(amplitudes[static_cast<std::size_t>(k)]);
-      allow(problem_, columns.col(k), allowed);
+      allow(problem_, columns.col(k), allowed, candidate.name + " at " + candidate.where);
     }
     append_columns(problem_.changes, columns);
     problem_.candidates.push_back(added);
@@ -111,13 +111,18 @@ std::vector<Amplitude> in_angle(const std::vector<Index>& axes) {
 
 }  // namespace
 
+std::string frame_text(const Evidence& evidence, const Evidence::Part& part) {
+  return fmt::format("{}, {:.4g} s", evidence.name_of(part), part.frame.time);
+}
+
 void append_columns(MatrixXd& to, const MatrixXd& columns) {
   to.conservativeResize(columns.rows(), to.cols() + columns.cols());
   to.rightCols(columns.cols()) = columns;
 }
 
-void allow(EffectProblem& problem, const VectorXd& column, double deviation) {
+void allow(EffectProblem& problem, const VectorXd& column, double deviation, const std::string& name) {
   if (!(deviation > 0)) return;
+  problem.allowed_names.push_back(name);
   append_columns(problem.allowed, column);
   problem.allowed_deviation.conservativeResize(problem.allowed.cols());
   problem.allowed_deviation(problem.allowed.cols() - 1) = deviation;
@@ -162,7 +167,7 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
                  errors.only(velocity, part.source, nullptr), allowed.time_shift.value_or(0));
     }
     if (part.frame.held_out || frames[part.source] < 2) continue;
-    error.where = fmt::format("{}, {:.4g} s", name, part.frame.time);
+    error.where = frame_text(evidence, part);
     error.confirmable = false;
     error.data.frame = part.frame.label;
     errors.add(named("misplaced_frame", "One frame is displaced"), in_space(unit_of_length),
@@ -202,7 +207,7 @@ void add_patterns(EffectProblem& problem, const Evidence& evidence, const Allowa
     append_columns(problem.patterns, column.values);
     const std::string region = number >= 0 ? evidence.region_names()[static_cast<std::size_t>(number)] : "wall";
     problem.pattern_names.push_back({region, time < start - 0.5 ? undefined : time, static_cast<Pattern::Form>(form)});
-    allow(problem, column.values, column.deviation);
+    allow(problem, column.values, column.deviation, "");
   }
 }
 

@@ -11,6 +11,9 @@ namespace tether {
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
                      const AllowanceCase& allowed, const std::string& unit_of_length, const std::string& unit_of_time);
 
+/// "ct, 0.26 s".
+std::string frame_text(const Evidence& evidence, const Evidence::Part& part);
+
 /// Each region at each moment (all along the vessel, one end against the other, the ends against the middle), and over
 /// the beat (constant, cosine, sine): what may be off without any effect's doing (D.11). As errors of the model's mesh
 /// they are allowed.
@@ -19,7 +22,7 @@ void add_patterns(EffectProblem& problem, const Evidence& evidence, const Allowa
 
 /// Appends columns to a matrix of the problem.
 void append_columns(MatrixXd& to, const MatrixXd& columns);
-/// Appends an error that is allowed with a deviation, if that is above zero.
-void allow(EffectProblem& problem, const VectorXd& column, double deviation);
+/// Appends an error that is allowed with a deviation, if that is above zero. name: empty if nobody can look after it.
+void allow(EffectProblem& problem, const VectorXd& column, double deviation, const std::string& name);
 
 }  // namespace tether

@@ -198,8 +198,33 @@ std::vector<std::string> named_of(const DiagnosisReport& report) {
   return named;
 }
 
+std::string strained_text(const SearchResult& found) {
+  std::vector<std::string> all;
+  for (const StrainedError& error : found.strained)
+    all.push_back(fmt::format("{} ({:.1f} times the deviation that is allowed)", error.name, error.deviations));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
 std::string refusal_text(const EffectProblem& problem, const SearchStep& step) {
   return fmt::format("{} stands out, but {}", name_of(problem.candidates[step.candidate]), step.reason);
+}
+
+std::string text_of(const EffectProblem& problem, const TestedEffect& effect) {
+  return fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect));
+}
+
+/// What cannot be told from its rivals; then what is sure beside it.
+std::string ambiguous_sentence(const DiagnosisReport& report) {
+  std::vector<std::string> unclear, beside, wrong;
+  for (const TestedEffect* effect : accepted_of(report.found)) {
+    std::vector<std::string> alike{text_of(report.problem, *effect)};
+    for (const TestedEffect& rival : report.found.effects)
+      if (rival.rival && rival.group == effect->group) alike.push_back(text_of(report.problem, rival));
+    const bool is_sure = alike.size() == 1;
+    const bool of_data = report.problem.candidates[effect->candidate].kind == Candidate::Kind::data;
+    (is_sure ? of_data ? wrong : beside : unclear).push_back(fmt::format("{}", fmt::join(alike, " from ")));
+  }
+  return ambiguity("AMBIGUOUS: these data cannot tell ", unclear, beside, wrong);
 }
 
 std::string verdict_sentence(const DiagnosisReport& report) {
@@ -233,14 +258,7 @@ std::string verdict_sentence(const DiagnosisReport& report) {
   if (found.verdict == "not_in_catalogue")
     return fmt::format("NOT IN THE CATALOGUE: something is missing that no candidate explains: {}",
                        where_left(problem, found.after));
-  if (found.verdict == "ambiguous") {
-    std::vector<std::string> alike;
-    for (const TestedEffect& effect : found.effects)
-      if (effect.accepted || effect.rival)
-        alike.push_back(
-            fmt::format("{}, {}", name_of(problem.candidates[effect.candidate]), amplitude_text(problem, effect)));
-    return fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
-  }
+  if (found.verdict == "ambiguous") return ambiguous_sentence(report);
   if (!found.path.empty()) return "UNDECIDED: " + refusal_text(problem, found.path.front());  // the best of them
   return found.doubtful ? "UNDECIDED: no candidate stands out, but the model is off by more than noise and the errors "
                           "allowed make by chance"
@@ -281,6 +299,13 @@ std::string interval_text(const TestedEffect& effect, const FoundValue& found) {
   return effect.at_limit ? "its limit" : fmt::format("{} .. {}", short_number(found.lower), short_number(found.upper));
 }
 
+std::string ambiguity(const std::string& head, const std::vector<std::string>& unclear,
+                      const std::vector<std::string>& beside, const std::vector<std::string>& wrong) {
+  return fmt::format("{}{}{}{}{}{}", head, fmt::join(unclear, ", nor "), beside.empty() ? "" : "; beside it ",
+                     fmt::join(beside, " and "),
+                     wrong.empty() ? "" : "; THE DATA are off: ", fmt::join(wrong, " and "));
+}
+
 std::vector<std::string> sentences_of(const DiagnosisReport& report) {
   const SearchResult& found = report.found;
   std::vector<std::string> all{verdict_sentence(report)};
@@ -311,6 +336,8 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
     all.push_back(refusal_text(report.problem, found.path.back()));
   if (found.verdict == "missing" && found.after.p < report.alpha / 5)
     all.push_back(fmt::format("Something smaller is left: {}", where_left(report.problem, found.after)));
+  if (!found.strained.empty() && accepted_of(found).empty())
+    all.push_back(fmt::format("Errors that are allowed would have to be large, see to them: {}", strained_text(found)));
   if (found.verdict == "undecided" && found.doubtful && !report.problem.pattern_names.empty())
     all.push_back(fmt::format("Farthest off: {}", where_left(report.problem, found.after)));
   return all;

@@ -37,6 +37,10 @@ struct FoundValue {
 };
 FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
 
+/// "HEAD A from B, nor C from D; beside it E; THE DATA are off: F".
+std::string ambiguity(const std::string& head, const std::vector<std::string>& unclear,
+                      const std::vector<std::string>& beside, const std::vector<std::string>& wrong);
+
 /// "lower .. upper", or that the value is at its limit, or hardly known.
 std::string interval_text(const TestedEffect& effect, const FoundValue& found);
 

@@ -72,8 +72,9 @@ struct EffectProblem {
   MatrixXd changes;  ///< S [n x q]
   std::vector<Amplitude> amplitudes;
   std::vector<Candidate> candidates;
-  MatrixXd allowed;            ///< N [n x k]
-  VectorXd allowed_deviation;  ///< [k]
+  MatrixXd allowed;                        ///< N [n x k]
+  VectorXd allowed_deviation;              ///< [k]
+  std::vector<std::string> allowed_names;  ///< of those that a person may look after, else empty [k]
   std::vector<AllowedRun> allowed_runs;
   MatrixXd patterns;  ///< [n x g]
   std::vector<Pattern> pattern_names;

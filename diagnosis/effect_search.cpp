@@ -18,8 +18,10 @@ constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr double the_same = 0.99;   ///< cosine
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
-constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
-constexpr double doubtful = 3;           ///< the same: by chance once in some hundred cases
+constexpr double worth_runs = 4;  ///< misfit beyond noise, in the deviations that noise gives it
+constexpr double doubtful = 3;    ///< the same: by chance once in some hundred cases
+constexpr double noteworthy = 2;  ///< of what an error is allowed
+constexpr double strained = 2.5;  ///< the same: a few allowed errors are well seen, each by chance once in eighty cases
 constexpr double unexplainable = 6;      ///< the same: neither noise nor errors allowed do that
 constexpr double mostly = 0.5;           ///< of the information on an effect, beside accepted ones
 constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
@@ -337,8 +339,22 @@ class Search {
            result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
   }
 
-  /// Whether the data at hand or those held out, given these, are off by more than chance would have it.
+  /// Allowed errors that somebody may look after, by how much of them the data ask for.
+  std::vector<StrainedError> strained_errors() const {
+    const VectorXd found = plain_.amplitudes(now_.residual).cwiseQuotient(problem_.allowed_deviation);
+    std::vector<StrainedError> all;
+    for (std::size_t k = 0; k < problem_.allowed_names.size(); ++k)
+      if (const double size = std::abs(found(static_cast<Index>(k)));
+          !problem_.allowed_names[k].empty() && size > noteworthy)
+        all.push_back({problem_.allowed_names[k], size});
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.deviations > b.deviations; });
+    return all;
+  }
+
+  /// Whether the data at hand or those held out, given these, are off by more than chance would have it, or an allowed
+  /// error would have to be larger than it is by chance.
   bool is_doubtful() const {
+    if (!result_.strained.empty() && result_.strained.front().deviations > strained) return true;
     if (result_.after.p < settings_.alpha || is_far_beyond_noise(doubtful)) return true;
     if (problem_.held_out.size() < 2) return false;
     const double count = problem_.independent(problem_.held_out).sum();
@@ -350,6 +366,7 @@ class Search {
     const bool ambiguous = std::any_of(result_.effects.begin(), result_.effects.end(), [&](const auto& e) {
       return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
     });
+    result_.strained = strained_errors();
     result_.doubtful = is_doubtful();
     if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
     if (leaves_too_much() && !result_.more)

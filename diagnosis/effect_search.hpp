@@ -15,6 +15,12 @@ struct SearchSettings {
   std::vector<std::string> refused = {};  ///< numbers of candidates that are not accepted
 };
 
+/// An allowed error that the data ask for, in the deviations that are allowed.
+struct StrainedError {
+  std::string name;
+  double deviations = 0;
+};
+
 /// One attempt to add an effect.
 struct SearchStep {
   std::size_t candidate = 0;
@@ -35,8 +41,9 @@ struct SearchResult {
   double independent = 0;  ///< number of independent training data
   bool more = false;       ///< another effect is wanted, but `most` were added
   double dispersion = 1;   ///< misfit per independent datum that is left, at least 1, numbers that may be anything
-                          ///< refitted: intervals are widened by its root
+                           ///< refitted: intervals are widened by its root
   std::optional<Gain> held_out;
+  std::vector<StrainedError> strained;  ///< errors beyond twice what is allowed, the worst first
   bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
 };
 

@@ -157,7 +157,7 @@ void add_model_changes(EffectProblem& problem, const std::string& runs_json, con
                is_assumed = holds(diagnosis.assumed, amplitude.name);
     if (!is_absent || is_assumed) {
       const auto before = problem.allowed.cols();
-      allow(problem, change / step, allowed_deviation(amplitude, diagnosis));
+      allow(problem, change / step, allowed_deviation(amplitude, diagnosis), amplitude.name);
       if (problem.allowed.cols() > before) problem.allowed_runs.push_back({before, static_cast<Eigen::Index>(i), step});
     }
     if (is_assumed) continue;

@@ -37,7 +37,8 @@ class Runs {
     command.resume = false;
     const int code = run_in_foreground(parallel_run("identification_master", command));
     if (code == exit_input_wrong) throw input_error("the runs of {} are refused (see above)", case_file.string());
-    if (code != exit_done) throw run_error("the runs of {} failed (see above)", case_file.string());
+    if (code != exit_done)
+      throw run_error("the runs of {} failed (see above); the same command goes on from there", case_file.string());
     Json json = Json::parse(content_of(command.output / "runs.json"));
     all += static_cast<int>(json["runs"].size());
     made += json["made"].get<int>();

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
+#include "diagnosis/data_errors.hpp"
 #include "report/report.hpp"
 #include "tether/diagnosed_case.hpp"
 #include "tether/explained_steps.hpp"
@@ -102,6 +105,7 @@ class Explainer {
     while (diagnose_best())
       if (add_model() ? is_settled() : !refuse()) break;
     if (verdict_of(explanation_) == "not_in_catalogue") seek_force();
+    explanation_.odd_frames = odd_frames();
     explanation_.steps = steps_.all();
     return explanation_;
   }
@@ -170,6 +174,7 @@ class Explainer {
     std::vector<Overlay::Value> values = model.values;
     std::vector<std::string> assumed = given_.diagnosis.assumed;
     for (const std::string& number : identified_numbers(case_of(model.folder()))) assumed.push_back(number);
+    for (const auto& value : of_data_) set_value(values, value);
     if (!assumed.empty()) set_value(values, {"diagnosis.assumed", list_text(assumed)});
     if (!model.refused.empty()) set_value(values, {"diagnosis.refused", list_text(model.refused)});
     set_value(values, {"diagnosis.most", "1"});  // one at a time, all refitted in between
@@ -235,7 +240,7 @@ class Explainer {
                                 effect["where"].get<std::string>());
     if (accepted[0]["where"] == "") model.name = "with other " + accepted[0]["name"].get<std::string>();
     for (const auto& value : values_of_overlay(output_ / best().diagnosis_folder() / "suggested.yaml"))
-      set_value(model.values, value);
+      set_value(value.field.starts_with("observations.") ? of_data_ : model.values, value);
     identify_into(model);
     const Json estimate = read_json(output_ / model.identification_folder() / "estimate.json");
     for (std::size_t i = 1; i <= explanation_.best; ++i)
@@ -277,7 +282,9 @@ class Explainer {
   /// Finds the parameters of all that was added and of the case itself, together; they become the model's values.
   void identify_into(ExplainedModel& model) {
     const std::string folder = model.identification_folder();
-    write_case(folder, ", to be identified", model.values);
+    std::vector<Overlay::Value> values = model.values;
+    for (const auto& value : of_data_) set_value(values, value);
+    write_case(folder, ", to be identified", values);
     steps_.make(fmt::format("model {}, {}: its parameters", model.number, model.name), case_of(folder), folder,
                 "estimate.json", [&](bool was_begun) {
                   CommandLine command = command_for(folder, folder);
@@ -307,6 +314,40 @@ class Explainer {
         }
   }
 
+  bool is_known_wrong(const Evidence::Part& part) const {
+    const std::string where = frame_text(*evidence_, part);
+    for (const ExplainedModel& model : explanation_.models)
+      if (model.diagnosis != "null")
+        for (const Json& error : Json::parse(accepted_effects(model.diagnosis, true)))
+          if (error["where"] == where) return true;
+    return false;
+  }
+
+  /// Frames, held out or not, that lie off the best model much farther than most, and beyond noise.
+  std::vector<std::string> odd_frames() const {
+    constexpr double much = 2;  // times the median, and the noise
+    std::vector<std::string> all;
+    std::vector<std::pair<double, const Evidence::Part*>> off;
+    for (const auto& part : evidence_->parts()) {
+      if (evidence_->is_trace(part)) continue;
+      std::vector<Eigen::Index> rows(static_cast<std::size_t>(part.count));
+      std::iota(rows.begin(), rows.end(), part.first);
+      if (const Misfit misfit = misfit_of(problem_, *evidence_, residuals_.back(), rows); misfit.in_noise > 0)
+        off.emplace_back(misfit.in_noise, &part);
+    }
+    if (off.size() < 4) return all;
+    std::vector<double> sizes;
+    for (const auto& [size, part] : off) sizes.push_back(size);
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<long>(sizes.size() / 2), sizes.end());
+    const double median = sizes[sizes.size() / 2];
+    for (const auto& [size, part] : off)
+      if (size > much * std::max(1.0, median) && !is_known_wrong(*part))
+        all.push_back(fmt::format(
+            "Look at the{} frame of {} at {:.3g} s: {:.1f} times the noise off the last model, most frames {:.1f}",
+            part->frame.held_out ? " held-out" : "", evidence_->name_of(*part), part->frame.time, size, median));
+    return all;
+  }
+
   void seek_force() {
     MissingForce force(given_, best().values, output_ / "force");
     write_case("force_walk", ", with tractions that walk at random", force.identification());
@@ -332,7 +373,8 @@ class Explainer {
   FinishedMotion first_motion_;
   std::unique_ptr<Evidence> evidence_;
   EffectProblem problem_;
-  std::vector<VectorXd> residuals_;  ///< of the accepted models
+  std::vector<VectorXd> residuals_;      ///< of the accepted models
+  std::vector<Overlay::Value> of_data_;  ///< frames that are left out where values are found; all are compared
 };
 
 std::string line_of(const ExplainedModel& model, double millimetres) {

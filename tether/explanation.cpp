@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "common/base/error.hpp"
+#include "diagnosis/diagnosis_report.hpp"
 
 namespace tether {
 namespace {
@@ -80,25 +81,46 @@ std::string text_of(const Json& effect) {
   return fmt::format("{}, {}", name_of(effect), amplitude_text(effect));
 }
 
+/// Of one that was not identified: a few runs of a diagnosis say its size roughly.
+std::string rough_text_of(const Json& effect) {
+  const Json& a = effect["amplitude"];
+  const std::string parameter = a["parameter"], unit = a["unit"];
+  return fmt::format("{}, {} about {:.2g}{}{}", name_of(effect), parameter.substr(parameter.rfind('.') + 1),
+                     a["value"].get<double>(), unit == "1" ? "" : " " + unit,
+                     a.value("at_limit", false) ? " (its limit)" : "");
+}
+
 /// What the data cannot tell apart, as identified where it was; then what was found beside it.
 std::string ambiguous_sentence(const Explanation& e) {
   Json found = found_of(e);
-  std::vector<std::string> alike, beside;
+  std::vector<std::string> unclear, beside, wrong;
+  const auto take = [&](const Json& effect) {  // as it was found in the end; nothing if it was not
+    const auto identified =
+        std::find_if(found.begin(), found.end(), [&](const Json& other) { return name_of(other) == name_of(effect); });
+    if (identified == found.end()) return std::string();
+    const std::string text = text_of(*identified);
+    found.erase(identified);
+    return text;
+  };
   for (std::size_t i = 0; i <= e.best; ++i) {
     const Json diagnosis = Json::parse(e.models[i].diagnosis);
-    if (diagnosis.is_null() || diagnosis["verdict"] != "ambiguous") continue;
+    if (diagnosis.is_null()) continue;
     for (const Json& effect : diagnosis["effects"]) {
-      if (!effect["accepted"] && !effect["rival"]) continue;
-      const auto identified = std::find_if(found.begin(), found.end(),
-                                           [&](const Json& other) { return name_of(other) == name_of(effect); });
-      alike.push_back(text_of(identified == found.end() ? effect : *identified));
-      if (identified != found.end()) found.erase(identified);
+      if (!effect["accepted"]) continue;
+      std::vector<std::string> alike;
+      for (const Json& rival : diagnosis["effects"])
+        if (rival["rival"] && rival["group"] == effect["group"] && !effect["group"].is_null())
+          alike.push_back(rough_text_of(rival));
+      std::string name = take(effect);
+      if (name.empty() && i == e.best) name = rough_text_of(effect);
+      if (name.empty()) continue;
+      alike.insert(alike.begin(), name);
+      const bool is_sure = alike.size() == 1, of_data = effect["kind"] == "data";
+      (is_sure ? of_data ? wrong : beside : unclear).push_back(fmt::format("{}", fmt::join(alike, " from ")));
     }
-    break;
   }
   for (const Json& effect : found) beside.push_back(text_of(effect));
-  const std::string sentence = fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(alike, " from "));
-  return beside.empty() ? sentence : fmt::format("{}; beside it {}", sentence, fmt::join(beside, " and "));
+  return ambiguity("AMBIGUOUS: these data cannot tell ", unclear, beside, wrong);
 }
 
 /// Whether all that was found are errors of the data or of the numerics.
@@ -119,6 +141,16 @@ std::string verdict_sentence(const Explanation& e) {
     return fmt::format("UNDECIDED: {} stands out, but {}", e.models.back().name, e.models.back().reason);
   const std::string last = last_diagnosis(e)["sentences"][0];
   return found.empty() ? last : fmt::format("{}; beside {}", last, fmt::join(found, " and "));
+}
+
+/// Single frames that diagnoses found wrong, if the path went on without them.
+std::vector<std::string> left_out_of(const Explanation& e) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < e.best; ++i)
+    if (is_diagnosed(e.models[i]))
+      for (const Json& error : accepted(Json::parse(e.models[i].diagnosis), true))
+        if (!error.value("frame", Json()).is_null()) all.push_back(name_of(error));
+  return all;
 }
 
 std::string held_out_sentence(const Explanation& e) {
@@ -214,6 +246,13 @@ std::vector<std::string> sentences_of(const Explanation& e) {
     const std::string sentence = last["sentences"][i];
     if (!sentence.starts_with("Held-out")) all.push_back(sentence);
   }
+  if (last["verdict"] == "undecided" && !found_of(e).empty()) {
+    const std::string first = last["sentences"][0], word = "UNDECIDED: ";
+    all.push_back("Beside what was found: " + (first.starts_with(word) ? first.substr(word.size()) : first));
+  }
+  for (const std::string& frame : left_out_of(e))
+    all.push_back("Wrong, and left out where values were found: " + frame);
+  for (const std::string& frame : e.odd_frames) all.push_back(frame);
   if (e.models.size() > e.best + 1)
     all.push_back(fmt::format("Tried and not kept: {}: {}", e.models.back().name, e.models.back().reason));
   if (const Json force = Json::parse(e.force); !force.is_null())

@@ -48,11 +48,12 @@ struct Explanation {
   std::string case_name, title, case_file;  ///< case_file: relative to the output folder
   double millimetres = 1;                   ///< in the case's unit of length, for people
   std::vector<ExplainedModel> models;
-  std::size_t best = 0;              ///< the last one accepted
-  double unexplained = 0.3;          ///< share of the first misfit beyond noise that may be left
-  std::string force = "null";        ///< force.json; "null": none was sought
-  std::vector<std::string> failure;  ///< where the model as given fails, as comparison.json says
-  std::optional<Gain> held_out;      ///< of the best model against the one as given
+  std::size_t best = 0;                 ///< the last one accepted
+  double unexplained = 0.3;             ///< share of the first misfit beyond noise that may be left
+  std::string force = "null";           ///< force.json; "null": none was sought
+  std::vector<std::string> failure;     ///< where the model as given fails, as comparison.json says
+  std::vector<std::string> odd_frames;  ///< sentences on frames that lie much farther off the best model than others
+  std::optional<Gain> held_out;         ///< of the best model against the one as given
   std::vector<ExplainedStep> steps;
 };
 
@@ -62,8 +63,8 @@ std::string accepted_effects(const std::string& diagnosis, bool of_data);
 /// diagnosis.json of the first model that was diagnosed; "null": none was.
 std::string first_diagnosis(const Explanation& explanation);
 
-/// The case with its data corrected of the errors that the best model's diagnosis found, in the output folder; empty if it
-/// found none, or none that a case can take off.
+/// The case with its data corrected of the errors that the best model's diagnosis found, in the output folder; empty if
+/// it found none, or none that a case can take off.
 std::string corrected_case(const Explanation& explanation);
 
 /// missing, nothing_missing, ambiguous, not_in_catalogue or undecided: of the whole path.

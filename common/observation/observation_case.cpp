@@ -1,6 +1,9 @@
 #include "common/observation/observation_case.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace tether {
 namespace {
@@ -29,6 +32,19 @@ void CorrectionCase::declare(Fields& f) {
   f.numbers("about", about, {3, dimension::length, range::any}, "point about which they are turned; absent: 0, 0, 0");
   f.number("outward", outward, dimension::length, range::any,
            "by which the measured lumen is moved out along its normal: that much was segmented too small");
+  constexpr double eighth_of_a_turn = 0.786;
+  f.check(vector_of(rotation).norm() < eighth_of_a_turn, "rotation", "must be below 45 degrees; it is in radians");
+}
+
+std::vector<std::string> CorrectionCase::notes(const std::string& unit) const {
+  std::vector<std::string> all;
+  const Vec3 by = vector_of(displacement), turned = vector_of(rotation);
+  if (turned.norm() > 0)
+    all.push_back(fmt::format("corrected: turned by {:.3g} degrees", turned.norm() * 180 / std::numbers::pi));
+  if (by.norm() > 0)
+    all.push_back(fmt::format("corrected: displaced by ({:.3g}, {:.3g}, {:.3g}) {}", by(0), by(1), by(2), unit));
+  if (outward != 0) all.push_back(fmt::format("corrected: moved outward by {:.3g} {}", outward, unit));
+  return all;
 }
 
 Points CorrectionCase::corrected(Points points) const {

@@ -17,6 +17,8 @@ struct CorrectionCase {
   std::vector<double> displacement, rotation, about;  ///< empty: zero; else three numbers [length], [rad], [length]
   double outward = 0;                                 ///< [length]
   void declare(Fields& f);
+  /// What is done to the data, for people: a line each.
+  std::vector<std::string> notes(const std::string& unit) const;
   /// Points of the data where they should be.
   Points corrected(Points points) const;
 };

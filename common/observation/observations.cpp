@@ -56,6 +56,9 @@ SourceSettings settings_of(const LumenDataCase& data, double period, const Lumen
   settings.region = lumen.region;
   settings.noise = noise_of(data.noise);
   settings.outward = data.correction.outward;
+  if (const double radius = mean_radius({lumen.points, lumen.triangles}); std::abs(settings.outward) > 0.5 * radius)
+    throw input_error("{}: {:g} is more than half of the vessel's mean radius, {:.3g}",
+                      place.where("correction.outward"), settings.outward, radius);
   return settings;
 }
 
@@ -76,7 +79,7 @@ void check_frames(const LumenDataCase& data, std::size_t count, const Place& pla
       ++used;
   if (used == 0)
     throw input_error("{}: of {} frames one at least must be left to the model",
-                      place.where(data.held_out.empty() ? "left_out" : "held_out"), count);
+                      place.where(data.left_out.empty() ? "held_out" : "left_out"), count);
 }
 
 /// The files that are used; returns their numbers.
@@ -91,6 +94,13 @@ std::vector<double> drop_left_out(std::vector<TimedFile>& files, const LumenData
     }
   files = used;
   return labels;
+}
+
+/// What the case takes off the data.
+void note_corrections(std::vector<std::string>& notes, const LumenDataCase& data, const CaseFile& file) {
+  for (std::string& note : data.correction.notes(file.units().symbol(dimension::length)))
+    notes.push_back(std::move(note));
+  if (!data.left_out.empty()) notes.push_back(fmt::format("left out: frames {:g}", fmt::join(data.left_out, ", ")));
 }
 
 /// A series that does not repeat must have something to say during the run.
@@ -149,6 +159,7 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
   const double scale = units.quantity("1 " + given.unit, dimension::length), period = given.period.value_or(0);
   std::vector<SurfaceFrame> frames;
   std::vector<std::string> notes;
+  note_corrections(notes, given.data, place.file);
   std::vector<bool> held_out;
   const std::vector<Opening> openings = openings_of(lumen);
   const double reach = reach_of(given.data, lumen);
@@ -242,6 +253,7 @@ std::vector<std::string> check_overlap(const ContourSeries& series, const LumenS
 
 std::unique_ptr<LumenSeries> load(const SlicesCase& given, const LumenSurface& lumen, const Place& place) {
   std::vector<std::string> notes;
+  note_corrections(notes, given.data, place.file);
   std::vector<ContourTrack> tracks = read_contour_tracks(given, place.file.units(), notes);
   const double period = given.beat.value_or(given.period.value_or(0));
   double first = infinite, last = -infinite;

@@ -22,8 +22,9 @@ const plain = (sentence) => sentence.replace(/^(MISSING|NOTHING MISSING|NOT IN T
 /** The first sentence large; the list of what cannot be told apart as a list. */
 function headline(first, verdict) {
   const sentence = plain(first), alike = verdict === "ambiguous" ? sentence.match(/^(.*cannot tell) (.+)$/s) : null;
-  const names = alike ? alike[2].split(" from ") : [];
-  if (names.length > 2) return [element("p", { class: "verdict" }, `${alike[1]} ${names.length} effects from each other`), furtherSentences(names)];
+  const [one, ...beside] = alike ? alike[2].split("; ") : [""];
+  const names = one.includes(", nor ") ? [] : one.split(" from ");
+  if (names.length > 2) return [element("p", { class: "verdict" }, `${alike[1]} ${names.length} effects from each other`), furtherSentences(names.concat(beside))];
   return [element("p", { class: sentence.length > 110 ? "verdict long" : "verdict" }, sentence)];
 }
 

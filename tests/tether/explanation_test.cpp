@@ -20,6 +20,8 @@ Json effect(const std::string& name, const std::string& kind, bool accepted, boo
           {"kind", kind},
           {"accepted", accepted},
           {"rival", rival},
+          {"group", accepted || rival ? Json("1") : Json()},
+          {"frame", nullptr},
           {"amplitude",
            {{"parameter", "solid.effects." + name + ".factor"},
             {"value", value},
@@ -51,12 +53,38 @@ TEST(Explanation, SaysWhatWasIdentifiedOfWhatCannotBeToldApart) {
               model(1, nullptr, Json::array({effect("contact", "effect", true, false, 7)}))};
   e.best = 1;
   EXPECT_EQ(verdict_of(e), "ambiguous");
-  EXPECT_EQ(sentences_of(e).front(),
-            "AMBIGUOUS: these data cannot tell contact at spine, factor 7 (3.5 .. 14) from spring at spine, factor 3 "
-            "(1.5 .. 6)");
+  EXPECT_EQ(
+      sentences_of(e).front(),
+      "AMBIGUOUS: these data cannot tell contact at spine, factor 7 (3.5 .. 14) from spring at spine, factor about "
+      "3");
   e.models.push_back(model(2, nullptr, Json::array({effect("loose_ring", "effect", true, false, 5)})));
   e.best = 2;
   EXPECT_TRUE(sentences_of(e).front().ends_with("; beside it loose_ring at spine, factor 5 (2.5 .. 10)"));
+}
+
+/// What is sure is not mixed with what is not, and what stood out last is not lost.
+TEST(Explanation, TellsWhatIsSureBesideWhatIsNot) {
+  Explanation e;
+  Json frame = effect("misplaced_frame", "data", true, false, 2);
+  frame["group"] = nullptr;
+  frame["where"] = "ct, 0.3 s";
+  frame["frame"] = 4;
+  const Json contact = effect("contact", "effect", true, false, 1), spring = effect("spring", "effect", false, true, 3);
+  Json last = diagnosis("undecided", Json::array());
+  last["sentences"] = {"UNDECIDED: loose_ring stands out, but held-out data do not confirm it"};
+  e.models = {model(0, diagnosis("ambiguous", {frame, contact, spring}), Json::array()),
+              model(1, last, Json::array({effect("contact", "effect", true, false, 7)}))};
+  e.best = 1;
+  const std::vector<std::string> said = sentences_of(e);
+  EXPECT_EQ(
+      said[0],
+      "AMBIGUOUS: these data cannot tell contact at spine, factor 7 (3.5 .. 14) from spring at spine, factor about "
+      "3; THE DATA are off: misplaced_frame at ct, 0.3 s, factor 2 (1 .. 4)");
+  const auto holds = [&](const std::string& sentence) {
+    return std::find(said.begin(), said.end(), sentence) != said.end();
+  };
+  EXPECT_TRUE(holds("Beside what was found: loose_ring stands out, but held-out data do not confirm it"));
+  EXPECT_TRUE(holds("Wrong, and left out where values were found: misplaced_frame at ct, 0.3 s"));
 }
 
 TEST(Explanation, CallsAnErrorOfTheDataNoEffect) {
