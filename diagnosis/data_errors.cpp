@@ -37,8 +37,13 @@ class DataErrors {
  public:
   DataErrors(EffectProblem& problem, const Evidence& evidence) : problem_(problem), evidence_(evidence) {}
 
+  /// As an error that is allowed and, if it `competes`, as a candidate.
   void add(const Candidate& candidate, const std::vector<Amplitude>& amplitudes, const MatrixXd& columns,
-           double allowed) {
+           double allowed, bool competes = true) {
+    if (!competes) {
+      for (const auto& column : columns.colwise()) allow(problem_, column, allowed, "");
+      return;
+    }
     Candidate added = candidate;
     for (Index k = 0; k < columns.cols(); ++k) {
       added.amplitudes.push_back(problem_.changes.cols() + k);
@@ -98,6 +103,16 @@ Turned turned_about_middle(const Evidence& evidence, std::size_t source) {
   return turned;
 }
 
+/// Whether some frame of a source is the imaged lumen: then the data as a whole are neither displaced nor turned nor
+/// too large, since the model was made of them.
+bool shows_the_image(const Evidence& evidence, std::size_t source, const Points& imaged) {
+  constexpr double same = 0.5;  // of the noise: with it, two segmentations lie farther apart
+  return std::any_of(evidence.parts().begin(), evidence.parts().end(), [&](const Evidence::Part& part) {
+    return !evidence.is_trace(part) && part.source == source &&
+           evidence.distance_from(imaged, part) < same * evidence.noise(part).deviation;
+  });
+}
+
 std::vector<Amplitude> in_angle(const std::vector<Index>& axes) {
   constexpr double far = 0.35;  // 20 degrees: beyond, first order says nothing
   std::vector<Amplitude> all;
@@ -153,16 +168,17 @@ void add_data_errors(EffectProblem& problem, const Evidence& evidence, const Fin
     };
     if (part.source != last) {
       last = part.source;
+      const bool competes = !shows_the_image(evidence, part.source, base.motion.imaged);
       errors.add(error, in_space(unit_of_length), errors.only(normals, part.source, nullptr),
-                 allowed.displacement.value_or(0.5 * sigma));
+                 allowed.displacement.value_or(0.5 * sigma), competes);
       errors.add(named("misrotation", "The data are turned as a whole, about their middle"), in_angle(turned.seen),
-                 turned.columns(Eigen::all, turned.seen), 0);
+                 turned.columns(Eigen::all, turned.seen), 0, competes);
       errors.add(named("segmentation_bias", "The measured lumen is too large or too small all over"),
                  {{"bias", "along the outward normal", unit_of_length}}, errors.only(ones, part.source, nullptr),
-                 allowed.bias.value_or(0.5 * sigma));
+                 allowed.bias.value_or(0.5 * sigma), competes);
       errors.add(named("blur", "The image is blurred, which draws a curved surface inward"),
                  {{"variance", "of the image's blur", unit_of_length + "2", true, undefined, 0, false, 0}},
-                 errors.only(blurred, part.source, nullptr), 0);
+                 errors.only(blurred, part.source, nullptr), 0, competes);
       errors.add(named("gating_shift", "The times of all frames are off"), {shift},
                  errors.only(velocity, part.source, nullptr), allowed.time_shift.value_or(0));
     }

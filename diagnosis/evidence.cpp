@@ -152,6 +152,15 @@ std::string Evidence::name_of(const Part& part) const {
                         : data_.lumen[part.source]->settings().name;
 }
 
+double Evidence::distance_from(const Points& lumen, const Part& part) const {
+  double squares = 0, weight = 0;
+  for (const Sample& sample : data_.lumen[part.source]->observe(lumen, part.frame)) {
+    squares += sample.weight * sample.distance * sample.distance;
+    weight += sample.weight;
+  }
+  return weight > 0 ? std::sqrt(squares / weight) : infinite;
+}
+
 std::string Evidence::field_of(const Part& part) const {
   const bool contours = !is_trace(part) && data_.lumen[part.source]->sample_dimension() == 1;
   return std::string("observations.") +

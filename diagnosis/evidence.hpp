@@ -37,6 +37,9 @@ class Evidence {
   const std::vector<Part>& parts() const { return parts_; }
   bool is_trace(const Part& part) const { return part.source >= data_.lumen.size(); }
   std::string name_of(const Part& part) const;
+  /// Root mean square distance of a frame from a lumen, such as the imaged one; infinite if nothing is observed
+  /// [length].
+  double distance_from(const Points& lumen, const Part& part) const;
   /// Its section in the case.
   std::string field_of(const Part& part) const;
   /// Of the data on the lumen at the base, where they are; zero for traces [length].

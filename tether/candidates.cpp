@@ -118,6 +118,14 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
   return all;
 }
 
+void check_diagnosis(const fs::path& case_file) {
+  CaseFile file(case_file);
+  if (!file.has("diagnosis")) return;
+  DiagnosisCase diagnosis;
+  file.read("diagnosis", diagnosis);
+  catalogue_of(file, diagnosis);
+}
+
 void write_candidates(const fs::path& file, const CaseFile& from, const std::vector<PlacedEffect>& effects) {
   const CommonCase& common = from.common();
   Overlay overlay{fs::absolute(from.path()),

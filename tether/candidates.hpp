@@ -21,6 +21,9 @@ struct PlacedEffect {
 /// InputError with the program's message.
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis);
 
+/// Throws InputError if the case's section `diagnosis`, if there is one, names what is not there.
+void check_diagnosis(const std::filesystem::path& case_file);
+
 /// The case with every candidate at the value at which it does nothing, from which identification_master makes the
 /// sensitivity runs.
 void write_candidates(const std::filesystem::path& file, const CaseFile& from,

@@ -12,6 +12,7 @@
 #include "tether/diagnosed_case.hpp"
 #include "tether/diagnosis_text.hpp"
 #include "tether/further_measurements.hpp"
+#include "tether/interruption.hpp"
 #include "tether/numerics.hpp"
 #include "tether/programs.hpp"
 #include "tether/suggested_case.hpp"
@@ -215,6 +216,7 @@ std::string where_to_look(const fs::path& output, const DiagnosisReport& report,
 }  // namespace
 
 int diagnose(const CommandLine& command) {
+  say_when_interrupted();
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));

@@ -14,6 +14,7 @@
 #include "tether/diagnosed_case.hpp"
 #include "tether/explained_steps.hpp"
 #include "tether/finished_run.hpp"
+#include "tether/interruption.hpp"
 #include "tether/missing_force.hpp"
 #include "tether/stored_run.hpp"
 #include "tether/verbs.hpp"
@@ -402,6 +403,7 @@ std::string text_of(const Explanation& explanation, const fs::path& output) {
 }  // namespace
 
 int explain(const CommandLine& command) {
+  say_when_interrupted();
   check_case(command);
   const DiagnosedCase given(command.case_file);
   CommandLine own = command;

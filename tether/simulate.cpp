@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
+#include "tether/candidates.hpp"
 #include "tether/finished_run.hpp"
 #include "tether/pictures.hpp"
 #include "tether/plots.hpp"
@@ -44,6 +45,7 @@ int validate(const CommandLine& command) {
   check_with("observation_manager", command);
   if (CaseFile(command.case_file).has("identification")) check_identification(command);
   check_twin(command);
+  check_diagnosis(command.case_file);
   if (!command.quiet) std::cout << command.case_file.string() << ": valid\n";
   return exit_done;
 }

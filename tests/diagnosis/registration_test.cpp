@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "common/observation/observations.hpp"
 #include "diagnosis/comparison.hpp"
 #include "diagnosis/curvature.hpp"
@@ -97,6 +99,20 @@ TEST(DataErrors, OfTurnedDataAreTheirDistances) {
   for (const Eigen::Index i : problem.training)
     off += std::pow(problem.residual(i) - expected(i), 2), all += std::pow(problem.residual(i), 2);
   EXPECT_LT(off, 0.01 * all);
+}
+
+/// Of data that the model was made of, none are displaced as a whole; one frame may be.
+TEST(DataErrors, AreNoneOfAllFramesWhereOneIsTheImagedLumen) {
+  const LumenSurface surface = beating_lumen();
+  const Observations data = moved_data({0, 0, 0}, {0, 0, 0});
+  const FinishedMotion base{beating_run(1), {}};
+  const Evidence evidence(data, surface, base);
+  EffectProblem problem = evidence.problem();
+  add_data_errors(problem, evidence, base, {}, "cm", "s");
+  std::set<std::string> names;
+  for (const Candidate& candidate : problem.candidates) names.insert(candidate.name);
+  EXPECT_EQ(names, (std::set<std::string>{"gating_shift", "misplaced_frame", "mistimed_frame"}));
+  EXPECT_EQ(problem.allowed.cols(), 4) << "displacement and bias are allowed";
 }
 
 }  // namespace
