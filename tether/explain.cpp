@@ -4,14 +4,13 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
-#include "diagnosis/data_errors.hpp"
 #include "report/report.hpp"
 #include "tether/diagnosed_case.hpp"
+#include "tether/explained_distances.hpp"
 #include "tether/explained_steps.hpp"
 #include "tether/finished_run.hpp"
 #include "tether/interruption.hpp"
@@ -61,30 +60,6 @@ std::vector<std::string> first_sentences(const Json& comparison) {
   return all;
 }
 
-/// How far the data of these rows are from a run.
-Misfit misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
-                 const std::vector<Eigen::Index>& rows) {
-  double squares = 0, precision = 0, count = 0;
-  for (const auto& part : evidence.parts())
-    if (!evidence.is_trace(part))
-      for (const Eigen::Index i : rows)
-        if (i >= part.first && i < part.first + part.count) {
-          squares += problem.precision(i) * residual(i) * residual(i);
-          precision += problem.precision(i);
-          count += problem.independent(i);
-        }
-  return precision > 0 ? Misfit{std::sqrt(squares / precision), std::sqrt(squares / count)} : Misfit{};
-}
-
-/// The gain on held-out data between two runs; nothing if hardly any are held out.
-std::optional<Gain> gain_between(const EffectProblem& problem, const VectorXd& before, const VectorXd& after) {
-  const auto& rows = problem.held_out;
-  if (rows.size() < 2) return std::nullopt;
-  std::vector<int> block;
-  for (const Eigen::Index i : rows) block.push_back(problem.block[static_cast<std::size_t>(i)]);
-  return gain_of(problem.precision(rows), block, before(rows), after(rows), problem.independent(rows).sum());
-}
-
 class Explainer {
  public:
   Explainer(const CommandLine& command, const DiagnosedCase& given, fs::path output)
@@ -106,7 +81,7 @@ class Explainer {
     while (diagnose_best())
       if (add_model() ? is_settled() : !refuse()) break;
     if (verdict_of(explanation_) == "not_in_catalogue") seek_force();
-    explanation_.odd_frames = odd_frames();
+    explanation_.odd_frames = odd_frames(*evidence_, problem_, residuals_.back(), wrong_frames());
     explanation_.steps = steps_.all();
     return explanation_;
   }
@@ -315,37 +290,12 @@ class Explainer {
         }
   }
 
-  bool is_known_wrong(const Evidence::Part& part) const {
-    const std::string where = frame_text(*evidence_, part);
+  /// Places in time of single frames that diagnoses found wrong.
+  std::vector<std::string> wrong_frames() const {
+    std::vector<std::string> all;
     for (const ExplainedModel& model : explanation_.models)
       if (model.diagnosis != "null")
-        for (const Json& error : Json::parse(accepted_effects(model.diagnosis, true)))
-          if (error["where"] == where) return true;
-    return false;
-  }
-
-  /// Frames, held out or not, that lie off the best model much farther than most, and beyond noise.
-  std::vector<std::string> odd_frames() const {
-    constexpr double much = 2;  // times the median, and the noise
-    std::vector<std::string> all;
-    std::vector<std::pair<double, const Evidence::Part*>> off;
-    for (const auto& part : evidence_->parts()) {
-      if (evidence_->is_trace(part)) continue;
-      std::vector<Eigen::Index> rows(static_cast<std::size_t>(part.count));
-      std::iota(rows.begin(), rows.end(), part.first);
-      if (const Misfit misfit = misfit_of(problem_, *evidence_, residuals_.back(), rows); misfit.in_noise > 0)
-        off.emplace_back(misfit.in_noise, &part);
-    }
-    if (off.size() < 4) return all;
-    std::vector<double> sizes;
-    for (const auto& [size, part] : off) sizes.push_back(size);
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<long>(sizes.size() / 2), sizes.end());
-    const double median = sizes[sizes.size() / 2];
-    for (const auto& [size, part] : off)
-      if (size > much * std::max(1.0, median) && !is_known_wrong(*part))
-        all.push_back(fmt::format(
-            "Look at the{} frame of {} at {:.3g} s: {:.1f} times the noise off the last model, most frames {:.1f}",
-            part->frame.held_out ? " held-out" : "", evidence_->name_of(*part), part->frame.time, size, median));
+        for (const Json& error : Json::parse(accepted_effects(model.diagnosis, true))) all.push_back(error["where"]);
     return all;
   }
 
