@@ -101,9 +101,16 @@ class Search {
   /// What the data ask for beside what was accepted, the strongest first.
   std::vector<TestedEffect> wanted(const Trained& trained) const {
     std::vector<TestedEffect> all = untried(trained);
-    std::erase_if(all, [&](const TestedEffect& e) { return e.q >= level() || (!asks_for_more() && !is_other(e)); });
+    std::erase_if(all,
+                  [&](const TestedEffect& e) { return e.q >= level() || (!asks_for_more() && !is_other_effect(e)); });
     if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
     return all;
+  }
+
+  /// Where what was accepted leaves nothing but noise: a further error of the data is what the first did not quite
+  /// take.
+  bool is_other_effect(const TestedEffect& effect) const {
+    return is_other(effect) && (now_.accepted.empty() || problem_.candidates[effect.candidate].takes_runs());
   }
 
   /// Whether most of what it does is not what the accepted effects do, whose law and amplitude may not be quite right.
