@@ -228,7 +228,8 @@ std::string corrected_case(const Explanation& e) {
 std::string verdict_of(const Explanation& e) {
   const Json last = last_diagnosis(e);
   if (last["verdict"] == "not_in_catalogue") return "not_in_catalogue";
-  if (any_ambiguous(e)) return "ambiguous";
+  const bool all_refused = found_of(e).empty() && e.models.size() > e.best + 1;
+  if (any_ambiguous(e) && !all_refused) return "ambiguous";
   if (!found_of(e).empty()) return "missing";
   if (e.models.size() > e.best + 1) return "undecided";  // what a diagnosis accepted was not confirmed
   return last["verdict"];

@@ -62,6 +62,17 @@ TEST(Explanation, SaysWhatWasIdentifiedOfWhatCannotBeToldApart) {
   EXPECT_TRUE(sentences_of(e).front().ends_with("; beside it loose_ring at spine, factor 5 (2.5 .. 10)"));
 }
 
+TEST(Explanation, IsUndecidedIfNothingWasConfirmed) {
+  Explanation e;
+  const Json both = {effect("contact", "effect", true, false, 1), effect("spring", "effect", false, true, 3)};
+  e.models = {model(0, diagnosis("ambiguous", both), Json::array()), model(1, nullptr, Json::array())};
+  e.models[1].name = "with contact at spine";
+  e.models[1].reason = "held-out frames do not confirm it";
+  EXPECT_EQ(verdict_of(e), "undecided");
+  EXPECT_EQ(sentences_of(e).front(),
+            "UNDECIDED: with contact at spine stands out, but held-out frames do not confirm it");
+}
+
 /// What is sure is not mixed with what is not, and what stood out last is not lost.
 TEST(Explanation, TellsWhatIsSureBesideWhatIsNot) {
   Explanation e;
