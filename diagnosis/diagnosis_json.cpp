@@ -205,6 +205,21 @@ std::string strained_text(const SearchResult& found) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// What does nearly the same as an accepted effect, though runs fit worse: where the model is wrong in more than one
+/// way, that decides less than the numbers say. Empty if there is none.
+std::string look_alike_text(const DiagnosisReport& report, const TestedEffect& accepted) {
+  std::vector<std::string> alike;
+  for (const TestedEffect& other : report.found.effects)
+    if (other.group == accepted.group && other.group >= 0 && other.candidate != accepted.candidate && !other.rival &&
+        other.confirmed)
+      alike.push_back(fmt::format("{} ({:.0f} less)", name_of(report.problem.candidates[other.candidate]),
+                                  accepted.confirmed_gain - other.confirmed_gain));
+  if (alike.empty()) return "";
+  return fmt::format("{}{}: its runs remove {:.0f} of the misfit, those of {}", much_like,
+                     name_of(report.problem.candidates[accepted.candidate]), accepted.confirmed_gain,
+                     fmt::join(alike, ", of "));
+}
+
 std::string refusal_text(const EffectProblem& problem, const SearchStep& step) {
   return fmt::format("{} stands out, but {}", name_of(problem.candidates[step.candidate]), step.reason);
 }
@@ -322,6 +337,8 @@ std::vector<std::string> sentences_of(const DiagnosisReport& report) {
       all.push_back(fmt::format("These data cannot tell it from its variant {}, {}",
                                 name_of(report.problem.candidates[effect.candidate]),
                                 amplitude_text(report.problem, effect)));
+  for (const TestedEffect* effect : accepted_of(found))
+    if (std::string alike = look_alike_text(report, *effect); !alike.empty()) all.push_back(std::move(alike));
   if (found.dispersion > 1.5)
     all.push_back(
         fmt::format("The misfit that is left is {:.1f} times what noise makes: intervals are widened by its root, and "

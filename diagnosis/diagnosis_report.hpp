@@ -23,6 +23,9 @@ struct DiagnosisReport {
 /// "visco_elastic at spine".
 std::string name_of(const Candidate& candidate);
 
+/// How a sentence begins that tells what does nearly the same as an accepted effect.
+inline constexpr const char* much_like = "There is what does much the same as ";
+
 /// The verdict first, then what a person should know next, a sentence each.
 std::vector<std::string> sentences_of(const DiagnosisReport& report);
 

@@ -71,10 +71,20 @@ Json last_diagnosis(const Explanation& e) {
   return nullptr;
 }
 
+/// Diagnoses on the way to the best model, but not one whose finding was not confirmed.
+std::vector<Json> upheld_diagnoses(const Explanation& e) {
+  std::vector<Json> all;
+  const bool last_was_refused = e.models.size() > e.best + 1;
+  for (std::size_t i = 0; i <= e.best; ++i)
+    if (is_diagnosed(e.models[i]) && (i < e.best || !last_was_refused))
+      all.push_back(Json::parse(e.models[i].diagnosis));
+  return all;
+}
+
 bool any_ambiguous(const Explanation& e) {
-  return std::any_of(e.models.begin(), e.models.begin() + static_cast<long>(e.best) + 1, [](const auto& model) {
-    return is_diagnosed(model) && Json::parse(model.diagnosis)["verdict"] == "ambiguous";
-  });
+  const auto diagnoses = upheld_diagnoses(e);
+  return std::any_of(diagnoses.begin(), diagnoses.end(),
+                     [](const Json& diagnosis) { return diagnosis["verdict"] == "ambiguous"; });
 }
 
 std::string text_of(const Json& effect) {
@@ -102,24 +112,18 @@ std::string ambiguous_sentence(const Explanation& e) {
     found.erase(identified);
     return text;
   };
-  for (std::size_t i = 0; i <= e.best; ++i) {
-    const Json diagnosis = Json::parse(e.models[i].diagnosis);
-    if (diagnosis.is_null()) continue;
+  for (const Json& diagnosis : upheld_diagnoses(e))
     for (const Json& effect : diagnosis["effects"]) {
       if (!effect["accepted"]) continue;
-      std::vector<std::string> alike;
+      const std::string name = take(effect);
+      std::vector<std::string> alike{name.empty() ? rough_text_of(effect) : name};
       for (const Json& rival : diagnosis["effects"])
         if (rival["rival"] && rival["group"] == effect["group"] && !effect["group"].is_null())
           alike.push_back(rough_text_of(rival));
-      std::string name = take(effect);
-      if (name.empty() && i == e.best) name = rough_text_of(effect);
-      if (name.empty()) continue;
-      alike.insert(alike.begin(), name);
       const bool is_sure = alike.size() == 1, of_data = effect["kind"] == "data";
       (is_sure ? of_data ? wrong : beside : unclear).push_back(fmt::format("{}", fmt::join(alike, " from ")));
     }
-  }
-  for (const Json& effect : found) beside.push_back(text_of(effect));
+  for (const Json& effect : found) (effect["kind"] == "data" ? wrong : beside).push_back(text_of(effect));
   return ambiguity("AMBIGUOUS: these data cannot tell ", unclear, beside, wrong);
 }
 
@@ -228,8 +232,7 @@ std::string corrected_case(const Explanation& e) {
 std::string verdict_of(const Explanation& e) {
   const Json last = last_diagnosis(e);
   if (last["verdict"] == "not_in_catalogue") return "not_in_catalogue";
-  const bool all_refused = found_of(e).empty() && e.models.size() > e.best + 1;
-  if (any_ambiguous(e) && !all_refused) return "ambiguous";
+  if (any_ambiguous(e)) return "ambiguous";
   if (!found_of(e).empty()) return "missing";
   if (e.models.size() > e.best + 1) return "undecided";  // what a diagnosis accepted was not confirmed
   return last["verdict"];
@@ -247,6 +250,10 @@ std::vector<std::string> sentences_of(const Explanation& e) {
     const std::string sentence = last["sentences"][i];
     if (!sentence.starts_with("Held-out")) all.push_back(sentence);
   }
+  for (const Json& diagnosis : upheld_diagnoses(e))
+    if (diagnosis != last)
+      for (const std::string sentence : diagnosis["sentences"])
+        if (sentence.starts_with(much_like)) all.push_back(sentence);
   if (last["verdict"] == "undecided" && !found_of(e).empty()) {
     const std::string first = last["sentences"][0], word = "UNDECIDED: ";
     all.push_back("Beside what was found: " + (first.starts_with(word) ? first.substr(word.size()) : first));

@@ -33,6 +33,16 @@ Observations moved_data(const Vec3& displacement, const Vec3& rotation) {
   return data;
 }
 
+/// The beating tube against these data, with what they may err in.
+EffectProblem problem_of(const Observations& data) {
+  const LumenSurface surface = beating_lumen();
+  const FinishedMotion base{beating_run(1), {}};
+  const Evidence evidence(data, surface, base);
+  EffectProblem problem = evidence.problem();
+  add_data_errors(problem, evidence, base, {}, "cm", "s");
+  return problem;
+}
+
 TEST(Registration, FindsHowDataAreDisplacedAndTurned) {
   const Vec3 by(0.08, -0.05, 0), turn(0.03, 0.02, 0);
   const Observations data = moved_data(by, turn);
@@ -83,12 +93,7 @@ TEST(Curvatures, OfATubeAndOfABarrel) {
 
 /// What turned data look like competes as a candidate; about its own axis a round tube shows nothing.
 TEST(DataErrors, OfTurnedDataAreTheirDistances) {
-  const LumenSurface surface = beating_lumen();
-  const Observations data = moved_data({0, 0, 0}, {0, 0.02, 0});
-  const FinishedMotion base{beating_run(1), {}};
-  const Evidence evidence(data, surface, base);
-  EffectProblem problem = evidence.problem();
-  add_data_errors(problem, evidence, base, {}, "cm", "s");
+  const EffectProblem problem = problem_of(moved_data({0, 0, 0}, {0, 0.02, 0}));
   const auto turned = std::find_if(problem.candidates.begin(), problem.candidates.end(),
                                    [](const Candidate& c) { return c.name == "misrotation"; });
   ASSERT_NE(turned, problem.candidates.end());
@@ -103,12 +108,7 @@ TEST(DataErrors, OfTurnedDataAreTheirDistances) {
 
 /// Of data that the model was made of, none are displaced as a whole; one frame may be.
 TEST(DataErrors, AreNoneOfAllFramesWhereOneIsTheImagedLumen) {
-  const LumenSurface surface = beating_lumen();
-  const Observations data = moved_data({0, 0, 0}, {0, 0, 0});
-  const FinishedMotion base{beating_run(1), {}};
-  const Evidence evidence(data, surface, base);
-  EffectProblem problem = evidence.problem();
-  add_data_errors(problem, evidence, base, {}, "cm", "s");
+  const EffectProblem problem = problem_of(moved_data({0, 0, 0}, {0, 0, 0}));
   std::set<std::string> names;
   for (const Candidate& candidate : problem.candidates) names.insert(candidate.name);
   EXPECT_EQ(names, (std::set<std::string>{"gating_shift", "misplaced_frame", "mistimed_frame"}));

@@ -62,6 +62,23 @@ TEST(Explanation, SaysWhatWasIdentifiedOfWhatCannotBeToldApart) {
   EXPECT_TRUE(sentences_of(e).front().ends_with("; beside it loose_ring at spine, factor 5 (2.5 .. 10)"));
 }
 
+/// What a later diagnosis could not tell apart, and was not confirmed, takes nothing from what was found before.
+TEST(Explanation, KeepsWhatIsSureIfTheNextIsNotConfirmed) {
+  Explanation e;
+  const Json contact = effect("contact", "effect", true, false, 1), spring = effect("spring", "effect", true, false, 2),
+             ring = effect("ring", "effect", false, true, 3);
+  e.models = {
+      model(0, diagnosis("missing", Json::array({contact})), Json::array()),
+      model(1, diagnosis("ambiguous", {spring, ring}), Json::array({effect("contact", "effect", true, false, 7)})),
+      model(2, nullptr, Json::array())};
+  e.models[2].name = "with spring at spine";
+  e.models[2].reason = "held-out frames do not confirm it";
+  e.best = 1;
+  EXPECT_EQ(verdict_of(e), "missing");
+  EXPECT_EQ(sentences_of(e).front(), "MISSING: contact at spine, factor 7 (3.5 .. 14)");
+  EXPECT_EQ(sentences_of(e).back(), "Tried and not kept: with spring at spine: held-out frames do not confirm it");
+}
+
 TEST(Explanation, IsUndecidedIfNothingWasConfirmed) {
   Explanation e;
   const Json both = {effect("contact", "effect", true, false, 1), effect("spring", "effect", false, true, 3)};
@@ -83,7 +100,11 @@ TEST(Explanation, TellsWhatIsSureBesideWhatIsNot) {
   const Json contact = effect("contact", "effect", true, false, 1), spring = effect("spring", "effect", false, true, 3);
   Json last = diagnosis("undecided", Json::array());
   last["sentences"] = {"UNDECIDED: loose_ring stands out, but held-out data do not confirm it"};
-  e.models = {model(0, diagnosis("ambiguous", {frame, contact, spring}), Json::array()),
+  Json first = diagnosis("ambiguous", {frame, contact, spring});
+  const std::string alike =
+      std::string(much_like) + "contact at spine: its runs remove 9 of the misfit, those of tissue (8 less)";
+  first["sentences"] = {"ambiguous", alike};
+  e.models = {model(0, first, Json::array()),
               model(1, last, Json::array({effect("contact", "effect", true, false, 7)}))};
   e.best = 1;
   const std::vector<std::string> said = sentences_of(e);
@@ -95,6 +116,7 @@ TEST(Explanation, TellsWhatIsSureBesideWhatIsNot) {
     return std::find(said.begin(), said.end(), sentence) != said.end();
   };
   EXPECT_TRUE(holds("Beside what was found: loose_ring stands out, but held-out data do not confirm it"));
+  EXPECT_TRUE(holds(alike)) << "of a diagnosis before the last";
   EXPECT_TRUE(holds("Wrong, and left out where values were found: misplaced_frame at ct, 0.3 s"));
 }
 
