@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/linalg/bicgstab.hpp"
+#include "fluid/bicgstab.hpp"
 #include "fluid/fluid_domain.hpp"
 #include "fluid/rheologies/rheology.hpp"
 

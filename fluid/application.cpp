@@ -1,11 +1,11 @@
 #include "fluid/application.hpp"
 
 #include "common/base/process.hpp"
-#include "common/case/mesh_case.hpp"
 #include "common/config/echo.hpp"
 #include "common/protocol/run.hpp"
 #include "fluid/case.hpp"
 #include "fluid/server.hpp"
+#include "vessel/mesh_case.hpp"
 
 namespace tether::fluid {
 namespace {
@@ -19,7 +19,7 @@ struct BloodCase {
   }
   /// The lumen, checked against the case. The element of the wall makes no difference to it.
   FluidMesh lumen() const {
-    FluidMesh result = load_mesh(mesh, file.units(), WallElement::p1).fluid;
+    FluidMesh result = load_mesh(mesh, file, WallElement::p1).fluid;
     check_against_mesh(fluid, result, file);
     return result;
   }

@@ -61,8 +61,10 @@ class FluidSolver {
 
   /// All numbers that can be set, such as "fluid.outlets.outlet.distal_resistance".
   const ParameterTable& parameters() const { return parameters_; }
-  /// Takes effect at the next begin_step. Throws InputError for an unknown name or a value out of range.
-  void set_parameter(const std::string& name, double value);
+  /// Take effect at the next begin_step. Throws InputError for an unknown name or a value out of range; none is set
+  /// then.
+  void set_parameters(const std::vector<std::string>& names, const std::vector<double>& values);
+  void set_parameter(const std::string& name, double value) { set_parameters({name}, {value}); }
 
   const std::vector<Observable>& observables() const { return observables_; }
   /// Of the last accepted step, in the order of `observables`.

@@ -85,8 +85,8 @@ void FluidSolver::declare_parameters() {
                            opening.beyond);
 }
 
-void FluidSolver::set_parameter(const std::string& name, double value) {
-  parameters_.set(name, value);
+void FluidSolver::set_parameters(const std::vector<std::string>& names, const std::vector<double>& values) {
+  parameters_.set(names, values);
   if (accepted_.impulse == 0) store_initial_pressures();
 }
 

@@ -24,7 +24,7 @@ FluidServer::FluidServer(std::unique_ptr<FluidSolver> solver, const UnitSystem& 
 protocol::Hello FluidServer::hello() const {
   protocol::Hello hello;
   hello.program = "Tether fluid";
-  hello.has_tangent = hello.has_state = hello.has_observer = true;
+  hello.has_tangent = hello.has_state = hello.has_observer = hello.has_velocity = true;
   hello.state_size = solver_->state().size();
   hello.unknowns = 4 * solver_->domain().node_count();
   hello.effective_case = effective_case_;
@@ -44,9 +44,7 @@ protocol::Interface FluidServer::operator()(const protocol::GetInterface&) {
 }
 
 protocol::Ready FluidServer::operator()(const protocol::SetParameters& m) {
-  if (m.names.size() != m.values.size())
-    throw input_error("{} names of parameters, but {} values", m.names.size(), m.values.size());
-  for (std::size_t i = 0; i < m.names.size(); ++i) solver_->set_parameter(m.names[i], m.values[i]);
+  solver_->set_parameters(m.names, m.values);
   return {};
 }
 

@@ -3,7 +3,7 @@
 namespace tether::fluid {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration blood_declaration{
     "blood",
     "the blood, and how its equations are stabilised and handed to the wall",
     Place::blood,
@@ -24,9 +24,10 @@ const EffectDeclaration declaration{
 }  // namespace
 
 std::span<const Registered<Blood>> blood() {
-  static const Registered<Blood> table[] = {{declaration, [](std::span<const double> v) -> std::unique_ptr<Blood> {
-                                               return std::make_unique<Blood>(Blood{v[0], v[1], v[2]});
-                                             }}};
+  static const Registered<Blood> table[] = {
+      {blood_declaration, [](std::span<const double> v) -> std::unique_ptr<Blood> {
+         return std::make_unique<Blood>(Blood{v[0], v[1], v[2]});
+       }}};
   return table;
 }
 

@@ -11,12 +11,13 @@
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/output_folder.hpp"
-#include "common/observation/flow_observations.hpp"
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupled_codes.hpp"
 #include "fsi_master/group_server.hpp"
 #include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
+#include "observation_manager/measurements/flow_observations.hpp"
+#include "observation_manager/measurements/registry.hpp"
 
 namespace tether {
 namespace {
@@ -96,37 +97,36 @@ std::vector<ProcessCost> costs(Crew& crew, std::span<Partner> partners) {
   return all;
 }
 
-/// Throws InputError if a measured velocity has no place in the blood, or the fluid cannot tell its velocity.
-void check_velocities(const FlowObservations& data, FluidPartner& fluid, const CaseFile& file) {
-  for (const VelocitySeries& series : data.velocities) {
-    const std::string where = file.where("observations.velocities." + series.settings().name);
-    Points found;
-    try {
-      found = fluid.velocity_at(series.points()).get();
-    } catch (const StepFailure& failure) {
-      throw input_error("{}: the fluid cannot tell its velocity: {}", where, failure.what());
-    }
-    if (found.array().isNaN().all())
-      throw input_error("{}: none of its {} points lies in the imaged blood", where, found.cols());
-  }
+/// Throws InputError if a measured velocity has no place in the blood, or the fluid does not tell its velocity.
+void check_velocities(const Measurement& source, FluidPartner& fluid, const CaseFile& file) {
+  const Points asked = source.velocity_points();
+  if (asked.cols() == 0) return;
+  const std::string where = file.where(source.facts().field());
+  if (!fluid.has_velocity()) throw input_error("{}: {} does not tell its velocity", where, fluid.name());
+  const Points found = fluid.velocity_at(asked).get();
+  if (found.array().isNaN().all())
+    throw input_error("{}: none of its {} points lies in the imaged blood", where, found.cols());
 }
 
-/// Throws InputError if the run will have no column of a measured trace's name and unit: it could not be compared.
-void check_traces(const FlowObservations& data, const std::vector<Column>& columns, const CaseFile& file) {
-  const UnitSystem& units = file.units();
+/// Throws InputError if the run will have no column of a measured name and unit: it could not be compared.
+void check_column(const NeededColumn& needed, const std::string& field, const std::vector<Column>& columns,
+                  const CaseFile& file) {
   std::vector<std::string> names;
   for (const Column& column : columns) names.push_back(column.name);
-  for (const Trace& trace : data.traces) {
-    const std::string where = file.where("observations.traces." + trace.name + ".observable");
-    const auto found = std::find(names.begin(), names.end(), trace.observable);
-    if (found == names.end())
-      throw input_error("{}: the run has no {}; it has: {}", where, trace.observable, fmt::join(names, ", "));
-    const std::string unit = columns[static_cast<std::size_t>(found - names.begin())].unit,
-                      stated = units.symbol(trace.dimension);
-    if (unit != stated)
-      throw input_error("{}: {} is in {}, the measurement in {}: is its quantity right?", where, trace.observable, unit,
-                        stated);
-  }
+  const std::string where = file.where(field + "." + needed.field);
+  const auto found = std::find(names.begin(), names.end(), needed.name);
+  if (found == names.end())
+    throw input_error("{}: the run has no {}; it has: {}", where, needed.name, fmt::join(names, ", "));
+  const std::string unit = columns[static_cast<std::size_t>(found - names.begin())].unit,
+                    stated = file.units().symbol(needed.dimension);
+  if (unit != stated)
+    throw input_error("{}: {} is in {}, the measurement in {}: is its quantity right?", where, needed.name, unit,
+                      stated);
+}
+
+void check_columns(const FlowObservations& data, const std::vector<Column>& columns, const CaseFile& file) {
+  for (const Measurement* source : data.all())
+    for (const NeededColumn& needed : source->columns()) check_column(needed, source->facts().field(), columns, file);
 }
 
 /// A direct run.
@@ -136,10 +136,10 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
   plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, codes.interface().points);
   Crew crew = codes.crew();
-  check_velocities(master.flow, codes.fluid(), master.file);
+  for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, codes.size());
-  check_traces(master.flow, simulation.columns(), master.file);
+  check_columns(master.flow, simulation.columns(), master.file);
   const auto before = costs(crew, processes);
   simulation.run();
   RunFacts facts{master.file.common().name,
@@ -170,7 +170,10 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
 /// Whether a group's runs are set against measurements while they are made; those of a diagnosis are afterwards.
 bool observes(const CaseFile& file) {
   const std::string runs = file.given("diagnosis.runs");
-  return (runs.empty() || runs == "none") && (file.has("observations.surfaces") || file.has("observations.contours"));
+  const auto kinds = measurement_kinds();
+  return (runs.empty() || runs == "none") && std::any_of(kinds.begin(), kinds.end(), [&](const MeasurementKind* kind) {
+           return kind->on_lumen && file.has("observations." + kind->name);
+         });
 }
 
 /// Its life as a group of an identification_master.
@@ -229,16 +232,19 @@ void validate(const CommandLine& command) {
   ObservationsCase observations;
   file.read("coupling", coupling);
   file.read("observations", observations);
-  const std::vector<std::string> arguments{command.case_file.string()};
+  const auto program = [&](const char* role, const char* field, const std::string& executable) {
+    const std::string where = file.where(std::string("coupling.programs.") + field);
+    return protocol::Program{role, executable, {command.case_file.string()}, 1, where};
+  };
   Findings findings;
   findings.of([&] {
     file.finish();
     load_flow_observations(observations, file);
   });
-  findings.of([&] { validate_by({"fluid", coupling.programs.fluid, arguments}); });
-  findings.of([&] { validate_by({"solid", coupling.programs.solid, arguments}); });
+  findings.of([&] { validate_by(program("fluid", "fluid", coupling.programs.fluid)); });
+  findings.of([&] { validate_by(program("solid", "solid", coupling.programs.solid)); });
   if (file.common().observer.is_on())
-    findings.of([&] { validate_by({"solid_observation", coupling.programs.observation, arguments}); });
+    findings.of([&] { validate_by(program("solid_observation", "observation", coupling.programs.observation)); });
   findings.throw_if_any();
 }
 

@@ -4,6 +4,8 @@
 
 namespace tether {
 
+inline constexpr int most_krylov_iterations = 100;  ///< of GMRES for one correction
+
 /// The record of one coupling loop, and its only judge of convergence. With r = S(F(V)) - V on the interface
 ///   |r| / max(|V|, |V + r|) <= tolerance                                        (C.3)
 /// or rms(r) dt <= 1e-12 of the vessel's size: a system at rest is converged. All methods are measured alike:

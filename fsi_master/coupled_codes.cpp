@@ -12,8 +12,11 @@ InterfaceMap map_of(const CouplingCase& coupling, const InterfaceSurface& fluid,
   return InterfaceMap::nearest_triangle(fluid, solid, coupling.mapping_distance.value_or(0.02 * size));
 }
 
-protocol::Program partner_program(const char* role, const std::string& executable, const CaseFile& file) {
-  return {role, executable, {std::filesystem::absolute(file.path()).string()}};
+/// `field`: of coupling.programs.
+protocol::Program partner_program(const char* role, const char* field, const std::string& executable,
+                                  const CaseFile& file) {
+  const std::string where = file.where(std::string("coupling.programs.") + field);
+  return {role, executable, {std::filesystem::absolute(file.path()).string()}, 1, where};
 }
 
 /// Throws InputError if a code has no state observer.
@@ -53,9 +56,10 @@ Crew CoupledCodes::crew() {
 
 std::vector<protocol::Program> programs_of(const MasterCase& master, bool with_measurements) {
   const auto& programs = master.coupling.programs;
-  std::vector<protocol::Program> all{partner_program("fluid", programs.fluid, master.file),
-                                     partner_program("solid", programs.solid, master.file)};
-  if (with_measurements) all.push_back(partner_program("solid_observation", programs.observation, master.file));
+  std::vector<protocol::Program> all{partner_program("fluid", "fluid", programs.fluid, master.file),
+                                     partner_program("solid", "solid", programs.solid, master.file)};
+  if (with_measurements)
+    all.push_back(partner_program("solid_observation", "observation", programs.observation, master.file));
   return all;
 }
 

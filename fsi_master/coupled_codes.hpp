@@ -6,11 +6,11 @@
 #include <span>
 
 #include "common/config/case_file.hpp"
-#include "common/observation/flow_observations.hpp"
 #include "common/protocol/launch.hpp"
 #include "fsi_master/coupling_case.hpp"
 #include "fsi_master/message_partners.hpp"
 #include "fsi_master/simulation.hpp"
+#include "observation_manager/measurements/flow_observations.hpp"
 
 namespace tether {
 

@@ -1,7 +1,9 @@
 #include "fsi_master/group_server.hpp"
 
+#include <algorithm>
 #include <fstream>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "fsi_master/summary.hpp"
@@ -13,10 +15,6 @@ using protocol::Partner;
 
 constexpr const char* failed_run = "failure.txt";  ///< why a run of a group ended before its end
 
-VectorXd flat(const Points& points) {
-  return points.reshaped();
-}
-
 /// A partner's parameter or observable among those of both: "solid.density".
 std::string full_name(const Partner& partner, const std::string& name) {
   const std::string prefix = partner.role() + ".";
@@ -25,13 +23,32 @@ std::string full_name(const Partner& partner, const std::string& name) {
 
 std::unique_ptr<TimeLoop> make_loop(CoupledCodes& codes, int halvings) {
   const Crew crew = codes.crew();
-  auto loop = std::make_unique<TimeLoop>(crew.fluid, crew.solid, crew.coupling, flat(crew.interface), halvings);
+  auto loop = std::make_unique<TimeLoop>(crew.fluid, crew.solid, crew.coupling, crew.interface.reshaped(), halvings);
   if (crew.observer != nullptr) loop->observe(*crew.observer);
   return loop;
 }
 
+protocol::SetParameters announced(Partner& partner) {
+  protocol::SetParameters all;
+  for (const auto& info : partner.hello().parameters) all.names.push_back(info.name), all.values.push_back(info.value);
+  return all;
+}
+
+/// Takes the values of `some` over into `all`, which has their names.
+void adopt(const protocol::SetParameters& some, protocol::SetParameters& all) {
+  for (std::size_t i = 0; i < some.names.size(); ++i) {
+    const auto place = std::find(all.names.begin(), all.names.end(), some.names[i]) - all.names.begin();
+    all.values[static_cast<std::size_t>(place)] = some.values[i];
+  }
+}
+
 void append(std::vector<double>& all, const std::vector<double>& more) {
   all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Where runs record the velocity: others, of the same codes, do not show what was measured.
+std::string recorded_points(const Points& points) {
+  return fmt::format(R"({{"recorded": {{"velocity_points": "{:x}"}}}})", hash_values(points, 0));
 }
 
 }  // namespace
@@ -41,7 +58,8 @@ GroupServer::GroupServer(std::unique_ptr<MasterCase> master, RunPlan plan, std::
       plan_(std::move(plan)),
       codes_(std::make_unique<CoupledCodes>(*master_, processes)),
       loop_(make_loop(*codes_, master_->coupling.halvings)),
-      initial_(loop_->snapshot()) {}
+      initial_(loop_->snapshot()),
+      present_{announced(processes[0]), announced(processes[1])} {}
 
 protocol::Hello GroupServer::hello() const {
   protocol::Hello hello;
@@ -62,6 +80,7 @@ protocol::Hello GroupServer::hello() const {
     for (const protocol::ObservableInfo& info : of_partner.observables)
       hello.observables.push_back({partner.role() + "." + info.name, info.unit});
   }
+  if (plan_.velocity_points.cols() > 0) cases.push_back(recorded_points(plan_.velocity_points));
   hello.effective_case = merged_json(cases);
   return hello;
 }
@@ -70,23 +89,35 @@ protocol::Interface GroupServer::operator()(const protocol::GetInterface& m) {
   return codes_->processes()[1].ask(m);
 }
 
-protocol::Ready GroupServer::operator()(const protocol::SetParameters& m) {
-  if (m.names.size() != m.values.size())
-    throw input_error("{} names of parameters, but {} values", m.names.size(), m.values.size());
-  std::vector<protocol::SetParameters> parts(2);
-  for (std::size_t i = 0; i < m.names.size(); ++i) {
+std::array<protocol::SetParameters, 2> GroupServer::divided(const protocol::SetParameters& all) const {
+  if (all.names.size() != all.values.size())
+    throw input_error("{} names of parameters, but {} values", all.names.size(), all.values.size());
+  std::array<protocol::SetParameters, 2> parts;
+  for (std::size_t i = 0; i < all.names.size(); ++i) {
     bool known = false;
     for (std::size_t k = 0; k < 2; ++k)
       for (const auto& info : codes_->processes()[k].hello().parameters)
-        if (full_name(codes_->processes()[k], info.name) == m.names[i]) {
+        if (full_name(codes_->processes()[k], info.name) == all.names[i]) {
           parts[k].names.push_back(info.name);
-          parts[k].values.push_back(m.values[i]);
+          parts[k].values.push_back(all.values[i]);
           known = true;
         }
-    if (!known) throw input_error("neither fluid nor solid has a parameter {}", m.names[i]);
+    if (!known) throw input_error("neither fluid nor solid has a parameter {}", all.names[i]);
   }
-  for (std::size_t k = 0; k < 2; ++k)
-    if (!parts[k].names.empty()) codes_->processes()[k].ask(parts[k]);
+  return parts;
+}
+
+/// A value that the solid refuses leaves the fluid as it was too.
+protocol::Ready GroupServer::operator()(const protocol::SetParameters& m) {
+  const auto parts = divided(m);
+  if (!parts[0].names.empty()) codes_->processes()[0].ask(parts[0]);
+  try {
+    if (!parts[1].names.empty()) codes_->processes()[1].ask(parts[1]);
+  } catch (const std::exception&) {
+    if (!parts[0].names.empty()) codes_->processes()[0].ask(present_[0]);
+    throw;
+  }
+  for (std::size_t k = 0; k < 2; ++k) adopt(parts[k], present_[k]);
   return {};
 }
 
@@ -134,8 +165,12 @@ protocol::Advanced GroupServer::operator()(const protocol::Advance& m) {
 }
 
 void GroupServer::observe(double time, protocol::Advanced& reply) {
+  if (plan_.velocity_points.cols() > 0) {
+    const Points velocity = codes_->fluid().velocity_at(plan_.velocity_points).get();
+    reply.velocities.assign(velocity.data(), velocity.data() + velocity.size());
+  }
   if (codes_->measurements() == nullptr) return;
-  const VectorXd x = flat(codes_->interface().points) + loop_->displacement();
+  const VectorXd x = codes_->interface().points.reshaped() + loop_->displacement();
   protocol::Discrepancy seen = codes_->measurements()->ask(protocol::Observe{time, {x.begin(), x.end()}});
   reply.distances = std::move(seen.distances);
   reply.weights = std::move(seen.weights);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -29,6 +30,8 @@ class GroupServer {
   protocol::Usage operator()(const protocol::GetUsage&);
 
  private:
+  /// Each process' share of the parameters, under its own names. Throws InputError for a name that neither has.
+  std::array<protocol::SetParameters, 2> divided(const protocol::SetParameters& all) const;
   void observe(double time, protocol::Advanced& reply);
   void restore(const std::vector<double>& state, const std::vector<double>& memory);
   std::vector<double> packed(const Snapshot& snapshot) const;
@@ -38,6 +41,7 @@ class GroupServer {
   std::unique_ptr<CoupledCodes> codes_;
   std::unique_ptr<TimeLoop> loop_;
   Snapshot initial_;
+  std::array<protocol::SetParameters, 2> present_;  ///< all parameters of fluid and solid as they are now
 };
 
 }  // namespace tether

@@ -23,10 +23,10 @@ auto ask_later(Partner& partner, const Request& request, Convert convert) {
 Done done(const protocol::Ready&) {
   return {};
 }
-std::vector<double> packed(const VectorXd& v) {
+std::vector<double> values_of(const VectorXd& v) {
   return {v.begin(), v.end()};
 }
-VectorXd unpacked(const std::vector<double>& v) {
+VectorXd vector_of(const std::vector<double>& v) {
   return Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
 }
 
@@ -66,11 +66,17 @@ void check_size(const std::vector<double>& values, Eigen::Index size, const Part
 }
 
 protocol::Correct correction_of(const Innovation& data, double dt, bool drift) {
-  return {dt, drift, packed(data.weights), packed(data.distances), packed(data.normals)};
+  return {dt, drift, values_of(data.weights), values_of(data.distances), values_of(data.normals)};
 }
 
-/// Samples to nodes (O.5): weight H' w, direction H' (w d n) along the mean normal H' (w n).
-Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes) {
+VectorXd sized(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
+  check_size(values, size, partner);
+  return vector_of(values);
+}
+
+}  // namespace
+
+Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes) {  // (O.5)
   Points normal = Points::Zero(3, nodes), direction = normal;
   Innovation data{VectorXd::Zero(nodes), VectorXd::Zero(nodes), {}};
   for (std::size_t s = 0; s < samples.weights.size(); ++s)
@@ -90,13 +96,6 @@ Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes) {
   data.normals = normal.reshaped();
   return data;
 }
-
-VectorXd sized(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
-  check_size(values, size, partner);
-  return unpacked(values);
-}
-
-}  // namespace
 
 InterfaceSurface ask_interface(Partner& partner) {
   const auto message = partner.ask(protocol::GetInterface{});
@@ -174,6 +173,10 @@ VectorXd MessageFluid::received(const protocol::Load& load) const {
   return map_.to_solid(load.forces);
 }
 
+bool MessageFluid::has_velocity() const {
+  return partner_.hello().has_velocity;
+}
+
 Later<Points> MessageFluid::velocity_at(const Points& points) {
   return ask_later(partner_, protocol::GetVelocity{{points.data(), points.data() + points.size()}},
                    [this, count = points.cols()](const protocol::Velocity& reply) -> Points {
@@ -198,7 +201,7 @@ bool MessageSolid::has_state() const {
 }
 
 Later<Done> MessageSolid::begin_step(const StepStart& start) {
-  return ask_later(partner_, protocol::BeginStep{start.step, start.time, start.dt, packed(start.predicted())}, done);
+  return ask_later(partner_, protocol::BeginStep{start.step, start.time, start.dt, values_of(start.predicted())}, done);
 }
 Later<std::vector<double>> MessageSolid::end_step(bool accepted) {
   return ask_end_step(partner_, accepted);
@@ -217,36 +220,36 @@ Later<PartnerUsage> MessageSolid::usage() {
 }
 
 Later<Motion> MessageSolid::motion(const VectorXd& load) {
-  return ask_later(partner_, protocol::SolidEvaluate{packed(load)},
+  return ask_later(partner_, protocol::SolidEvaluate{values_of(load)},
                    [this, size = load.size()](const protocol::Motion& motion) {
                      return Motion{sized(motion.displacement, size, partner_), sized(motion.velocity, size, partner_)};
                    });
 }
 
 Later<VectorXd> MessageSolid::velocity_change(const VectorXd& load_change) {
-  return ask_later(partner_, protocol::SolidTangent{packed(load_change)},
+  return ask_later(partner_, protocol::SolidTangent{values_of(load_change)},
                    [this, size = load_change.size()](const protocol::Motion& motion) {
                      return sized(motion.velocity, size, partner_);
                    });
 }
 
 Later<SolidPartner::Iterate> MessageSolid::residual(const VectorXd& correction, const VectorXd& load) {
-  return ask_later(partner_, protocol::SolidResidual{packed(correction), packed(load)},
+  return ask_later(partner_, protocol::SolidResidual{values_of(correction), values_of(load)},
                    [this, size = load.size()](const protocol::SolidResidualReply& reply) {
-                     return Iterate{unpacked(reply.residual),
+                     return Iterate{vector_of(reply.residual),
                                     {sized(reply.displacement, size, partner_), sized(reply.velocity, size, partner_)}};
                    });
 }
 
 Later<VectorXd> MessageSolid::product(const VectorXd& direction) {
   return ask_later(
-      partner_, protocol::SolidProduct{packed(direction)},
+      partner_, protocol::SolidProduct{values_of(direction)},
       [this, size = direction.size()](const protocol::Unknowns& reply) { return sized(reply.values, size, partner_); });
 }
 
 Later<VectorXd> MessageSolid::precondition(const VectorXd& residual) {
   return ask_later(
-      partner_, protocol::SolidPrecondition{packed(residual)},
+      partner_, protocol::SolidPrecondition{values_of(residual)},
       [this, size = residual.size()](const protocol::Unknowns& reply) { return sized(reply.values, size, partner_); });
 }
 
@@ -275,7 +278,7 @@ Later<Done> MessageSolid::withdraw(double share) {
 // ---- measurements ---------------------------------------------------------------------------------------------------
 
 Later<Innovation> MessageObservation::observe(double time, const VectorXd& points) {
-  return ask_later(partner_, protocol::Observe{time, packed(points)},
+  return ask_later(partner_, protocol::Observe{time, values_of(points)},
                    [nodes = points.size() / 3](const protocol::Discrepancy& reply) { return at_nodes(reply, nodes); });
 }
 

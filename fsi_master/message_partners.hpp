@@ -11,6 +11,9 @@ namespace tether {
 /// The reference surface that a partner announces. Throws RunError if its numbers do not fit together.
 InterfaceSurface ask_interface(protocol::Partner& partner);
 
+/// Samples to nodes (O.5): weight H' w, direction H' (w d n) along the mean normal H' (w n).
+Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes);
+
 /// A fluid in another process. Its vectors are mapped from and to the solid's interface nodes.
 class MessageFluid : public FluidPartner {
  public:
@@ -30,6 +33,7 @@ class MessageFluid : public FluidPartner {
   Later<VectorXd> load_change(const VectorXd& velocity_change) override;
   bool has_observer() const override;
   Later<Done> move_interface(const VectorXd& change) override;
+  bool has_velocity() const override;
   Later<Points> velocity_at(const Points& points) override;
 
  private:

@@ -1,13 +1,8 @@
 #include "fsi_master/newton_krylov.hpp"
 
-#include "common/linalg/gmres.hpp"
+#include "fsi_master/gmres.hpp"
 
 namespace tether {
-namespace {
-
-constexpr int most_iterations = 100;  // of GMRES a correction
-
-}  // namespace
 
 NewtonKrylov::NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
     : fluid_(fluid), solid_(solid), options_(options) {}
@@ -58,7 +53,7 @@ VectorXd NewtonKrylov::tangent_times(const VectorXd& dV) {
 NewtonKrylov::Correction NewtonKrylov::correction(const VectorXd& estimate, double target) {
   Correction solution{VectorXd::Zero(estimate.size())};
   const auto preconditioned = [this](const VectorXd& dV) { return solid_.precondition(tangent_times(dV)).get(); };
-  solution.iterations = gmres(preconditioned, estimate, solution.dV, target, most_iterations).iterations;
+  solution.iterations = gmres(preconditioned, estimate, solution.dV, target, most_krylov_iterations).iterations;
   return solution;
 }
 

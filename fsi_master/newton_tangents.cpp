@@ -1,13 +1,8 @@
 #include "fsi_master/newton_tangents.hpp"
 
-#include "common/linalg/gmres.hpp"
+#include "fsi_master/gmres.hpp"
 
 namespace tether {
-namespace {
-
-constexpr int most_iterations = 100;  // of GMRES a correction
-
-}  // namespace
 
 NewtonTangents::NewtonTangents(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
     : fluid_(fluid), solid_(solid), options_(options) {}
@@ -24,7 +19,7 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
     const auto apply = [this](const VectorXd& dV) { return tangent_times(dV); };
     VectorXd dV = VectorXd::Zero(V.size());
     const double target = convergence.linear_target(V, residual);
-    convergence.count_krylov(gmres(apply, residual, dV, target, most_iterations).iterations);
+    convergence.count_krylov(gmres(apply, residual, dV, target, most_krylov_iterations).iterations);
     V += dV;
   }
   if (convergence.is_reached()) extrapolation_.end(V - start.velocity);

@@ -85,9 +85,9 @@ class FluidPartner : public StepPartner {
   /// nothing has changed then.
   virtual Later<Done> move_interface(const VectorXd&) { throw InternalError("no observer"); }
 
-  /// After the last accepted step, at points of space (3 x n); NaN outside the lumen. Throws StepFailure if the code
-  /// cannot tell.
-  virtual Later<Points> velocity_at(const Points&) { throw StepFailure(name() + " does not tell its velocity"); }
+  virtual bool has_velocity() const { return false; }
+  /// After the last accepted step, at points of space (3 x n); NaN outside the lumen.
+  virtual Later<Points> velocity_at(const Points&) { throw InternalError("no velocity"); }
 };
 
 /// S: nodal forces -> interface motion; and, from a code that announces operators, its equations themselves.

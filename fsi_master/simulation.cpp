@@ -17,16 +17,12 @@ std::vector<FollowedNode> nearest_nodes(const Named<Vec3>& points, const Points&
   return followed;
 }
 
-VectorXd flat(const Points& points) {
-  return Eigen::Map<const VectorXd>(points.data(), points.size());
-}
-
 }  // namespace
 
 Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
     : plan_(std::move(plan)),
       crew_(std::move(crew)),
-      loop_(crew_.fluid, crew_.solid, crew_.coupling, flat(crew_.interface), halvings),
+      loop_(crew_.fluid, crew_.solid, crew_.coupling, crew_.interface.reshaped(), halvings),
       followed_(nearest_nodes(plan_.points, crew_.interface)),
       series_(plan_.output / "timeseries.csv", columns(), plan_.units),
       motion_(plan_.output / "lumen.motion", crew_.interface) {

@@ -22,7 +22,7 @@ struct RunPlan {
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
   bool resume = false, quiet = false;
-  bool write_series = true;  ///< the codes' files for viewing
+  bool write_series = true;               ///< the codes' files for viewing
   double image_pressure = 0;              ///< to which the run's pressures are relative
   Named<Vec3> points;                     ///< their displacement is recorded
   Points velocity_points = Points(3, 0);  ///< of space, where the velocity is recorded [length]

@@ -12,7 +12,6 @@
 #include "common/config/case_essence.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/output_folder.hpp"
-#include "common/observation/observed_case.hpp"
 #include "common/protocol/run.hpp"
 #include "common/protocol/signals.hpp"
 #include "identification_master/checkpoint.hpp"
@@ -23,6 +22,7 @@
 #include "identification_master/identification_case.hpp"
 #include "identification_master/identified_case.hpp"
 #include "identification_master/sensitivity_tables.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
 
 namespace tether {
 namespace {
@@ -40,16 +40,11 @@ struct IdentifiedCase {
     file.read("diagnosis", diagnosis);
     file.finish();
     if (is_diagnosis()) return;
-    const bool has_trace = std::any_of(observations.traces.begin(), observations.traces.end(),
-                                       [](const auto& trace) { return !trace.second.held_out; });
-    if (!observations.has_lumen_data() && !has_trace)
-      throw input_error("{}: names no measurements to learn from{}", file.where("observations"),
-                        observations.traces.empty() ? "" : ": all traces are held out");
     if (identification.parameters.empty())
       throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
   }
   /// The wall's element does not matter: interface nodes are the same.
-  VesselMesh vessel() const { return load_mesh(mesh, file.units(), WallElement::prism); }
+  VesselMesh vessel() const { return load_mesh(mesh, file, WallElement::prism); }
   LumenSurface lumen() const { return lumen_of(vessel()); }
   /// Prepared by tether diagnose: whole runs are wanted instead.
   bool is_diagnosis() const { return diagnosis.runs != "none"; }
@@ -146,13 +141,21 @@ std::vector<std::string> notices_of(const std::vector<EstimateRecord>& records) 
 }
 
 SensitivityTables tables_of(const IdentifiedCase& given, const fs::path& output, const Observations& data,
-                            const DataPrecision& precision, const protocol::Hello& model) {
-  std::vector<std::string> names, units{given.file.units().symbol(dimension::length)};
+                            const DataPrecision& precision) {
+  std::vector<std::string> names;
   for (const auto& [name, parameter] : given.identification.parameters) names.push_back(name);
-  for (const Trace& trace : data.traces)
-    for (const auto& observable : model.observables)
-      if (observable.name == trace.observable) units.push_back(observable.unit);
-  return {output, data, given.lumen(), names, precision.deviations(), units};
+  return {output, data, given.lumen(), names, precision.deviations(), given.file.units()};
+}
+
+/// What was measured. Throws InputError if nothing of it may be learnt from, or the noise of what may is not stated.
+Observations data_of(const IdentifiedCase& given) {
+  Observations data = load_observations(given.observations, given.lumen(), given.file);
+  const std::vector<const Measurement*> all = data.all();
+  if (std::all_of(all.begin(), all.end(), [](const Measurement* source) { return source->facts().held_out; }))
+    throw input_error("{}: names no measurements to learn from{}", given.file.where("observations"),
+                      all.empty() ? "" : ": all of them are held out");
+  check_noise(data, given.file);
+  return data;
 }
 
 /// One identification from the launch of the groups to its files.
@@ -163,14 +166,12 @@ class Job {
         command_(command),
         pool_(pool),
         output_(std::move(output)),
-        data_(load_observations(given.observations, given.lumen(), given.file)),
+        data_(data_of(given)),
         parameters_(given.identification, pool.model().parameters, given.file),
         precision_(data_, pool.lumen(), given.file.common().time.step,
                    {given.file.common().time.start, given.file.common().time.end}),
         plan_(plan_of(given, command)),
-        filter_(plan_, parameters_, prepared(), data_.traces, pool) {
-    check_noise(data_, given.file);
-  }
+        filter_(plan_, parameters_, prepared(), data_, pool) {}
 
   void run() {
     begin();
@@ -223,7 +224,7 @@ class Job {
       std::cout << fmt::format("--steps {}: beyond time.end, which {} steps reach\n", plan_.steps, last) << std::flush;
   }
   void begin_sensitivities() {
-    auto tables = std::make_shared<SensitivityTables>(tables_of(given_, output_, data_, precision_, pool_.model()));
+    auto tables = std::make_shared<SensitivityTables>(tables_of(given_, output_, data_, precision_));
     command_.resume ? tables->continue_from(filter_.last().time) : tables->begin();
     filter_.report_sensitivities([tables](const StepSensitivities& step) { tables->add(step); });
   }
@@ -317,10 +318,10 @@ Program identification_master_program() {
       .validate =
           [](const CommandLine& command) {
             const IdentifiedCase given(command.case_file);
-            if (!given.is_diagnosis())
-              check_noise(load_observations(given.observations, given.lumen(), given.file), given.file);
+            if (!given.is_diagnosis()) data_of(given);
           },
-      .run = run};
+      .run = run,
+      .shares_work = true};
 }
 
 }  // namespace tether

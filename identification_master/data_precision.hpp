@@ -1,11 +1,11 @@
 #pragma once
 
-#include "common/observation/observations.hpp"
 #include "identification_master/frame_sharing.hpp"
+#include "observation_manager/measurements/observations.hpp"
 
 namespace tether {
 
-/// Of each datum at the end of a step: of samples, then of traces.
+/// Of each datum at the end of a step, source after source.
 struct DatumWeights {
   VectorXd precision;          ///< W of (K.5); zero where there is no datum
   VectorXd expected_squares;   ///< of its error, in squares of the deviation: below 1 between two frames (K.5)
@@ -15,21 +15,21 @@ struct DatumWeights {
 /// How much each datum counts at a time: its precision W, the inverse of a variance, such that the estimate depends
 /// neither on the time step nor on the density of the model's mesh. (K.5)
 ///
-/// Lumen data with errors of deviation sigma, alike within the length l: W = w/(sigma^2 a), w the area (length) of the
-/// sample and a = 2 pi l^2 (2 l) that of one independent error, at most all that is observed. In time: each frame
-/// counts once, however many steps interpolate between two; frames closer than the correlation time share. What is held
-/// out counts nothing.
+/// Every source says what its rows and their errors are: of lumen data with errors of deviation sigma, alike within the
+/// length l, W = w/(sigma^2 a), w the area (length) of the sample and a = 2 pi l^2 (2 l) that of one independent error,
+/// at most all that is observed. In time: each frame counts once, however many steps interpolate between two; frames
+/// closer than the correlation time share. What is held out counts nothing.
 class DataPrecision {
  public:
   /// imaged: the lumen, to know which sample belongs to which series. dt: of the steps that will be corrected. run:
   /// start and end of the run, over which a frame that always holds counts once. All noise is stated (check_noise).
   DataPrecision(const Observations& data, const Points& imaged, double dt, std::pair<double, double> run);
 
-  /// At the end of a step, from the samples' weights (O.4; the smallest among the particles).
-  DatumWeights at(const VectorXd& weights_of_samples, double end_of_step) const;
-  /// Standard deviations of single data: of samples, then of traces.
+  /// At the end of a step, from the rows' weights (O.4; the smallest among the particles).
+  DatumWeights at(const VectorXd& weights, double end_of_step) const;
+  /// Standard deviations of single data.
   const VectorXd& deviations() const { return deviations_; }
-  /// Whether a frame of any lumen data, or a value of a trace, has this step of its own.
+  /// Whether a frame, or a value of a trace, has this step of its own.
   bool has_frame(double end_of_step) const;
   /// Each frame counts in its own step only.
   void count_frames_whole() { whole_frames_ = true; }
@@ -45,13 +45,11 @@ class DataPrecision {
     double factor, expected_square;
     bool on_frame;
   };
-  void add_lumen_data(const LumenSeries& source, const Points& imaged, const StepEnds& ends);
-  void add_trace(const Trace& trace, const StepEnds& ends);
+  void add(const Measurement& source, const Points& imaged, const StepEnds& ends);
   Weight weight_of(const Series& series, double end_of_step) const;
 
-  std::vector<Series> series_;          ///< of all sources
-  std::vector<std::size_t> of_sample_;  ///< number in series_
-  std::vector<Series> traces_;
+  std::vector<Series> series_;       ///< of all sources
+  std::vector<std::size_t> of_row_;  ///< number in series_
   VectorXd deviations_;
   bool whole_frames_ = false;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/case/diagnosis_case.hpp"
 #include "common/config/case_file.hpp"
+#include "common/config/diagnosis_case.hpp"
 #include "identification_master/group_pool.hpp"
 
 namespace tether {

@@ -12,9 +12,12 @@ struct EnsembleStep {
   bool observe = false;
 };
 
-/// What a particle's step found: its observables, and its distances to the lumen data sample by sample.
+/// What a particle's step found: its observables, its distances to the lumen data sample by sample, and its velocity
+/// where that was measured.
 struct ParticleReport {
   std::vector<double> observables, distances, weights;
+  std::vector<double> velocities = {};  ///< three a point; NaN outside the lumen
+  Points lumen = Points(3, 0);          ///< positions of its nodes, if they are known [length]
   std::int64_t evaluations = 0, krylov_iterations = 0, parts = 0;
 };
 

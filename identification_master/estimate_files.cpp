@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
+#include "common/io/record_file.hpp"
 #include "identification_master/identifiability.hpp"
+#include "identification_master/results/estimate.hpp"
 #include "identification_master/sensitivity_tables.hpp"
 
 namespace tether {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double two_sided_95 = 1.959963984540054;
 
@@ -55,63 +54,46 @@ std::string row(const IdentifiedParameters& parameters, const EstimateRecord& re
                             record.rejected_share(), record.tempering, record.evaluations);
 }
 
-Json range_of(const IdentifiedParameter& parameter, double mean, double deviation) {
+EstimateRange range_of(const IdentifiedParameter& parameter, double mean, double deviation) {
   const ValueEstimate value = estimate_of(parameter, mean, deviation);
-  return {{"value", value.median},
-          {"lower_95", value.lower},
-          {"upper_95", value.upper},
-          {"theta", mean},
-          {"theta_deviation", deviation}};
+  return {value.median, value.lower, value.upper, mean, deviation};
 }
 
-Json list_of(const auto& values) {
-  return std::vector<double>(values.begin(), values.end());
+/// The bound that holds the estimate back.
+std::optional<Bound> bound_at(const IdentifiedParameter& parameter, double mean) {
+  if (!parameter.is_moved(mean)) return std::nullopt;
+  return parameter.value(mean) < parameter.value(parameter.prior_mean) ? Bound::lower : Bound::upper;
 }
 
-Json rows_of(const MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(list_of(VectorXd(matrix.row(i))));
-  return rows;
+EstimatedParameter estimated(const IdentifiedParameter& p, double mean, double deviation, double retained) {
+  EstimatedParameter told{p.name,
+                          {},
+                          p.unit,
+                          name_of(p.transform),
+                          range_of(p, p.prior_mean, p.prior_deviation),
+                          range_of(p, mean, deviation),
+                          bound_at(p, mean),
+                          retained};
+  for (const auto& target : p.targets) told.sets.push_back({target.name, target.scale * p.value(mean)});
+  return told;
 }
 
-/// The bound that holds the estimate back: "lower", "upper", or null.
-Json bound_at(const IdentifiedParameter& parameter, double mean) {
-  if (!parameter.is_moved(mean)) return {};
-  return parameter.value(mean) < parameter.value(parameter.prior_mean) ? "lower" : "upper";
-}
-
-Json parameters_json(const IdentifiedParameters& parameters, const Identification& done, const Identifiability& what) {
-  Json all = Json::array();
-  const EstimateRecord& last = done.last();
-  for (std::size_t i = 0; i < parameters.list().size(); ++i) {
-    const IdentifiedParameter& p = parameters.list()[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    Json targets = Json::array();
-    for (const auto& target : p.targets)
-      targets.push_back({{"name", target.name}, {"value", target.scale * p.value(last.mean(k))}});
-    all.push_back({{"name", p.name},
-                   {"sets", targets},
-                   {"unit", p.unit},
-                   {"transform", name_of(p.transform)},
-                   {"prior", range_of(p, p.prior_mean, p.prior_deviation)},
-                   {"estimate", range_of(p, last.mean(k), std::sqrt(last.covariance(k, k)))},
-                   {"at_bound", bound_at(p, last.mean(k))},
-                   {"retained_information", what.retained(k)}});
-  }
-  return all;
-}
-
-Json innovations_json(const Identification& done) {
+InnovationsTold innovations_of(const Identification& done) {
   const DataTotals all = totals_of(done.state().records);
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
-  return {{"effective_data", all.data},
-          {"used_data", all.used},
-          {"chi_square", all.chi_square},
-          {"expected_chi_square", all.expected_chi_square},
-          {"chi_square_per_datum", share(all.chi_square, all.expected_chi_square)},
-          {"autocorrelation_between_frames", done.state().innovations.autocorrelation()},
-          {"rejected_share", share(all.rejected, all.data + all.rejected)},
-          {"tempered_steps", all.tempered_steps}};
+  return {all.data,
+          all.used,
+          all.chi_square,
+          all.expected_chi_square,
+          share(all.chi_square, all.expected_chi_square),
+          done.state().innovations.autocorrelation(),
+          share(all.rejected, all.data + all.rejected),
+          all.tempered_steps};
+}
+
+EstimateCost cost_of(const IdentificationFacts& facts, Eigen::Index parameters) {
+  return {static_cast<int>(parameters) + 1, static_cast<int>(facts.groups), facts.cost.wall_seconds,
+          facts.cost.cpu_seconds,           facts.cost.master_cpu_seconds,  facts.peak_memory_mb};
 }
 
 }  // namespace
@@ -142,32 +124,28 @@ void write_estimates(const std::filesystem::path& path, const IdentifiedParamete
 void write_estimate(const std::filesystem::path& path, const IdentifiedParameters& parameters,
                     const Identification& done, const IdentificationFacts& facts) {
   const EstimateRecord& last = done.last();
-  const MatrixXd prior = parameters.prior_variances().asDiagonal();
-  const Identifiability what = identifiability(prior, last.covariance);
-  const Json json{{"case", facts.case_name},
-                  {"title", facts.title},
-                  {"case_file", facts.case_file},
-                  {"time", last.time},
-                  {"steps", done.state().step},
-                  {"corrected", done.plan().corrects},
-                  {"parameters", parameters_json(parameters, done, what)},
-                  {"correlations", rows_of(correlations(last.covariance))},
-                  {"covariance_of_theta", rows_of(last.covariance)},
-                  {"identifiability",
-                   {{"gramian", rows_of(what.gramian)},
-                    {"information", list_of(what.information)},
-                    {"directions", rows_of(what.directions.transpose())}}},
-                  {"innovations", innovations_json(done)},
-                  {"values_moved_into_their_range", facts.cost.moved_values},
-                  {"notices", facts.notices},
-                  {"cost",
-                   {{"particles", last.mean.size() + 1},
-                    {"groups", facts.groups},
-                    {"wall_seconds", facts.cost.wall_seconds},
-                    {"cpu_seconds", facts.cost.cpu_seconds},
-                    {"master_loop_cpu_seconds", facts.cost.master_cpu_seconds},
-                    {"peak_memory_mb", facts.peak_memory_mb}}}};
-  write_whole(path, json.dump(2) + "\n");
+  const Identifiability what = identifiability(parameters.prior_variances().asDiagonal(), last.covariance);
+  Estimate estimate;
+  estimate.case_name = facts.case_name;
+  estimate.title = facts.title;
+  estimate.case_file = facts.case_file;
+  estimate.time = last.time;
+  estimate.steps = done.state().step;
+  estimate.corrected = done.plan().corrects;
+  for (std::size_t i = 0; i < parameters.list().size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    estimate.parameters.push_back(
+        estimated(parameters.list()[i], last.mean(k), std::sqrt(last.covariance(k, k)), what.retained(k)));
+  }
+  estimate.correlations = correlations(last.covariance);
+  estimate.covariance_of_theta = last.covariance;
+  estimate.identifiability = {
+      what.gramian, {what.information.begin(), what.information.end()}, what.directions.transpose()};
+  estimate.innovations = innovations_of(done);
+  estimate.values_moved_into_their_range = facts.cost.moved_values;
+  estimate.notices = facts.notices;
+  estimate.cost = cost_of(facts, last.mean.size());
+  write_whole(path, json_of(estimate) + "\n");
 }
 
 }  // namespace tether

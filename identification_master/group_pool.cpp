@@ -35,7 +35,15 @@ VectorXd GroupPool::initial_state() {
 
 Points GroupPool::lumen() {
   const auto interface = groups_.front()->ask(protocol::GetInterface{});
-  return Eigen::Map<const Points>(interface.points.data(), 3, static_cast<Eigen::Index>(interface.points.size() / 3));
+  imaged_ =
+      Eigen::Map<const Points>(interface.points.data(), 3, static_cast<Eigen::Index>(interface.points.size() / 3));
+  return imaged_;
+}
+
+/// A state ends with the interface's displacement and velocity.
+Points GroupPool::lumen_in(const std::vector<double>& state) const {
+  if (static_cast<Eigen::Index>(state.size()) < 2 * imaged_.size()) return Points(3, 0);
+  return imaged_ + Eigen::Map<const Points>(state.data() + state.size() - 2 * imaged_.size(), 3, imaged_.cols());
 }
 
 protocol::Usage GroupPool::usage() {
@@ -91,9 +99,9 @@ std::vector<ParticleReport> GroupPool::advance(const EnsembleStep& step, const s
       throw run_error("sigma point {} came back with {} numbers instead of {}", i, reply.state.size(), states.rows());
     states.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const VectorXd>(reply.state.data(), states.rows());
     memories[i] = std::move(reply.memory);
-    reports[i] = {std::move(reply.observables), std::move(reply.distances),
-                  std::move(reply.weights),     reply.evaluations,
-                  reply.krylov_iterations,      reply.parts};
+    reports[i] = {
+        std::move(reply.observables), std::move(reply.distances), std::move(reply.weights), std::move(reply.velocities),
+        lumen_in(reply.state),        reply.evaluations,          reply.krylov_iterations,  reply.parts};
   };
   deal<protocol::Advance>(values.size(), request,
                           [&](std::size_t i, protocol::Advanced reply) { take(i, std::move(reply)); });

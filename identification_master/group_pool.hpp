@@ -33,8 +33,11 @@ class GroupPool : public Ensemble {
   void deal(std::size_t count, const std::function<Request(std::size_t)>& request,
             const std::function<void(std::size_t, typename Request::Reply)>& take);
 
+  Points lumen_in(const std::vector<double>& state) const;
+
   protocol::Session& session_;
   std::vector<protocol::Partner*> groups_;
+  Points imaged_ = Points(3, 0);  ///< the lumen's nodes, once they were asked for
 };
 
 }  // namespace tether

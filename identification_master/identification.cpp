@@ -10,15 +10,13 @@
 namespace tether {
 namespace {
 
-std::size_t observable_of(const Trace& trace, const protocol::Hello& model) {
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < model.observables.size(); ++i) {
-    if (model.observables[i].name == trace.observable) return i;
-    known.push_back(model.observables[i].name);
+void check_columns(const Measurement& source, const std::vector<std::string>& known) {
+  for (const NeededColumn& column : source.columns()) {
+    if (std::find(known.begin(), known.end(), column.name) != known.end()) continue;
+    const std::string near = nearest(column.name, known);
+    throw input_error("{}: the model has no observable {}; {}", source.facts().field(), column.name,
+                      near.empty() ? "it has " + listed(known) : fmt::format("did you mean {}?", near));
   }
-  const std::string near = nearest(trace.observable, known);
-  throw input_error("observations.traces.{}: the model has no observable {}; {}", trace.name, trace.observable,
-                    near.empty() ? "it has " + listed(known) : fmt::format("did you mean {}?", near));
 }
 
 /// Spread of the particles over that of the prior if nothing is corrected: so near the mean, the model's curvature
@@ -45,15 +43,19 @@ DataTotals totals_of(const std::vector<EstimateRecord>& records) {
 }
 
 Identification::Identification(IdentificationPlan plan, const IdentifiedParameters& parameters,
-                               const DataPrecision& precision, const std::vector<Trace>& traces, Ensemble& ensemble)
+                               const DataPrecision& precision, const Observations& observations, Ensemble& ensemble)
     : plan_(plan),
       parameters_(parameters),
       precision_(precision),
-      traces_(traces),
       ensemble_(ensemble),
       filter_(parameters.prior_mean(),
               diagonal(parameters.prior_variances() * (plan.corrects ? 1 : nearness * nearness))) {
-  for (const Trace& trace : traces) observable_.push_back(observable_of(trace, ensemble.model()));
+  for (const auto& observable : ensemble.model().observables) moment_.names.push_back(observable.name);
+  moment_.points = observations.points();
+  for (const Measurement* source : observations.FlowObservations::all()) {
+    check_columns(*source, moment_.names);
+    blood_.push_back(source);
+  }
   const Eigen::Index particles = filter_.particles().cols();
   state_.theta = filter_.particles();
   state_.states = ensemble.initial_state().replicate(1, particles);  // L_x = 0
@@ -105,20 +107,33 @@ bool Identification::is_observed(std::int64_t step) const {
   return plan_.every_step || precision_.has_frame(plan_.time_at(step + 1));
 }
 
-/// A sample that is no observation for one particle is none for all.
+/// Samples of lumen data as the particle's group took them, then what the sources of the blood see of it.
+std::vector<SeenRow> Identification::rows_of(const ParticleReport& report, double time) const {
+  std::vector<SeenRow> rows;
+  for (std::size_t i = 0; i < report.distances.size(); ++i) rows.push_back({report.distances[i], report.weights[i]});
+  ModelMoment now = moment_;
+  now.values = report.observables;
+  now.velocities = Eigen::Map<const Points>(report.velocities.data(), 3, std::ssize(report.velocities) / 3);
+  now.lumen = report.lumen;
+  for (const Measurement* source : blood_) {
+    const std::vector<SeenRow> seen = source->see(now, time);
+    rows.insert(rows.end(), seen.begin(), seen.end());
+  }
+  return rows;
+}
+
+/// A datum that is none for one particle is none for all.
 Identification::Data Identification::gather(const std::vector<ParticleReport>& reports, double time) const {
-  const auto samples = static_cast<Eigen::Index>(reports.front().distances.size()),
-             traces = static_cast<Eigen::Index>(traces_.size());
-  Data data{MatrixXd(samples + traces, static_cast<Eigen::Index>(reports.size())), {}};
-  VectorXd weights = VectorXd::Constant(samples, infinite);
+  const Eigen::Index count = precision_.deviations().size();
+  Data data{MatrixXd(count, std::ssize(reports)), {}};
+  VectorXd weights = VectorXd::Constant(count, infinite);
   for (std::size_t i = 0; i < reports.size(); ++i) {
-    const ParticleReport& report = reports[i];
-    auto column = data.discrepancies.col(static_cast<Eigen::Index>(i));
-    column.head(samples) = Eigen::Map<const VectorXd>(report.distances.data(), samples);
-    weights = weights.cwiseMin(Eigen::Map<const VectorXd>(report.weights.data(), samples));
-    for (Eigen::Index k = 0; k < traces; ++k) {
-      const auto trace = static_cast<std::size_t>(k);
-      column(samples + k) = traces_[trace].curve(time) - report.observables[observable_[trace]];
+    const std::vector<SeenRow> rows = rows_of(reports[i], time);
+    TETHER_ASSERT(std::ssize(rows) == count, "{} rows of {}", rows.size(), count);
+    for (Eigen::Index row = 0; row < count; ++row) {
+      const SeenRow& seen = rows[static_cast<std::size_t>(row)];
+      data.discrepancies(row, static_cast<Eigen::Index>(i)) = seen.difference;
+      weights(row) = std::min(weights(row), seen.weight);
     }
   }
   data.weights = precision_.at(weights, time);

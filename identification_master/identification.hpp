@@ -3,10 +3,10 @@
 #include <cmath>
 #include <functional>
 
-#include "common/observation/observations.hpp"
 #include "identification_master/data_precision.hpp"
 #include "identification_master/ensemble.hpp"
 #include "identification_master/reduced_order_filter.hpp"
+#include "observation_manager/measurements/observations.hpp"
 
 namespace tether {
 
@@ -38,7 +38,7 @@ struct EstimateRecord {
   double rejected_share() const { return rejected > 0 ? rejected / (data + rejected) : 0; }
 };
 
-/// How the model's observations change with the parameters at the end of a step: of samples, then of traces.
+/// How the model's observations change with the parameters at the end of a step, source after source.
 struct StepSensitivities {
   double time = 0;
   MatrixXd changes;            ///< [m x p] per prior deviation of theta
@@ -75,9 +75,9 @@ struct IdentificationState {
 /// The filter's cycle: sample, predict, correct (K.3, K.4), once a time step.
 class Identification {
  public:
-  /// All must outlive it. `traces`: the column among the model's observables that each is compared with.
+  /// All must outlive it. Throws InputError if the model has no observable that data are compared with.
   Identification(IdentificationPlan plan, const IdentifiedParameters& parameters, const DataPrecision& precision,
-                 const std::vector<Trace>& traces, Ensemble& ensemble);
+                 const Observations& observations, Ensemble& ensemble);
 
   /// One step of all particles, and its correction.
   void advance();
@@ -98,6 +98,7 @@ class Identification {
   };
   bool is_observed(std::int64_t step) const;
   Data gather(const std::vector<ParticleReport>& reports, double time) const;
+  std::vector<SeenRow> rows_of(const ParticleReport& report, double time) const;
   double effective_number(const Data& data) const;
   void reject_outliers(Data& data) const;
   void correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
@@ -108,8 +109,8 @@ class Identification {
   IdentificationPlan plan_;
   const IdentifiedParameters& parameters_;
   const DataPrecision& precision_;
-  const std::vector<Trace>& traces_;
-  std::vector<std::size_t> observable_;  ///< of each trace
+  std::vector<const Measurement*> blood_;  ///< sources behind the samples of lumen data
+  ModelMoment moment_;                     ///< with the names and points that they ask for
   Ensemble& ensemble_;
   ReducedOrderFilter filter_;
   IdentificationState state_;

@@ -33,27 +33,25 @@ void cut(const fs::path& path, double time) {
 
 SensitivityTables::SensitivityTables(const fs::path& output, const Observations& data, const LumenSurface& lumen,
                                      const std::vector<std::string>& parameters, VectorXd deviations,
-                                     const std::vector<std::string>& units)
+                                     const UnitSystem& units)
     : output_(output), parameters_(parameters), deviations_(std::move(deviations)) {
-  for (const auto& source : data.lumen) add_samples(*source, lumen, units.front());
-  auto row = static_cast<Eigen::Index>(positions_.size());
-  for (std::size_t i = 0; i < data.traces.size(); ++i)
-    groups_.push_back({data.traces[i].name, {}, units[i + 1], {row++}});
-  TETHER_ASSERT(row == deviations_.size(), "{} data with {} deviations", row, deviations_.size());
+  for (const Measurement* source : data.all()) add_source(*source, lumen, units.symbol(source->facts().dimension));
+  TETHER_ASSERT(std::ssize(positions_) == deviations_.size(), "{} data with {} deviations", positions_.size(),
+                deviations_.size());
 }
 
-void SensitivityTables::add_samples(const LumenSeries& source, const LumenSurface& lumen, const std::string& unit) {
-  const std::vector<std::string> names = source.series_names();
-  const std::vector<Frame> frames = source.frames();
-  const double time = frames.empty() || std::isnan(frames.front().time) ? 0 : frames.front().time;
-  const std::size_t first = groups_.size(), regions = lumen.region_names.size() + 1;
-  for (const std::string& name : names)
+void SensitivityTables::add_source(const Measurement& source, const LumenSurface& lumen, const std::string& unit) {
+  const CountedRows rows = source.rows(lumen.points, 0);
+  const bool on_lumen = source.facts().kind.on_lumen;
+  const std::size_t first = groups_.size(), regions = on_lumen ? lumen.region_names.size() + 1 : 1;
+  for (const std::string& name : rows.groups)
     for (std::size_t region = 0; region < regions; ++region)
       groups_.push_back({name, region == 0 ? "" : lumen.region_names[region - 1], unit, {}});
-  for (const Sample& sample : source.observe(lumen.points, time)) {
-    const auto group = static_cast<std::size_t>(sample.series) * regions + static_cast<std::size_t>(sample.region + 1);
+  for (std::size_t row = 0; row < rows.group_of.size(); ++row) {
+    const std::size_t group = rows.group_of[row] * regions + static_cast<std::size_t>(rows.region[row] + 1);
     groups_[first + group].data.push_back(static_cast<Eigen::Index>(positions_.size()));
-    positions_.push_back(sample.position);
+    positions_.emplace_back();
+    if (rows.positions.cols() > 0) positions_.back() = rows.positions.col(static_cast<Eigen::Index>(row));
   }
 }
 
@@ -101,9 +99,8 @@ std::string SensitivityTables::rows_of_data(const Group& group, const StepSensit
     if (step.precision(i) == 0 || !step.on_frame[static_cast<std::size_t>(i)]) continue;
     const double number = step.precision(i) * deviations_(i) * deviations_(i);
     rows += fmt::format("{}, {}, {}, {}, {:.6g}", step.time, group.observation, group.region, group.unit, number);
-    const bool is_placed = i < std::ssize(positions_);
-    for (int axis = 0; axis < 3; ++axis)
-      rows += is_placed ? fmt::format(", {:.6g}", positions_[static_cast<std::size_t>(i)](axis)) : ", ";
+    const std::optional<Vec3>& place = positions_[static_cast<std::size_t>(i)];
+    for (int axis = 0; axis < 3; ++axis) rows += place ? fmt::format(", {:.6g}", (*place)(axis)) : ", ";
     for (const double s : step.changes.row(i)) rows += fmt::format(", {:.6g}", s);
     rows += "\n";
   }

@@ -8,14 +8,14 @@
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "common/config/echo.hpp"
-#include "common/observation/observed_case.hpp"
 #include "common/protocol/run.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
 #include "observation_manager/server.hpp"
 
 namespace tether {
 namespace {
 
-const std::string lumen_role = "solid_observation", flow_role = "fluid_observation";
+const std::string lumen_role = "solid_observation";
 
 std::string effective_section(ObservedCase& observed) {
   return echo_json("observations", observed.observations);
@@ -31,49 +31,40 @@ ObservationServer lumen_server(const CommandLine& command) {
           effective_section(observed)};
 }
 
-FlowObservationServer flow_server(const CommandLine& command) {
-  ObservedCase observed(command.case_file);
-  FlowObservations data = load_flow_observations(observed.observations, observed.file);
-  if (data.empty())
-    throw input_error("{}: names no traces or velocities to compare the blood with",
-                      observed.file.where("observations"));
-  return {std::move(data), observed.file.units(), effective_section(observed)};
-}
-
 int run(const CommandLine& command) {
-  if (command.role == flow_role)
-    return protocol::run_partner<protocol::ToFlowObservation>(
-        flow_role, [&command](const protocol::Welcome&) { return flow_server(command); });
   return protocol::run_partner<protocol::ToObservation>(
       lumen_role, [&command](const protocol::Welcome&) { return lumen_server(command); });
 }
 
-/// Throws InputError for a trace of an opening, probe or section that there is not. What a foreign fluid calls its
-/// numbers is known only when it runs.
-void check_observables(const ObservedCase& observed, const VesselMesh& vessel) {
-  if (observed.file.has("coupling.programs.fluid")) return;
+/// Throws InputError for a column of an opening, probe or section that there is not.
+void check_column(const std::string& column, const std::string& where, const std::vector<std::string>& openings,
+                  const CaseFile& file) {
+  const auto first = column.find('.'), last = column.rfind('.');
+  if (!column.starts_with("fluid.") || first == last) return;
+  const std::string opening = column.substr(first + 1, last - first - 1);
+  if (std::find(openings.begin(), openings.end(), opening) != openings.end() || file.has("fluid.probes." + opening) ||
+      file.has("fluid.sections." + opening))
+    return;
+  throw input_error("{}: {}: the vessel has no opening, probe or section {}; its openings are {}", where, column,
+                    opening, fmt::join(openings, ", "));
+}
+
+/// Of all that is compared with columns. What a foreign fluid calls its numbers is known only when it runs.
+void check_columns(const Observations& data, const CaseFile& file, const VesselMesh& vessel) {
+  if (file.has("coupling.programs.fluid")) return;
   std::vector<std::string> openings;
   for (const auto* patches : {&vessel.fluid.inlets, &vessel.fluid.outlets})
     for (const Patch& patch : *patches) openings.push_back(patch.name);
-  for (const auto& [name, trace] : observed.observations.traces) {
-    const std::string& observable = trace.observable;
-    const auto first = observable.find('.'), last = observable.rfind('.');
-    if (!observable.starts_with("fluid.") || first == last) continue;
-    const std::string opening = observable.substr(first + 1, last - first - 1);
-    if (std::find(openings.begin(), openings.end(), opening) != openings.end() ||
-        observed.file.has("fluid.probes." + opening) || observed.file.has("fluid.sections." + opening))
-      continue;
-    throw input_error("{}: {}: the vessel has no opening, probe or section {}; its openings are {}",
-                      observed.file.where("observations.traces." + name + ".observable"), observable, opening,
-                      fmt::join(openings, ", "));
-  }
+  for (const Measurement* source : data.all())
+    for (const NeededColumn& column : source->columns())
+      check_column(column.name, file.where(source->facts().field() + "." + column.field), openings, file);
 }
 
 void validate(const CommandLine& command) {
   const ObservedCase observed(command.case_file);
   const VesselMesh vessel = observed.vessel();
   const Observations observations = load_observations(observed.observations, lumen_of(vessel), observed.file);
-  check_observables(observed, vessel);
+  check_columns(observations, observed.file, vessel);
   if (command.quiet) return;
   for (const std::string& note : observations.notes()) std::cout << note << "\n";
 }
@@ -85,8 +76,8 @@ Program observation_program() {
   return {
       .name = "observation_manager",
       .purpose =
-          "The measurements of a case: how far the moving lumen is from segmented surfaces and contours, or the blood "
-          "from measured pressures, flows and velocities. Started by a master.",
+          "The measurements of a case: how far the moving lumen is from segmented surfaces and contours. Started by a "
+          "master.",
       .declare =
           [](Fields& fields) {
             MeshCase mesh;
@@ -96,7 +87,7 @@ Program observation_program() {
           },
       .validate = validate,
       .run = run,
-      .roles = {lumen_role, flow_role}};
+      .roles = {lumen_role}};
 }
 
 }  // namespace tether

@@ -6,6 +6,11 @@
 
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "diagnosis/results/comparison.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/missing_force.hpp"
+#include "identification_master/results/estimate.hpp"
 #include "report/estimate_table.hpp"
 #include "report/provenance.hpp"
 #include "report/wall.hpp"
@@ -19,6 +24,12 @@ using Json = nlohmann::ordered_json;
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A result as its schema has it; null if there is no such file. Throws InputError if it is another one.
+template <class Result>
+Json read_result(const fs::path& path) {
+  return fs::is_regular_file(path) ? Json::parse(json_of(read_record<Result>(path))) : Json();
 }
 
 /// Null if there is no such file.
@@ -97,7 +108,7 @@ class Collector {
   }
 
   Json document() {
-    const Json explain = read_json(folder_ / "explain.json");
+    const Json explain = read_result<Explanation>(folder_ / "explain.json");
     if (explain.is_null())
       take_folder();
     else
@@ -139,7 +150,7 @@ class Collector {
 
   /// A force without a law, and the model with it.
   void take_force(const std::string& name) {
-    document_["force"] = read_json(folder_ / name);
+    document_["force"] = read_result<ForceFound>(folder_ / name);
     const fs::path run = fs::path(name).parent_path() / "run";
     if (fs::exists(folder_ / run / "comparison.json")) take_run("with the force that is missing", run.string());
   }
@@ -154,7 +165,7 @@ class Collector {
 
   void take_run(const std::string& label, const std::string& name) {
     const fs::path folder = folder_ / name;
-    const Json comparison = read_json(folder / "comparison.json");
+    const Json comparison = read_result<ComparisonResult>(folder / "comparison.json");
     if (comparison.is_null()) {
       if (!name.empty()) note("{} holds no comparison.json", name);
       return;
@@ -170,7 +181,7 @@ class Collector {
   }
 
   void take_diagnosis(const std::string& name, const std::string& label) {
-    const Json diagnosis = read_json(folder_ / name / "diagnosis.json");
+    const Json diagnosis = read_result<Diagnosis>(folder_ / name / "diagnosis.json");
     if (diagnosis.is_null()) return;
     if (name.empty()) introduce("diagnosis", diagnosis);
     document_["diagnoses"].push_back({{"label", label}, {"folder", name}, {"diagnosis", diagnosis}});
@@ -178,7 +189,7 @@ class Collector {
 
   void take_estimate(const std::string& name, const std::string& label) {
     const fs::path folder = folder_ / name;
-    const Json estimate = read_json(folder / "estimate.json");
+    const Json estimate = read_result<Estimate>(folder / "estimate.json");
     if (estimate.is_null()) return;
     if (name.empty()) introduce("estimate", estimate);
     std::vector<std::string> names;
@@ -193,40 +204,16 @@ class Collector {
         {{"label", label}, {"folder", name}, {"estimate", estimate}, {"over_time", over_time}});
   }
 
-  /// The moving lumen of the runs shown; null, with a note, if it cannot be had or is not that of comparison.json.
+  /// The moving lumen of the runs shown; null, with a note, if it cannot be had.
   Json wall() {
     try {
-      if (!case_file_) throw input_error("the case file of these results is not where it was");
       std::vector<fs::path> folders;
       for (const ShownRun& run : shown_) folders.push_back(run.folder);
-      const Wall wall = wall_of(*case_file_, folders);
-      for (std::size_t i = 0; i < shown_.size(); ++i) check(wall, i);
-      return Json::parse(json_of(wall));
-    } catch (const std::exception& error) {
+      return Json::parse(json_of(wall_of(folders)));
+    } catch (const InputError& error) {
       note("The moving wall is not shown: {}", error.what());
       return nullptr;
     }
-  }
-
-  /// Throws InputError if the distances are not those that were compared.
-  void check(const Wall& wall, std::size_t run) const {
-    const Json& sources = shown_[run].comparison.at("sources");
-    if (sources.size() != wall.sources.size()) throw input_error("the case has other measurements than were compared");
-    for (std::size_t s = 0; s < sources.size(); ++s)
-      for (const WallMoment& moment : wall.sources[s].moments)
-        if (!agrees(sources[s], moment, run))
-          throw input_error("case or measurements have changed since {}: {:.3g} s",
-                            (shown_[run].folder / "comparison.json").string(), moment.time);
-  }
-
-  static bool agrees(const Json& source, const WallMoment& moment, std::size_t run) {
-    const double found = moment.states[run].root_mean_square;
-    for (const Json& other : source.at("moments"))
-      if (other.at("held_out") == moment.held_out && std::abs(other.at("time").get<double>() - moment.time) < 1e-9)
-        for (const Json& group : other.at("groups"))
-          if (group.at("series").is_null() && group.at("region").is_null())
-            return std::abs(group.value("l2", 0.0) - found) <= 1e-6 * found;
-    return false;
   }
 
   Json provenance() {

@@ -8,9 +8,6 @@
 
 namespace tether {
 
-/// Bytes as text of A-Z a-z 0-9 + / (RFC 4648).
-std::string base64(const void* bytes, std::size_t count);
-
 /// Numbers in units of `quantum` as little-endian 16-bit integers in base64, column by column; NaN becomes -32768.
 /// Throws RunError for a number beyond 32767 quanta.
 std::string packed16(const MatrixXd& numbers, double quantum);

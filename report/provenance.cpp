@@ -5,9 +5,9 @@
 #include <chrono>
 #include <fstream>
 
+#include "common/base/built_from.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
-#include "report/built_from.hpp"
 
 namespace tether {
 namespace {

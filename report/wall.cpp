@@ -2,68 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
-#include "common/observation/observed_case.hpp"
+#include "common/base/units.hpp"
+#include "common/io/record_file.hpp"
 #include "report/packed.hpp"
 
 namespace tether {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Finished runs against one source.
-class SourceWall {
- public:
-  SourceWall(const LumenSeries& data, const LumenSurface& lumen, const std::vector<RunMotion>& runs)
-      : data_(data), lumen_(lumen), runs_(runs) {
-    for (const RunMotion& run : runs) compared_.push_back(compare(data, lumen.region_names, run));
-  }
+const WallMomentTold* same_moment(const WallSourceTold& source, const WallMomentTold& moment) {
+  const auto found = std::find_if(source.moments.begin(), source.moments.end(), [&](const WallMomentTold& other) {
+    return other.held_out == moment.held_out && std::abs(other.time - moment.time) < 1e-9;
+  });
+  return found == source.moments.end() ? nullptr : &*found;
+}
 
-  WallSource source() const {
-    WallSource result{compared_.front().name, compared_.front().dimension == 1, {}};
-    for (const Moment& moment : compared_.front().moments)
-      if (auto found = everywhere(moment); found.size() == runs_.size()) result.moments.push_back(moment_of(found));
-    return result;
-  }
+/// A moment of the first run in all that reach it.
+WallMoment moment_in(const std::vector<ComparedWall>& runs, std::size_t source, const WallMomentTold& moment) {
+  WallMoment result{moment.time, moment.held_out, {}, {}};
+  for (const PackedFloats& line : moment.lines) result.data.emplace_back(unpacked(line));
+  for (const ComparedWall& run : runs)
+    if (const WallMomentTold* there = same_moment(run.sources[source], moment))
+      result.states.push_back({unpacked(there->positions), unpacked(there->distances).reshaped()});
+  return result;
+}
 
- private:
-  /// The same moment in each run that reaches it.
-  std::vector<const Moment*> everywhere(const Moment& moment) const {
-    std::vector<const Moment*> all;
-    for (const SourceDiscrepancy& run : compared_) {
-      const auto found = std::find_if(run.moments.begin(), run.moments.end(), [&](const Moment& other) {
-        return other.held_out == moment.held_out && std::abs(other.time - moment.time) < 1e-9;
-      });
-      if (found != run.moments.end()) all.push_back(&*found);
-    }
+void check_same(const ComparedWall& first, const ComparedWall& other, const fs::path& folder) {
+  if (other.triangles != first.triangles) throw input_error("{}: is of another mesh", folder.string());
+  const auto names = [](const ComparedWall& wall) {
+    std::vector<std::string> all;
+    for (const WallSourceTold& source : wall.sources) all.push_back(source.name);
     return all;
-  }
-
-  WallMoment moment_of(const std::vector<const Moment*>& in_runs) const {
-    WallMoment result{in_runs.front()->time, in_runs.front()->held_out, {}, {}};
-    for (const SliceView& view : slices_at(*in_runs.front(), data_, lumen_, runs_.front()))
-      result.data.insert(result.data.end(), view.data.begin(), view.data.end());
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      result.states.push_back({runs_[i].positions(in_runs[i]->time), distance_at_nodes(*in_runs[i], data_, runs_[i]),
-                               group_of_region(*in_runs[i], -1)->model.rms});
-    return result;
-  }
-
-  const LumenSeries& data_;
-  const LumenSurface& lumen_;
-  const std::vector<RunMotion>& runs_;
-  std::vector<SourceDiscrepancy> compared_;
-};
-
-RunMotion motion_on(const LumenSurface& lumen, const std::filesystem::path& folder) {
-  RunMotion motion = stored_motion(folder);
-  if (motion.imaged.cols() != lumen.points.cols())
-    throw input_error("{}: its {} nodes are not the {} of the case's mesh", (folder / "lumen.motion").string(),
-                      motion.imaged.cols(), lumen.points.cols());
-  return motion;
+  };
+  if (names(other) != names(first)) throw input_error("{}: has other measurements", folder.string());
 }
 
 /// How lengths become 16-bit integers: in mm from the middle of everything drawn.
@@ -73,7 +50,7 @@ struct Grid {
 };
 
 Grid grid_of(const Wall& wall, double mm) {
-  Vec3 low = Vec3::Constant(infinite), high = -low;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   double farthest = 0;
   const auto include = [&](const Points& points) {
     if (points.cols() == 0) return;
@@ -108,22 +85,28 @@ Json moment_json(const WallMoment& moment, const Grid& grid, double mm) {
 
 }  // namespace
 
-Wall wall_of(const std::filesystem::path& case_file, const std::vector<std::filesystem::path>& runs) {
-  ObservedCase given(case_file);
-  const LumenSurface lumen = given.lumen();
-  const Observations data = load_observations(given.observations, lumen, given.file);
-  std::vector<RunMotion> motions;
-  for (const auto& folder : runs) motions.push_back(motion_on(lumen, folder));
-  Wall wall{lumen.triangles, lumen.region_names, lumen.region, given.file.units(), {}};
-  for (const auto& source : data.lumen) wall.sources.push_back(SourceWall(*source, lumen, motions).source());
+Wall wall_of(const std::vector<fs::path>& folders) {
+  std::vector<ComparedWall> runs;
+  for (const fs::path& folder : folders) {
+    runs.push_back(read_record<ComparedWall>(folder / "wall.json"));
+    check_same(runs.front(), runs.back(), folder);
+  }
+  const ComparedWall& first = runs.front();
+  Wall wall{first.triangles, first.regions, first.region, UnitSystem::named(first.units).to_mm(1), {}};
+  for (std::size_t s = 0; s < first.sources.size(); ++s) {
+    WallSource& source = wall.sources.emplace_back(WallSource{first.sources[s].name, first.sources[s].contours, {}});
+    for (const WallMomentTold& moment : first.sources[s].moments)
+      if (WallMoment found = moment_in(runs, s, moment); found.states.size() == runs.size())
+        source.moments.push_back(std::move(found));
+  }
   return wall;
 }
 
 std::string json_of(const Wall& wall) {
-  const double mm = wall.units.to_mm(1);
+  const double mm = wall.millimetres;
   const Grid grid = grid_of(wall, mm);
-  std::vector<std::int32_t> corners, regions(wall.region.begin(), wall.region.end());
-  for (const Triangle& triangle : wall.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  const std::vector<std::int32_t> corners(wall.triangles.begin(), wall.triangles.end()),
+      regions(wall.region.begin(), wall.region.end());
   Json json{{"nodes", regions.size()},     {"triangles", packed32(corners)}, {"regions", wall.region_names},
             {"region", packed32(regions)}, {"place_quantum", grid.place},    {"distance_quantum", grid.distance},
             {"sources", Json::array()}};

@@ -1,13 +1,13 @@
 #include "solid/application.hpp"
 
 #include "common/base/process.hpp"
-#include "common/case/mesh_case.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
 #include "common/protocol/run.hpp"
 #include "solid/case.hpp"
 #include "solid/effects_list.hpp"
 #include "solid/server.hpp"
+#include "vessel/mesh_case.hpp"
 
 namespace tether {
 namespace {
@@ -20,7 +20,7 @@ struct WallCase {
     file.finish();
   }
   WallMesh wall() const {
-    return load_mesh(mesh, file.units(), solid.element == "p1" ? WallElement::p1 : WallElement::prism).wall;
+    return load_mesh(mesh, file, solid.element == "p1" ? WallElement::p1 : WallElement::prism).wall;
   }
   CaseFile file;
   MeshCase mesh;

@@ -2,6 +2,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/curve.hpp"
+#include "common/config/columns.hpp"
 
 namespace tether {
 
@@ -13,6 +14,8 @@ void MotionCase::declare(Fields& f) {
   f.text("z", z, "column of the displacement along z");
   f.number("period", period, dimension::time, range::positive,
            "duration after which the motion repeats; absent: it does not");
+  for (const auto& [field, column] : {std::pair{"time", time}, {"x", x}, {"y", y}, {"z", z}})
+    check_column(f, field, column, file);
 }
 
 TissueMotion MotionCase::load(const UnitSystem& units) const {

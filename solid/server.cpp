@@ -68,9 +68,7 @@ protocol::Interface SolidServer::operator()(const protocol::GetInterface&) {
 }
 
 protocol::Ready SolidServer::operator()(const protocol::SetParameters& m) {
-  if (m.names.size() != m.values.size())
-    throw input_error("{} names of parameters, but {} values", m.names.size(), m.values.size());
-  for (std::size_t i = 0; i < m.names.size(); ++i) model_->parameters().set(m.names[i], m.values[i]);
+  model_->parameters().set(m.names, m.values);
   return {};
 }
 

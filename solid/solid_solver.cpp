@@ -4,7 +4,7 @@
 #include <array>
 
 #include "common/base/error.hpp"
-#include "common/base/mark.hpp"
+#include "solid/mark.hpp"
 
 namespace tether {
 namespace {

@@ -3,10 +3,14 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
-#include "common/observation/observed_case.hpp"
-#include "tether/comparison_drawings.hpp"
-#include "tether/comparison_text.hpp"
-#include "tether/finished_run.hpp"
+#include "common/io/record_file.hpp"
+#include "diagnosis/comparison/compared_wall.hpp"
+#include "diagnosis/comparison/comparison_result.hpp"
+#include "diagnosis/comparison/comparison_text.hpp"
+#include "diagnosis/comparison/finished_run.hpp"
+#include "diagnosis/evidence/stored_run.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
+#include "report/drawings/comparison_drawings.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -18,8 +22,7 @@ namespace fs = std::filesystem;
 struct MeasuredCase : ObservedCase {
   explicit MeasuredCase(const fs::path& path)
       : ObservedCase(path), surface(lumen()), data(load_observations(observations, surface, file)) {
-    if (data.lumen.empty() && data.empty())
-      throw input_error("{}: names nothing that was measured", file.where("observations"));
+    if (data.all().empty()) throw input_error("{}: names nothing that was measured", file.where("observations"));
   }
   LumenSurface surface;
   Observations data;
@@ -48,9 +51,10 @@ Comparison comparison_of(const MeasuredCase& measured, const FinishedRun& run, c
   const CsvTable table(output / "timeseries.csv");
   Comparison comparison = compare(
       measured.data, measured.surface.region_names,
-      {motion, [&](const Trace& trace) { return trace_of(table, trace, measured.file); }, velocity_of(run, measured)});
+      {motion, [&](const Trace& trace) { return trace_of(table, trace, measured.file); }, velocity_of(run, measured),
+       measured.data.others.empty() ? FinishedMotion{} : StoredRun(output).motion()},
+      measured.file.units());
   const CommonCase& common = measured.file.common();
-  comparison.units = measured.file.units();
   comparison.run = {common.name, common.title, output.string(), run.steps, motion.start, motion.end, run.observer_gain};
   return comparison;
 }
@@ -63,10 +67,11 @@ std::vector<std::string> draw(const DrawnComparison& drawn) {
   return all;
 }
 
-std::string where_to_look(const fs::path& output, const std::vector<std::string>& pictures) {
+std::string where_figures_are(const fs::path& output, const std::vector<std::string>& pictures) {
   std::string text = fmt::format(
       "In {}:\n  comparison.json    all figures, per source, time, slice and region\n"
-      "  comparison.csv     the lumen's as a table; comparison_blood.csv those of traces and velocities\n",
+      "  comparison.csv     the lumen's as a table; comparison_blood.csv those of traces and velocities\n"
+      "  wall.json          the moving lumen and its distance to the measurements at every node\n",
       output.string());
   for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
   return text;
@@ -83,11 +88,13 @@ int compare(const CommandLine& command) {
   const FinishedRun run(output);
   const RunMotion motion = motion_of(run, measured.surface);
   const Comparison comparison = comparison_of(measured, run, motion, output);
-  write_json(output / "comparison.json", comparison);
+  write_record(output / "comparison.json", result_of(comparison));
+  write_record(output / "wall.json",
+               compared_wall(comparison.sources, measured.data, measured.surface, motion, measured.file.units()));
   write_csv(output / "comparison.csv", comparison);
   write_blood_csv(output / "comparison_blood.csv", comparison);
   const auto pictures = draw({comparison, measured.data, measured.surface, motion, output});
-  if (!command.quiet) std::cout << text_of(comparison) << where_to_look(output, pictures);
+  if (!command.quiet) std::cout << text_of(comparison) << where_figures_are(output, pictures);
   return exit_done;
 }
 

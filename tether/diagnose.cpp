@@ -9,13 +9,15 @@
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/config/overlay.hpp"
-#include "tether/diagnosed_case.hpp"
-#include "tether/diagnosis_text.hpp"
-#include "tether/further_measurements.hpp"
-#include "tether/interruption.hpp"
-#include "tether/numerics.hpp"
-#include "tether/programs.hpp"
-#include "tether/suggested_case.hpp"
+#include "common/io/record_file.hpp"
+#include "common/protocol/programs.hpp"
+#include "diagnosis/evidence/diagnosed_case.hpp"
+#include "diagnosis/evidence/numerics.hpp"
+#include "diagnosis/explanation/interruption.hpp"
+#include "diagnosis/search/diagnosis_report.hpp"
+#include "diagnosis/search/diagnosis_text.hpp"
+#include "diagnosis/search/further_measurements.hpp"
+#include "diagnosis/search/suggested_case.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -67,10 +69,10 @@ class Job {
 
   DiagnosisReport run() {
     const fs::path candidates = output_ / "candidates.yaml";
-    write_candidates(candidates, given_.file, effects_);
+    write_candidates(candidates, given_.file, given_.data, effects_);
     const Json runs = runs_.make(candidates);
     DiagnosisReport report;
-    report.sensitivity_runs = runs_.all;
+    report.cost.sensitivity_runs = runs_.all;
     report.case_name = given_.file.common().name;
     report.title = given_.file.common().title;
     report.alpha = given_.diagnosis.alpha;
@@ -87,9 +89,9 @@ class Job {
     report.splits = splits_of(report, evidence, motions);
     if (write_corrected(output_ / "corrected.yaml", given_, report)) report.corrected = "corrected.yaml";
     if (write_suggested(output_ / "suggested.yaml", given_, report, effects_)) report.suggested = "suggested.yaml";
-    report.runs = runs_.all;
-    report.runs_made = runs_.made;
-    report.cpu_seconds = runs_.cpu_seconds;
+    report.cost.runs = runs_.all;
+    report.cost.runs_made = runs_.made;
+    report.cost.cpu_seconds = runs_.cpu_seconds;
     return report;
   }
 
@@ -197,18 +199,18 @@ class Job {
   int trials_ = 0;
 };
 
-std::string where_to_look(const fs::path& output, const DiagnosisReport& report,
-                          const std::vector<std::string>& pictures) {
+std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis,
+                              const std::vector<std::string>& pictures) {
   std::string text = fmt::format(
       "{} runs, {} of them made now, {:.0f} s of CPU\nIn {}:\n  diagnosis.json     every candidate, what these data "
       "would show, cost\n",
-      report.runs, report.runs_made, report.cpu_seconds, output.string());
-  if (!report.suggested.empty())
+      diagnosis.cost.runs, diagnosis.cost.runs_made, diagnosis.cost.cpu_seconds, output.string());
+  if (diagnosis.suggested_case)
     text += fmt::format("  suggested.yaml     the case with the effect: tether identify {}\n",
-                        (output / report.suggested).string());
-  if (!report.corrected.empty())
+                        (output / *diagnosis.suggested_case).string());
+  if (diagnosis.corrected_case)
     text += fmt::format("  corrected.yaml     the case with corrected data: tether explain {}\n",
-                        (output / report.corrected).string());
+                        (output / *diagnosis.corrected_case).string());
   for (const std::string& name : pictures) text += fmt::format("  plots/{}\n", name);
   return text;
 }
@@ -220,10 +222,10 @@ int diagnose(const CommandLine& command) {
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  const DiagnosisReport report = Job(given, command, output).run();
-  write_json(output / "diagnosis.json", report);
-  const auto pictures = draw_ranking(report, output);
-  if (!command.quiet) std::cout << text_of(report) << where_to_look(output, report, pictures);
+  const Diagnosis diagnosis = diagnosis_of(Job(given, command, output).run());
+  write_record(output / "diagnosis.json", diagnosis);
+  const auto pictures = draw_ranking(diagnosis, output);
+  if (!command.quiet) std::cout << text_of(diagnosis) << where_evidence_is(output, diagnosis, pictures);
   return exit_done;
 }
 

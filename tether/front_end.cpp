@@ -5,7 +5,8 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
-#include "tether/programs.hpp"
+#include "common/protocol/programs.hpp"
+#include "tether/schemas.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -19,17 +20,17 @@ int describe(const CommandLine&) {
 struct Verb {
   const char *name, *purpose;
   int (*act)(const CommandLine&);
-  bool needs_case = true;
+  bool needs_case = true, shares_work = false;
 };
 
 constexpr std::array verbs{
     Verb{"simulate", "run a case: progress, results, plots and a summary", simulate},
     Verb{"compare", "compare a run with the measurements; simulates first if need be", compare},
-    Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path", explain},
-    Verb{"diagnose", "find which effect the model lacks, from the measurements", diagnose},
+    Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path", explain, true, true},
+    Verb{"diagnose", "find which effect the model lacks, from the measurements", diagnose, true, true},
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them", make_twin},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", score},
-    Verb{"identify", "find parameters of the model from the measurements", identify},
+    Verb{"identify", "find parameters of the model from the measurements", identify, true, true},
     Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR", report},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
@@ -41,6 +42,7 @@ Program program_of(const Verb& verb) {
   program.name = std::string("tether ") + verb.name;
   program.purpose = verb.purpose;
   program.needs_case = verb.needs_case;
+  program.shares_work = verb.shares_work;
   program.reference = case_reference;
   program.validate = check_case;
   program.run = verb.act;
@@ -66,6 +68,7 @@ std::string usage() {
   for (const auto& verb : verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.purpose);
   text += fmt::format("  {:<10} {}\n", "conform",
                       "check a fluid or solid program of one's own: tether conform PROGRAM [ARGUMENTS]");
+  text += fmt::format("  {:<10} {}\n", "schema", "print the JSON schema of a file of results: tether schema [FILE]");
   return text + "\ntether VERB --help lists the options of a verb.\n";
 }
 
@@ -74,6 +77,7 @@ std::string usage() {
 int front_end(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "conform") return conform(argc - 2, argv + 2);
+  if (word == "schema") return print_schema(argc - 2, argv + 2);
   const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.name == word; });
   if (verb != verbs.end()) return run_main(argc - 1, argv + 1, program_of(*verb));
   const bool asked = word == "--help" || word == "-h" || word == "help";

@@ -1,43 +1,37 @@
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
-#include "tether/gnuplot.hpp"
-#include "tether/programs.hpp"
+#include "common/io/record_file.hpp"
+#include "common/protocol/programs.hpp"
+#include "identification_master/results/estimate.hpp"
+#include "pictures/gnuplot.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
-Json read_estimate(const fs::path& output) {
-  std::ifstream file(output / "estimate.json");
-  return Json::parse(file);
-}
-
-bool is_logarithmic(const Json& parameter) {
-  return parameter["transform"].get<std::string>().starts_with("log");
+bool is_logarithmic(const EstimatedParameter& parameter) {
+  return parameter.transform.starts_with("log");
 }
 
 /// Figure 11 of the paper: each parameter over time, with its 95 % interval.
-std::vector<std::string> draw(const fs::path& output, const Json& estimate) {
+std::vector<std::string> draw(const fs::path& output, const Estimate& estimate) {
   if (!has_gnuplot()) return {};
   fs::create_directories(output / "plots");
-  const auto& parameters = estimate["parameters"];
+  const auto& parameters = estimate.parameters;
   std::string script = gnuplot_head(900, 60 + 260 * static_cast<int>(parameters.size())) +
                        "set datafile separator ','\nset autoscale xfix\nset xlabel 'time [s]'\nset style fill "
                        "transparent solid 0.25 noborder\n"
                        "set key top right\nset output 'plots/estimate.png'\n";
   script += fmt::format("set multiplot layout {},1\n", parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Json& p = parameters[i];
+    const EstimatedParameter& p = parameters[i];
     const auto column = 2 + 3 * i;
     script += fmt::format("{} logscale y\nset ylabel \"{} [{}]\" noenhanced\n", is_logarithmic(p) ? "set" : "unset",
-                          p["name"].get<std::string>(), p["unit"].get<std::string>());
+                          p.name, p.unit);
     script += fmt::format(
         "plot 'estimate.csv' using 1:{1}:{2} skip 1 with filledcurves linecolor 1 title '95 %', '' using 1:{0} skip 1 "
         "with lines "
@@ -48,28 +42,27 @@ std::vector<std::string> draw(const fs::path& output, const Json& estimate) {
   return {"estimate.png"};
 }
 
-std::string remark_on(const Json& p, double shrunk) {
-  if (p["at_bound"].is_string()) return fmt::format("at its {} bound", p["at_bound"].get<std::string>());
+std::string remark_on(const EstimatedParameter& p, double shrunk) {
+  if (p.at_bound) return fmt::format("at its {} bound", word_of(*p.at_bound));
   return shrunk > 0.7 ? "these data hardly tell" : "";
 }
 
-std::string line_of(const Json& p) {
-  const Json &now = p["estimate"], &prior = p["prior"];
-  const double shrunk = now["theta_deviation"].get<double>() / prior["theta_deviation"].get<double>();
-  return fmt::format("  {:<22} {:>10.4g}  ({:.3g} .. {:.3g}) {:<14} {:>6.3f} {}\n", p["name"].get<std::string>(),
-                     now["value"].get<double>(), now["lower_95"].get<double>(), now["upper_95"].get<double>(),
-                     p["unit"].get<std::string>(), shrunk, remark_on(p, shrunk));
+std::string line_of(const EstimatedParameter& p) {
+  const EstimateRange& now = p.estimate;
+  const double shrunk = now.theta_deviation / p.prior.theta_deviation;
+  return fmt::format("  {:<22} {:>10.4g}  ({:.3g} .. {:.3g}) {:<14} {:>6.3f} {}\n", p.name, now.value, now.lower,
+                     now.upper, p.unit, shrunk, remark_on(p, shrunk));
 }
 
 /// What is consistent with what was assumed, and what is not.
-std::string judgement_of(const Json& estimate) {
-  const Json& innovations = estimate["innovations"];
-  if (innovations["used_data"] == 0.0) return "  No data were used: the estimates are what was known before.\n";
-  const double ratio = innovations["chi_square_per_datum"], repeated = innovations["autocorrelation_between_frames"];
+std::string judgement_of(const Estimate& estimate) {
+  const InnovationsTold& innovations = estimate.innovations;
+  if (innovations.used_data == 0) return "  No data were used: the estimates are what was known before.\n";
+  const double ratio = innovations.chi_square_per_datum, repeated = innovations.autocorrelation;
   std::string text = fmt::format(
       "  misfit {:.2f} of what the stated noise explains ({:.0f} independent data); from frame to frame {:+.2f} "
       "alike\n",
-      ratio, innovations["used_data"].get<double>(), repeated);
+      ratio, innovations.used_data, repeated);
   if (ratio > 1.5)
     text +=
         "  The data are farther from the model than their noise: something is missing that these parameters cannot "
@@ -91,11 +84,11 @@ std::string what_data_would_tell(const fs::path& output) {
       output.string());
 }
 
-std::string text_of(const Json& estimate, const fs::path& output, const std::vector<std::string>& pictures) {
+std::string text_of(const Estimate& estimate, const fs::path& output, const std::vector<std::string>& pictures) {
   std::string text =
       fmt::format("\n  {:<22} {:>10}  {:<38} {}\n", "parameter", "estimate", "95 % interval", "deviation after/before");
-  for (const Json& p : estimate["parameters"]) text += line_of(p);
-  if (!estimate["corrected"].get<bool>()) return text + what_data_would_tell(output);
+  for (const EstimatedParameter& p : estimate.parameters) text += line_of(p);
+  if (!estimate.corrected) return text + what_data_would_tell(output);
   text += judgement_of(estimate);
   text += fmt::format(
       "In {}:\n  estimate.json      estimates, correlations, what the data can tell, cost\n"
@@ -115,7 +108,7 @@ int identify(const CommandLine& command) {
   const fs::path output = claim_output(command, file);
   if (const int code = run_in_foreground(parallel_run("identification_master", command)); code != exit_done)
     return report_failure(code, "identification_master", "identify", command);
-  const Json estimate = read_estimate(output);
+  const auto estimate = read_record<Estimate>(output / "estimate.json");
   const auto pictures = draw(output, estimate);
   if (!command.quiet) std::cout << text_of(estimate, output, pictures);
   return exit_done;

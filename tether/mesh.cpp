@@ -1,12 +1,12 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
-#include "common/case/mesh_case.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/vtu_writer.hpp"
-#include "common/mesh/check.hpp"
 #include "tether/verbs.hpp"
+#include "vessel/check.hpp"
+#include "vessel/mesh_case.hpp"
 
 namespace tether {
 namespace {
@@ -53,7 +53,7 @@ VesselMesh mesh_of(const CommandLine& command, CaseFile& file) {
   file.read("mesh", mesh);
   file.finish();
   if (!command.quiet) std::cout << file.common().name << ": " << file.common().title << std::endl;
-  return load_mesh(mesh, file.units(), file.given("solid.element") == "p1" ? WallElement::p1 : WallElement::prism);
+  return load_mesh(mesh, file, file.given("solid.element") == "p1" ? WallElement::p1 : WallElement::prism);
 }
 
 std::string report_text(const VesselMesh& vessel, const UnitSystem& units) {

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
-#include "tether/programs.hpp"
+#include "common/protocol/programs.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {

@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -32,8 +33,8 @@ int score(const CommandLine& command) {
   const Answer answer = unsealed(sealed_answer(fs::absolute(case_file).parent_path()));
   const fs::path folder = output_of(command, CaseFile(case_file)),
                  results = command.output.empty() ? last_results(folder) : folder;
-  const Score result = score_of(read_diagnosis(diagnosis_in(results)), answer);
-  write_json(results / "score.json", result);
+  const Score result = score_of(read_claim(diagnosis_in(results)), answer);
+  write_record(results / "score.json", result);
   if (!command.quiet) std::cout << text_of(result);
   return exit_done;
 }

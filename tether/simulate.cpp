@@ -3,11 +3,11 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
-#include "tether/candidates.hpp"
-#include "tether/finished_run.hpp"
-#include "tether/pictures.hpp"
-#include "tether/plots.hpp"
-#include "tether/programs.hpp"
+#include "common/protocol/programs.hpp"
+#include "diagnosis/comparison/finished_run.hpp"
+#include "diagnosis/evidence/candidates.hpp"
+#include "pictures/pictures.hpp"
+#include "pictures/plots.hpp"
 #include "tether/summary.hpp"
 #include "tether/verbs.hpp"
 
@@ -55,7 +55,9 @@ int simulate(const CommandLine& command) {
   const CaseFile file(command.case_file);
   const auto output = claim_output(command, file);
   if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
-  if (const int code = run_in_foreground(parallel_run("fsi_master", command)); code != exit_done)
+  CommandLine one = command;
+  one.processes = 0;  // how many runs at once is no matter of one
+  if (const int code = run_in_foreground(parallel_run("fsi_master", one)); code != exit_done)
     return report_failure(code, "fsi_master", "simulate", command);
   auto plots = draw_plots(output, file.units(), file.common().image.pressure);
   const auto pictures = draw_pictures(output, file.units());

@@ -7,8 +7,8 @@
 #include "common/config/output_folder.hpp"
 #include "common/config/overlay.hpp"
 #include "common/io/vtp_writer.hpp"
-#include "common/observation/observed_case.hpp"
-#include "tether/finished_run.hpp"
+#include "diagnosis/comparison/finished_run.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
 #include "tether/verbs.hpp"
 #include "twin/answer.hpp"
 #include "twin/twin_data.hpp"
@@ -110,12 +110,13 @@ void write_case(const fs::path& folder, const CaseWithTwin& given, const TwinFra
   const auto set = [&](const std::string& kind, const std::string& name, const std::string& text) {
     overlay.values.push_back({"observations." + kind + "." + name, text});
   };
-  for (const auto& [name, source] : given.observations.surfaces) set("surfaces", name, "");
-  for (const auto& [name, source] : given.observations.contours) set("contours", name, "");
-  for (const auto& [name, source] : given.observations.traces)
-    if (std::none_of(given.twin.traces.begin(), given.twin.traces.end(),
-                     [&](const auto& t) { return t.first == name; }))
-      set("traces", name, "");
+  const auto is_made = [&](const std::string& name) {
+    return std::any_of(given.twin.traces.begin(), given.twin.traces.end(),
+                       [&](const auto& trace) { return trace.first == name; });
+  };
+  for (const auto& section : given.observations.sections())
+    for (const std::string& name : section->names())
+      if (&section->kind() != &kinds::traces || !is_made(name)) set(section->kind().name, name, "");
   set("surfaces", source_name, source_of(given, frames));
   for (const auto& [name, trace] : given.twin.traces) set("traces", name, source_of(name, trace));
   write_overlay(folder / "case.yaml", overlay);
@@ -143,7 +144,7 @@ TwinFrames write_data(const fs::path& folder, const CaseWithTwin& given, const T
   return frames;
 }
 
-std::string where_to_look(const fs::path& folder, const TwinFrames& made, const UnitSystem& units) {
+std::string where_frames_are(const fs::path& folder, const TwinFrames& made, const UnitSystem& units) {
   const fs::path file = folder / "case.yaml";
   return fmt::format(
       "{} surfaces, {:.3g} {} from the truth before noise.\nIn {}:\n  data/       surfaces, their times, traces\n"
@@ -168,7 +169,7 @@ int make_twin(const CommandLine& command) {
   Answer answer = answer_of(given.twin);
   answer.image_error = made.image_error;
   seal(sealed_answer(folder), answer);
-  if (!command.quiet) std::cout << where_to_look(folder, made, given.file.units());
+  if (!command.quiet) std::cout << where_frames_are(folder, made, given.file.units());
   return exit_done;
 }
 

@@ -8,43 +8,20 @@ import pathlib
 import re
 import sys
 
-COMMON = {
-    "common/base": [],
-    "common/config": ["base"],
-    "common/linalg": ["base"],
-    "common/mesh": ["base"],
-    "common/fem": ["base", "linalg", "mesh"],
-    "common/io": ["base", "config", "linalg", "mesh"],
-    "common/case": ["base", "config", "io", "linalg", "mesh"],
-    "common/observation": ["base", "case", "config", "io", "mesh"],
-    "common/protocol": ["base", "config"],
-}
-PROGRAMS = ["fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "report", "pictures", "tether"]
+from rooms import read_rooms, room_of
+
 HEAVY = re.compile(r"(yaml-cpp/.*|CGAL/.*|vtk.*\.h|spdlog/.*|CLI/.*|nlohmann/.*|muParser.*|cholmod\.h)")
-BUILT_ON = {"tether": ["diagnosis", "twin", "report"], "report": ["diagnosis"]}  # rooms that are libraries of a program
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
 
 
-def room_of(path):
-    """The room that a source belongs to: "common/mesh", "fluid"; None for tests and other places that may include anything."""
-    parts = pathlib.PurePosixPath(path).parts
-    if parts[0] == "common" and len(parts) > 2:
-        return "/".join(parts[:2])
-    return parts[0] if parts[0] in PROGRAMS else None
+def may_include(room, other, rooms):
+    return room is None or other is None or room == other or other in rooms[room]
 
 
-def may_include(room, other):
-    if room is None or other is None or room == other:
-        return True
-    if room in PROGRAMS:
-        return other in COMMON or other in BUILT_ON.get(room, [])
-    return other in ["common/" + name for name in COMMON.get(room, [])]
-
-
-def includes_of(root):
+def includes_of(root, rooms):
     """{source: [(line, quoted, included)]} for all C and C++ sources below the rooms and tests."""
     found = {}
-    for folder in ["common", "tests", "benchmarks", *PROGRAMS]:
+    for folder in sorted({room.split("/")[0] for room in rooms} | {"tests", "benchmarks"}):
         for file in sorted((root / folder).rglob("*.[ch]*")):
             if file.suffix in (".c", ".h", ".cpp", ".hpp"):
                 lines = file.read_text(encoding="utf-8").splitlines()
@@ -53,14 +30,15 @@ def includes_of(root):
     return found
 
 
-def forbidden(includes):
+def forbidden(includes, rooms):
+    tops = {room.split("/")[0] for room in rooms}
     for source, lines in includes.items():
-        room = room_of(source)
-        if room and room not in COMMON and room not in PROGRAMS:
-            yield f"{source}:1: {room} is not a known room; add it to tools/check_includes.py"
+        room = room_of(source, rooms)
+        if room is None and source.split("/")[0] in tops:
+            yield f"{source}:1: in no room; add its folder to tools/rooms.txt"
         for line, quoted, target in lines:
-            if quoted and not may_include(room, room_of(target)):
-                yield f"{source}:{line}: {room} must not include {room_of(target)} ({target})"
+            if quoted and not may_include(room, room_of(target, rooms), rooms):
+                yield f"{source}:{line}: {room} must not include {room_of(target, rooms)} ({target})"
             if not quoted and room and source.endswith(".hpp") and HEAVY.fullmatch(target):
                 yield f"{source}:{line}: <{target}> belongs in a .cpp file"
             if target == "mpi.h" and room and room != "common/protocol":
@@ -90,8 +68,9 @@ def cycles(includes):
 
 def main():
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
-    includes = includes_of(root)
-    violations = [*forbidden(includes), *cycles(includes)]
+    rooms = read_rooms(root)
+    includes = includes_of(root, rooms)
+    violations = [*forbidden(includes, rooms), *cycles(includes)]
     print("\n".join(violations) if violations else f"{len(includes)} sources, layering as it should be")
     return 1 if violations else 0
 

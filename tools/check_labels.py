@@ -8,14 +8,15 @@ import pathlib
 import re
 import sys
 
+from rooms import read_rooms
+
 LABEL = re.compile(r"\(([A-Z]\.\d+[a-z]?)\)")
 DEFINITION = re.compile(r"\*\*\(([A-Z]\.\d+[a-z]?)\)\*\*")
-FOLDERS = ["common", "fluid", "solid", "fsi_master", "identification_master", "observation_manager", "diagnosis", "twin", "report", "tether"]
 
 
 def used_labels(root):
     """(place, label) for each label in a source."""
-    for folder in FOLDERS:
+    for folder in sorted({room.split("/")[0] for room in read_rooms(root)}):
         for file in sorted((root / folder).rglob("*.[ch]pp")):
             for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
                 for label in LABEL.findall(line):

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "observation_manager/measurements/trace_case.hpp"
+
 namespace tether {
 namespace {
 
@@ -70,7 +72,8 @@ void HiddenCase::declare(Fields& f) {
            "what a diagnosis should say");
   f.groups("effects", effects, "effects that the truth has and the model lacks, by name");
   const bool named = verdict == "missing" || verdict == "ambiguous";
-  f.check(named == !effects.empty(), "verdict", "must be 'missing' or 'ambiguous' with effects, and another one without");
+  f.check(named == !effects.empty(), "verdict",
+          "must be 'missing' or 'ambiguous' with effects, and another one without");
 }
 
 void TwinCase::declare(Fields& f) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/config/fields.hpp"
-#include "common/observation/observation_case.hpp"
+#include "observation_manager/measurements/observation_case.hpp"
 
 /// The section `twin` of a case: which run the data are made from, and what is done to them.
 namespace tether {

@@ -8,7 +8,7 @@
 #include "common/mesh/locator.hpp"
 #include "common/mesh/surface.hpp"
 #include "common/mesh/topology.hpp"
-#include "common/observation/open_ends.hpp"
+#include "observation_manager/measurements/open_ends.hpp"
 #include "twin/closed_lumen.hpp"
 #include "twin/noise.hpp"
 #include "twin/voxels.hpp"

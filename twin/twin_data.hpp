@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "common/base/units.hpp"
-#include "common/observation/signed_surface.hpp"
+#include "observation_manager/measurements/signed_surface.hpp"
 #include "twin/twin_case.hpp"
 
 namespace tether {

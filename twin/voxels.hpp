@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/observation/signed_surface.hpp"
+#include "observation_manager/measurements/signed_surface.hpp"
 
 namespace tether {
 

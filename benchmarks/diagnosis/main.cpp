@@ -15,9 +15,9 @@
 #include <iostream>
 #include <map>
 
-#include "diagnosis/diagnosis_report.hpp"
-#include "diagnosis/effect_search.hpp"
-#include "tether/diagnosed_case.hpp"
+#include "diagnosis/evidence/diagnosed_case.hpp"
+#include "diagnosis/search/diagnosis_report.hpp"
+#include "diagnosis/search/effect_search.hpp"
 #include "twin/noise.hpp"
 
 using namespace tether;
@@ -56,7 +56,7 @@ struct Surrogate {
     for (const auto& [source, parts] : of_source) {
       const Noise& noise = evidence.noise(*parts.front());
       const NoiseScale scale{noise.deviation, noise.correlation_length, noise.correlation_time};
-      if (evidence.is_trace(*parts.front())) {
+      if (parts.front()->is_record) {
         std::vector<double> times;  // of equally spaced values: the share of each tells nothing else
         for (Index i = 0; i < parts.front()->count; ++i) times.push_back(trace_interval * static_cast<double>(i));
         all.segment(parts.front()->first, parts.front()->count) = noise_over_time(scale, times, seed * 64 + source);
@@ -135,7 +135,7 @@ bool names(const SearchResult& result, std::size_t candidate) {
 }
 
 bool names_anything(const SearchResult& result) {
-  return result.verdict == "missing" || result.verdict == "ambiguous";
+  return result.verdict == Verdict::missing || result.verdict == Verdict::ambiguous;
 }
 
 /// Counts of a scenario's trials, by words.
@@ -163,13 +163,14 @@ void print(const std::string& name, const std::string& times, Tally& tally, int 
 }
 
 /// As benchmarks/diagnosis/run judges.
-std::string judgement(const SearchResult& result, const std::vector<std::size_t>& hidden, const std::string& verdict) {
+std::string judgement(const SearchResult& result, const std::vector<std::size_t>& hidden, Verdict verdict) {
   if (!names_anything(result)) {
     if (hidden.empty() && result.verdict == verdict) return "right";
-    return result.verdict == "nothing_missing" && !(hidden.empty() && verdict == "nothing_missing") ? "missed"
-                                                                                                    : "careful";
+    return result.verdict == Verdict::nothing_missing && !(hidden.empty() && verdict == Verdict::nothing_missing)
+               ? "missed"
+               : "careful";
   }
-  if (hidden.empty()) return result.verdict == "ambiguous" ? "careful" : "wrong";
+  if (hidden.empty()) return result.verdict == Verdict::ambiguous ? "careful" : "wrong";
   std::size_t itself = 0, alike = 0, accepted = 0, fitting = 0;
   for (const std::size_t h : hidden) {
     itself += accepts(result, h) ? 1 : 0;
@@ -184,9 +185,9 @@ std::string judgement(const SearchResult& result, const std::vector<std::size_t>
         break;
       }
   }
-  if (itself == hidden.size() && accepted == hidden.size() && result.verdict == "missing") return "right";
+  if (itself == hidden.size() && accepted == hidden.size() && result.verdict == Verdict::missing) return "right";
   if (alike == hidden.size() && fitting == accepted) return "alike";
-  if (result.verdict == "ambiguous") return "careful";
+  if (result.verdict == Verdict::ambiguous) return "careful";
   return hidden.size() > 1 && fitting == accepted ? "in part" : "wrong";
 }
 
@@ -214,7 +215,7 @@ struct Scenario {
   std::vector<std::pair<std::size_t, double>> hidden;
   VectorXd beside;
   std::vector<std::size_t> without;
-  std::string verdict = "missing";
+  Verdict verdict = Verdict::missing;
 };
 
 void run(const Surrogate& surrogate, const Scenario& scenario, int trials) {
@@ -230,7 +231,7 @@ void run(const Surrogate& surrogate, const Scenario& scenario, int trials) {
     std::string judged = judgement(result, is_control ? std::vector<std::size_t>{} : hidden, scenario.verdict);
     if (is_control && judged == "wrong" && looks_like(surrogate, result, scenario.without)) judged = "alike";
     ++tally.count[judged];
-    ++tally.count["=" + result.verdict];
+    ++tally.count[std::string("=") + word_of(result.verdict)];
     for (const TestedEffect& effect : result.effects)
       if (effect.accepted && !is_control)
         for (const auto& [candidate, times] : scenario.hidden)
@@ -248,13 +249,22 @@ void run(const Surrogate& surrogate, const Scenario& scenario, int trials) {
   print(scenario.name, scenario.times, tally, trials);
 }
 
+/// "visco_elastic at spine".
+std::string name_of(const Candidate& candidate) {
+  Finding finding;
+  finding.name = candidate.name;
+  finding.where = candidate.where;
+  if (!candidate.parameter.empty()) finding.parameter = candidate.parameter;
+  return tether::name_of(finding);
+}
+
 /// A bulge of the data that no candidate makes: around half the vessel's height, twice a beat.
 VectorXd stranger(const Surrogate& surrogate, double size) {
   VectorXd all = VectorXd::Zero(surrogate.problem.residual.size());
   const auto& places = surrogate.evidence.places();
   const double low = places.row(2).minCoeff(), high = places.row(2).maxCoeff();
   for (const auto& part : surrogate.evidence.parts())
-    for (Index i = part.first; !surrogate.evidence.is_trace(part) && i < part.first + part.count; ++i) {
+    for (Index i = part.first; !part.is_record && i < part.first + part.count; ++i) {
       const double z = (places(2, i) - low) / (high - low);
       const Vec3 n = surrogate.evidence.normals().col(i);
       all(i) = size * std::sin(15.2 * part.time) * std::exp(-30 * std::pow(z - 0.5, 2)) * std::max(0.0, n(1));
@@ -263,7 +273,7 @@ VectorXd stranger(const Surrogate& surrogate, double size) {
 }
 
 std::vector<Scenario> scenarios(const Surrogate& s) {
-  std::vector<Scenario> all{{"nothing", "", {}, {}, {}, "nothing_missing"}};
+  std::vector<Scenario> all{{"nothing", "", {}, {}, {}, Verdict::nothing_missing}};
   for (const std::size_t c : s.shown)
     for (const double times : {1.0, 2.0, 4.0})
       all.push_back({name_of(s.problem.candidates[c]), fmt::format("{}", times), {{c, times}}, {}, {}});
@@ -281,7 +291,7 @@ std::vector<Scenario> scenarios(const Surrogate& s) {
                    {},
                    stranger(s, size * sigma),
                    {},
-                   "not_in_catalogue"});
+                   Verdict::not_in_catalogue});
   std::map<std::string, int> frames;
   for (std::size_t c = 0; c < s.problem.candidates.size(); ++c)  // of single frames the third
     if (const Candidate& candidate = s.problem.candidates[c];
@@ -289,7 +299,7 @@ std::vector<Scenario> scenarios(const Surrogate& s) {
       for (const double times : {2.0, 4.0})
         all.push_back({name_of(candidate), fmt::format("{}", times), {{c, times}}, {}, {}});
   for (const std::size_t c : s.shown)
-    all.push_back({"without " + name_of(s.problem.candidates[c]), "4", {{c, 4}}, {}, {c}, "not_in_catalogue"});
+    all.push_back({"without " + name_of(s.problem.candidates[c]), "4", {{c, 4}}, {}, {c}, Verdict::not_in_catalogue});
   return all;
 }
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "common/base/process.hpp"
-#include "common/observation/signed_surface.hpp"
-#include "tests/observation/shapes.hpp"
+#include "observation_manager/measurements/signed_surface.hpp"
+#include "tests/observation_manager/shapes.hpp"
 
 /// What signed distances cost: 6,000 points of a model's surface to 12,000 triangles of a measured one, of two frames.
 namespace tether {

@@ -13,12 +13,12 @@
 #include <random>
 
 #include "common/base/error.hpp"
-#include "common/case/mesh_case.hpp"
 #include "common/config/case_file.hpp"
 #include "common/io/lumen_motion.hpp"
 #include "common/mesh/surface.hpp"
-#include "common/observation/lumen_surface.hpp"
-#include "common/observation/signed_surface.hpp"
+#include "observation_manager/measurements/lumen_surface.hpp"
+#include "observation_manager/measurements/signed_surface.hpp"
+#include "vessel/mesh_case.hpp"
 
 namespace tether {
 namespace {
@@ -27,7 +27,7 @@ LumenSurface lumen_of_case(const std::filesystem::path& path) {
   CaseFile file(path);
   MeshCase mesh;
   file.read("mesh", mesh);
-  return lumen_of(load_mesh(mesh, file.units(), WallElement::prism));
+  return lumen_of(load_mesh(mesh, file, WallElement::prism));
 }
 
 /// White noise at the nodes, averaged with exp(-r^2/(2 (l/2)^2)): its correlation is exp(-r^2/l^2).

@@ -55,7 +55,7 @@ double round_trip(Partner& partner, std::size_t numbers, int repetitions) {
 void measure(Session& session) {
   const auto start = Clock::now();
   Partner& partner =
-      session.launch({{"fluid_observation", std::filesystem::read_symlink("/proc/self/exe"), {"partner"}}}, "").front();
+      session.launch({{"solid_observation", std::filesystem::read_symlink("/proc/self/exe"), {"partner"}}}, "").front();
   partner.hello();
   std::printf("start of a partner until its hello      %8.3f s\n", seconds_since(start));
   std::printf("memory of a partner that does nothing   %8.1f MB\n", partner.ask(GetUsage{}).peak_memory_mb);
@@ -80,6 +80,6 @@ void measure(Session& session) {
 
 int main(int argc, char**) {
   using namespace tether::protocol;
-  if (argc > 1) return run_partner<ToObservation>("fluid_observation", [](const Welcome&) { return Echo{}; });
+  if (argc > 1) return run_partner<ToObservation>("solid_observation", [](const Welcome&) { return Echo{}; });
   return run_master("protocol_benchmark", measure);
 }

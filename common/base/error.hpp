@@ -7,7 +7,8 @@
 
 namespace tether {
 
-/// The user's input is wrong (case file, mesh, curve): exit code 2. The message names file:line or the object, the rule and the value.
+/// The user's input is wrong (case file, mesh, curve): exit code 2. The message names file:line or the object, the rule
+/// and the value.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -40,7 +41,7 @@ RunError run_error(fmt::format_string<Args...> format, Args&&... args) {
 }  // namespace tether
 
 /// TETHER_ASSERT(a.size() == b.size(), "{} {}", a.size(), b.size()): stays on in release builds; not for inner loops.
-#define TETHER_ASSERT(condition, ...)                                                                   \
-  do {                                                                                                  \
+#define TETHER_ASSERT(condition, ...)                                                                       \
+  do {                                                                                                      \
     if (!(condition)) ::tether::assertion_failed(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)); \
   } while (false)

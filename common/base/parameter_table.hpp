@@ -40,10 +40,16 @@ class ParameterTable {
   /// Throws InputError for an unknown name (listing the known ones), a value that is not finite or out of range.
   void set(const std::string& name, double value) const;
 
+  /// Several at once, or none of them: names and values are checked before the first is set.
+  void set(const std::vector<std::string>& names, const std::vector<double>& values) const;
+
   /// All values in the table's order, and back.
   std::vector<double> values() const;
 
  private:
+  /// Throws InputError.
+  const Entry& checked(const std::string& name, double value) const;
+
   std::vector<Entry> entries_;
 };
 

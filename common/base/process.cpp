@@ -38,7 +38,9 @@ std::string host_name() {
   return name;
 }
 
-std::int64_t process_id() { return getpid(); }
+std::int64_t process_id() {
+  return getpid();
+}
 
 bool is_running(std::int64_t pid) {
   if (kill(static_cast<pid_t>(pid), 0) != 0) return false;

@@ -5,11 +5,12 @@
 
 namespace tether {
 
-/// One BLAS thread, all cores allowed (mpirun binds single-process jobs to one core, often the same). Call first in main.
+/// One BLAS thread, all cores allowed (mpirun binds single-process jobs to one core, often the same). Call first in
+/// main.
 void prepare_process();
 
-double cpu_seconds();       ///< user + system time of this process [s]
-double peak_memory_mb();    ///< largest resident set so far [MB]
+double cpu_seconds();     ///< user + system time of this process [s]
+double peak_memory_mb();  ///< largest resident set so far [MB]
 std::string host_name();
 std::int64_t process_id();
 

@@ -75,7 +75,9 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::string expected(const std::string& unit) { return unit == "1" ? "has none" : "is in " + unit; }
+std::string expected(const std::string& unit) {
+  return unit == "1" ? "has none" : "is in " + unit;
+}
 
 void append_power(std::string& text, const std::string& symbol, int power) {
   if (power == 0) return;
@@ -89,9 +91,15 @@ void append_power(std::string& text, const std::string& symbol, int power) {
 UnitSystem::UnitSystem(std::string name, const char* mass_symbol, double mass, const char* length_symbol, double length)
     : name_(std::move(name)), mass_symbol_(mass_symbol), length_symbol_(length_symbol), mass_(mass), length_(length) {}
 
-UnitSystem UnitSystem::cgs() { return {"cgs", "g", 1e-3, "cm", 1e-2}; }
-UnitSystem UnitSystem::si() { return {"SI", "kg", 1.0, "m", 1.0}; }
-UnitSystem UnitSystem::mm_g_s() { return {"mm-g-s", "g", 1e-3, "mm", 1e-3}; }
+UnitSystem UnitSystem::cgs() {
+  return {"cgs", "g", 1e-3, "cm", 1e-2};
+}
+UnitSystem UnitSystem::si() {
+  return {"SI", "kg", 1.0, "m", 1.0};
+}
+UnitSystem UnitSystem::mm_g_s() {
+  return {"mm-g-s", "g", 1e-3, "mm", 1e-3};
+}
 
 UnitSystem UnitSystem::named(std::string_view name) {
   for (const auto& system : {cgs(), si(), mm_g_s()})
@@ -99,7 +107,9 @@ UnitSystem UnitSystem::named(std::string_view name) {
   throw input_error("{}: unknown unit system; known are cgs, SI and mm-g-s", name);
 }
 
-double UnitSystem::in_si(Dimension d) const { return std::pow(mass_, d.mass) * std::pow(length_, d.length); }
+double UnitSystem::in_si(Dimension d) const {
+  return std::pow(mass_, d.mass) * std::pow(length_, d.length);
+}
 
 std::string UnitSystem::symbol(Dimension d) const {
   std::string above, below;
@@ -131,8 +141,14 @@ double UnitSystem::quantity(std::string_view text, Dimension dimension) const {
   throw input_error("'{}': unknown unit '{}'; this field {}", whole, unit, expected(symbol(dimension)));
 }
 
-double UnitSystem::to_mm(double length) const { return length * in_si(dimension::length) * 1e3; }
-double UnitSystem::to_mmhg(double pressure) const { return pressure * in_si(dimension::pressure) / pascal_per_mmhg; }
-double UnitSystem::to_ml_per_s(double flow) const { return flow * in_si(dimension::flow) * 1e6; }
+double UnitSystem::to_mm(double length) const {
+  return length * in_si(dimension::length) * 1e3;
+}
+double UnitSystem::to_mmhg(double pressure) const {
+  return pressure * in_si(dimension::pressure) / pascal_per_mmhg;
+}
+double UnitSystem::to_ml_per_s(double flow) const {
+  return flow * in_si(dimension::flow) * 1e6;
+}
 
 }  // namespace tether

@@ -59,9 +59,10 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
     app.add_flag("--list-effects", c.list_effects, "list what could be added to the case, as JSON");
   app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
   app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(whole_and_positive());
-  app.add_option("--processes", c.processes, "processes to share the work between")
-      ->type_name("N")
-      ->check(whole_and_positive());
+  if (program.shares_work)
+    app.add_option("--processes", c.processes, "groups of processes to share the work between")
+        ->type_name("N")
+        ->check(whole_and_positive());
   if (!program.roles.empty()) {
     c.role = program.roles.front();
     app.add_option("--role", c.role, "what it is to its master (default " + c.role + ")")

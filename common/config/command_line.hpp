@@ -35,6 +35,7 @@ struct Program {
   /// What it may be, the first by default, if there is a choice: --role.
   std::vector<std::string> roles = {};
   bool needs_case = true;
+  bool shares_work = false;  ///< has the option --processes
 };
 
 /// Parses the command line, answers --help, --describe-config and --validate, else runs. Returns the exit code: what

@@ -4,6 +4,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/config/columns.hpp"
 
 namespace tether {
 namespace {
@@ -31,6 +32,8 @@ void CurveCase::declare(Fields& f) {
   f.number("ramp", ramp, dimension::time, range::not_negative,
            "time in which the value rises smoothly from zero at t = 0");
   f.number("scale", scale, dimension::none, range::any, "factor on all values");
+  check_column(f, "time", time, file);
+  check_column(f, "value", value, file);
 }
 
 Curve CurveCase::load(const UnitSystem& units) const {

@@ -16,7 +16,8 @@ struct Cholesky::Data {
 
   Data() {
     prepare_blas();
-    omp_set_max_active_levels(0);  // CHOLMOD asks for four threads whatever the environment says; they spin, and cost 40 % CPU
+    omp_set_max_active_levels(
+        0);  // CHOLMOD asks for four threads whatever the environment says; they spin, and cost 40 % CPU
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.final_ll = 1;
@@ -101,7 +102,8 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
   common.postorder = 1;
   cholmod_free_factor(&data_->factor, &common);
   data_->factor = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
-  if (data_->factor == nullptr) throw run_error("the analysis of a sparse matrix failed (CHOLMOD status {})", common.status);
+  if (data_->factor == nullptr)
+    throw run_error("the analysis of a sparse matrix failed (CHOLMOD status {})", common.status);
 }
 
 void Cholesky::factor(const SparseMatrix& matrix) {
@@ -110,7 +112,8 @@ void Cholesky::factor(const SparseMatrix& matrix) {
   cholmod_factorize(&a, data_->factor, &data_->common);
   if (data_->common.status == CHOLMOD_NOT_POSDEF)
     throw run_error("a matrix that should be positive definite is not, at unknown {}", data_->factor->minor);
-  if (data_->common.status < 0) throw run_error("a sparse factorisation failed (CHOLMOD status {})", data_->common.status);
+  if (data_->common.status < 0)
+    throw run_error("a sparse factorisation failed (CHOLMOD status {})", data_->common.status);
 }
 
 void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
@@ -125,8 +128,8 @@ void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
   cholmod_dense* x = nullptr;
   cholmod_solve2(CHOLMOD_A, data_->factor, &b, nullptr, &x, nullptr, &data_->work_y, &data_->work_e, &data_->common);
   if (x == nullptr) throw run_error("a sparse solve failed (CHOLMOD status {})", data_->common.status);
-  rhs = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(static_cast<const double*>(x->x), rhs.rows(), rhs.cols(),
-                                                                    Eigen::OuterStride<>(static_cast<Eigen::Index>(x->d)));
+  rhs = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
+      static_cast<const double*>(x->x), rhs.rows(), rhs.cols(), Eigen::OuterStride<>(static_cast<Eigen::Index>(x->d)));
   cholmod_free_dense(&x, &data_->common);
 }
 
@@ -136,10 +139,14 @@ VectorXd Cholesky::solve(const VectorXd& rhs) const {
   return x.col(0);
 }
 
-bool Cholesky::has_factor() const { return data_->factor != nullptr && data_->factor->xtype != CHOLMOD_PATTERN; }
+bool Cholesky::has_factor() const {
+  return data_->factor != nullptr && data_->factor->xtype != CHOLMOD_PATTERN;
+}
 
 double Cholesky::factor_megabytes() const {
-  return data_->factor == nullptr ? 0.0 : 8e-6 * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
+  return data_->factor == nullptr
+             ? 0.0
+             : 8e-6 * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
 }
 
 }  // namespace tether

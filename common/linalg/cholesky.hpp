@@ -8,7 +8,8 @@
 namespace tether {
 
 /// Sparse Cholesky factorisation of a symmetric positive definite matrix (CHOLMOD, supernodal, one BLAS thread).
-/// The ordering is found once, on the graph of nodes when unknowns come in blocks; `factor` may be called again with new values.
+/// The ordering is found once, on the graph of nodes when unknowns come in blocks; `factor` may be called again with
+/// new values.
 class Cholesky {
  public:
   Cholesky();

@@ -13,8 +13,8 @@ struct KrylovResult {
   double residual = 0.0;  ///< relative to the first
 };
 
-/// Conjugate gradients for symmetric positive definite `apply`, preconditioned by `precondition` (both VectorXd -> VectorXd).
-/// Starts from x; stops when sqrt(r' M r) has fallen by `tolerance` or below `floor`.
+/// Conjugate gradients for symmetric positive definite `apply`, preconditioned by `precondition` (both VectorXd ->
+/// VectorXd). Starts from x; stops when sqrt(r' M r) has fallen by `tolerance` or below `floor`.
 template <class Apply, class Precondition>
 KrylovResult conjugate_gradients(const Apply& apply, const Precondition& precondition, VectorXd residual, VectorXd& x,
                                  double tolerance, int max_iterations, double floor = 0.0) {

@@ -20,9 +20,11 @@ class ScatterMap {
   /// elements: node lists of equal length. components: unknowns per node (1 or 3).
   template <std::size_t nodes>
   ScatterMap(int node_count, int components, std::span<const std::array<int, nodes>> elements)
-      : ScatterMap(node_count, components, nodes, {elements.empty() ? nullptr : elements[0].data(), nodes * elements.size()}) {}
+      : ScatterMap(node_count, components, nodes,
+                   {elements.empty() ? nullptr : elements[0].data(), nodes * elements.size()}) {}
 
-  /// Elements (a boundary's triangles, say) whose blocks land in a matrix made for others. Throws InternalError where it has no entry.
+  /// Elements (a boundary's triangles, say) whose blocks land in a matrix made for others. Throws InternalError where
+  /// it has no entry.
   template <std::size_t nodes>
   ScatterMap(const SparseMatrix& pattern, int components, std::span<const std::array<int, nodes>> elements)
       : components_(components), nodes_(nodes) {

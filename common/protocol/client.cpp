@@ -49,6 +49,7 @@ Hello hello_of(const tether_description& d) {
               d.has_operators != 0,
               d.has_state != 0,
               false,
+              d.has_velocity != 0,
               d.state_size,
               d.unknowns,
               {},

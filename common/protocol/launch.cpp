@@ -139,9 +139,10 @@ std::string find_executable(const Program& program) {
   const fs::path given(program.executable);
   const fs::path path =
       given.has_parent_path() ? fs::absolute(given) : fs::read_symlink("/proc/self/exe").parent_path() / given;
-  if (!fs::exists(path)) throw input_error("program of the {}: {} does not exist", program.role, path.string());
+  const std::string where = program.where.empty() ? "program of the " + program.role : program.where;
+  if (!fs::exists(path)) throw input_error("{}: {} does not exist", where, path.string());
   if (!fs::is_regular_file(path) || access(path.c_str(), X_OK) != 0)
-    throw input_error("program of the {}: {} cannot be executed", program.role, path.string());
+    throw input_error("{}: {} cannot be executed", where, path.string());
   return path.string();
 }
 

@@ -11,7 +11,7 @@
 /// request names its one `Reply`; a partner may always answer `Failure` instead.
 namespace tether::protocol {
 
-inline constexpr std::int64_t version = 1;
+inline constexpr std::int64_t version = 2;
 
 #define TETHER_FIELDS(...)              \
   template <class Archive>              \
@@ -49,7 +49,7 @@ struct ObservableInfo {
 /// notices its death. The master answers with Welcome.
 struct Arrival {
   std::int64_t protocol_version = version;
-  std::string role;  ///< "fluid", "solid", "fluid_observation", "solid_observation", "fsi_master"
+  std::string role;  ///< "fluid", "solid", "solid_observation", "fsi_master"
   std::string host;
   std::int64_t pid = 0;
   TETHER_MESSAGE(Arrival, protocol_version, role, host, pid)
@@ -62,13 +62,14 @@ struct Hello {
   bool has_operators = false;  ///< solid: answers SolidResidual, SolidProduct, SolidPrecondition
   bool has_state = false;      ///< answers GetState, SetState
   bool has_observer = false;   ///< solid: answers Correct, Withdraw; fluid: MoveInterface
+  bool has_velocity = false;   ///< fluid: answers GetVelocity
   std::int64_t state_size = 0, unknowns = 0;
   std::vector<ParameterInfo> parameters;
   std::vector<ObservableInfo> observables;
   std::string effective_case;             ///< its sections of the case as JSON, defaults included
   std::vector<std::string> notices = {};  ///< what a person should know before the run, a sentence each
-  TETHER_MESSAGE(Hello, program, has_tangent, has_operators, has_state, has_observer, state_size, unknowns, parameters,
-                 observables, effective_case, notices)
+  TETHER_MESSAGE(Hello, program, has_tangent, has_operators, has_state, has_observer, has_velocity, state_size,
+                 unknowns, parameters, observables, effective_case, notices)
 };
 
 // ---- partner -> master, as replies ----------------------------------------------------------------------------------
@@ -135,21 +136,15 @@ struct Velocity {
   std::vector<double> values;  ///< three a point; NaN outside the lumen
   TETHER_MESSAGE(Velocity, values)
 };
-/// How far measured pressures, flows and velocities are from the run's, always as many and in the same order.
-struct FlowDiscrepancy {
-  std::vector<double> differences;       ///< measured minus the run's, in the unit of the source; 0: no observation
-  std::vector<double> deviations;        ///< standard deviation of the measurement's errors; 0: not known
-  std::vector<std::int64_t> sources;     ///< which data: number in Hello's list of observables
-  std::vector<std::int64_t> exclusions;  ///< why there is no observation; 0: there is one
-  TETHER_MESSAGE(FlowDiscrepancy, differences, deviations, sources, exclusions)
-};
 /// Where a particle is after a step, and what it would have measured.
 struct Advanced {
   std::vector<double> state, memory;       ///< as Advance has them
   std::vector<double> observables;         ///< as announced in Hello
   std::vector<double> distances, weights;  ///< of Discrepancy, sample by sample; empty if not asked for
+  std::vector<double> velocities;          ///< three a point that the case measures it at; NaN outside the lumen
   std::int64_t evaluations = 0, krylov_iterations = 0, parts = 0;
-  TETHER_MESSAGE(Advanced, state, memory, observables, distances, weights, evaluations, krylov_iterations, parts)
+  TETHER_MESSAGE(Advanced, state, memory, observables, distances, weights, velocities, evaluations, krylov_iterations,
+                 parts)
 };
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
@@ -240,8 +235,7 @@ struct FluidTangent {
   TETHER_MESSAGE(FluidTangent, velocity_change)
 };
 
-/// The velocity at points of space, where the mesh stands after the last accepted step. A fluid that cannot tell
-/// answers Failure.
+/// The velocity at points of space, where the mesh stands after the last accepted step.
 struct GetVelocity {
   using Reply = Velocity;
   std::vector<double> points;
@@ -320,16 +314,6 @@ struct Observe {
   TETHER_MESSAGE(Observe, time, points)
 };
 
-/// What a run says at a time: its numbers by the names of timeseries.csv, and the velocity at the points that the
-/// manager named as its Interface.
-struct ObserveFlow {
-  using Reply = FlowDiscrepancy;
-  double time = 0;
-  std::vector<std::string> names;
-  std::vector<double> values, velocities;  ///< velocities: three a point, NaN outside the lumen
-  TETHER_MESSAGE(ObserveFlow, time, names, values, velocities)
-};
-
 // ---- identification_master -> fsi_master ----------------------------------------------------------------------------
 
 /// One step of one particle, from `time` to `time + dt`, with these parameters. A group holds nothing of a particle
@@ -338,7 +322,7 @@ struct Advance {
   using Reply = Advanced;
   std::int64_t step = 0;  ///< its number, for messages to people
   double time = 0, dt = 0;
-  bool observe = false;            ///< take distances at the end
+  bool observe = false;            ///< take distances and velocities at the end
   std::vector<std::string> names;  ///< of parameters,
   std::vector<double> values;
   std::vector<double> state;   ///< as State or Advanced had it; states may be averaged
@@ -359,14 +343,12 @@ struct Simulate {
 #undef TETHER_FIELDS
 
 /// Any message in one direction. Its index here is its MPI tag.
-using ToPartner =
-    std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop,
-                 FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual, SolidProduct,
-                 SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface, GetVelocity, ObserveFlow, Advance,
-                 Simulate>;
+using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write,
+                               Stop, FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual,
+                               SolidProduct, SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface,
+                               GetVelocity, Advance, Simulate>;
 using ToMaster = std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion,
-                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction, Velocity, FlowDiscrepancy,
-                              Advanced>;
+                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction, Velocity, Advanced>;
 
 /// What each role must be able to answer: a handler for each is asked for at compile time (serve.hpp, which answers
 /// GetUsage itself).
@@ -382,8 +364,7 @@ using ToObservedSolid =
                  SolidTangent, SolidResidual, SolidProduct, SolidPrecondition, Correct, Withdraw>;
 /// To an fsi_master that is a partner itself. It answers GetUsage for its whole group.
 using ToGroup = std::variant<GetInterface, SetParameters, GetState, Write, Stop, Advance, Simulate, GetUsage>;
-/// A manager of measurements of the lumen; of the blood.
+/// A manager of measurements of the lumen.
 using ToObservation = std::variant<SetParameters, Write, Stop, Observe>;
-using ToFlowObservation = std::variant<GetInterface, SetParameters, Write, Stop, ObserveFlow>;
 
 }  // namespace tether::protocol

@@ -11,7 +11,7 @@ namespace {
 
 /// 0: identification_master, 1: a master of solvers, 2: a solver, -1: nobody.
 int level_of(const std::string& role) {
-  constexpr std::array solvers{"fluid", "solid", "fluid_observation", "solid_observation"};
+  constexpr std::array solvers{"fluid", "solid", "solid_observation"};
   if (role.empty()) return -1;
   if (role == "identification_master") return 0;
   return std::find(solvers.begin(), solvers.end(), role) == solvers.end() ? 1 : 2;

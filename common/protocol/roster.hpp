@@ -10,7 +10,7 @@ namespace tether::protocol {
 /// its neighbour (the further ranks of a parallel code).
 ///
 /// identification_master leads the fsi_masters, an fsi_master (or any other name that is no solver's) leads fluid,
-/// solid, fluid_observation and solid_observation. Of m masters and n processes of one role, each master gets n/m, in
+/// solid and solid_observation. Of m masters and n processes of one role, each master gets n/m, in
 /// rank order: the k-th fluid belongs to the k-th fsi_master. Throws InputError if m does not divide n.
 int master_of(const std::vector<std::string>& roles, int rank);
 

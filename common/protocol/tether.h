@@ -45,6 +45,7 @@ typedef struct {
   int has_tangent;       /* answers TETHER_FLUID_TANGENT or TETHER_SOLID_TANGENT */
   int has_operators;     /* a solid that answers TETHER_SOLID_RESIDUAL, _PRODUCT and _PRECONDITION */
   int has_state;         /* answers TETHER_GET_STATE and TETHER_SET_STATE */
+  int has_velocity;      /* a fluid that answers TETHER_GET_VELOCITY */
   int64_t state_size;    /* numbers in a state */
   int64_t unknowns;      /* of a solid with operators: interface velocities first */
   int64_t parameter_count, observable_count;

@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   make_tube();
   if (tether_is_leader(p)) { /* a real code broadcasts each request: MPI_Comm_f2c(tether_communicator(p)) */
     tether_introduce(p, &(tether_description){.program = "linear fluid 1", .has_tangent = 1, .has_state = 1,
-        .state_size = 1, .observable_count = 1, .observables = &pressure, .node_count = n / 3, .points = points,
+        .has_velocity = 1, .state_size = 1, .observable_count = 1, .observables = &pressure, .node_count = n / 3, .points = points,
         .triangle_count = 2 * around * (along - 1), .triangles = triangles});
     for (tether_request r; tether_next(p, &r) == 1;) answer(p, &r);
   }

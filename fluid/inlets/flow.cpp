@@ -36,7 +36,7 @@ Parameter part(const char* name, const char* meaning) {
   return {name, meaning, dimension::flow, range::any, 0.0, 0.0, Transform::linear, 1e-5};
 }
 
-const EffectDeclaration declaration{
+const EffectDeclaration flow_declaration{
     "flow",
     "a measured or chosen flow into the vessel",
     Place::inlet,
@@ -50,7 +50,7 @@ const EffectDeclaration declaration{
 
 }  // namespace
 
-extern const Registered<Inflow> flow{declaration, [](std::span<const double> v) -> std::unique_ptr<Inflow> {
+extern const Registered<Inflow> flow{flow_declaration, [](std::span<const double> v) -> std::unique_ptr<Inflow> {
                                        return std::make_unique<PrescribedFlow>(v);
                                      }};
 

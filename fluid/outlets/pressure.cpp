@@ -14,7 +14,7 @@ class PrescribedPressure : public Outlet {
   double offset_, scale_;
 };
 
-const EffectDeclaration declaration{
+const EffectDeclaration pressure_declaration{
     "pressure",
     "a measured or chosen pressure",
     Place::outlet,
@@ -24,7 +24,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Outlet> prescribed_pressure{
-    declaration,
+    pressure_declaration,
     [](std::span<const double> v) -> std::unique_ptr<Outlet> { return std::make_unique<PrescribedPressure>(v); }};
 
 }  // namespace tether::fluid

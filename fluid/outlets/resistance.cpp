@@ -14,7 +14,7 @@ class Resistance : public Outlet {
   double R_, P_distal_;
 };
 
-const EffectDeclaration declaration{
+const EffectDeclaration resistance_declaration{
     "resistance",
     "the vessels downstream as one resistance, without a reservoir",
     Place::outlet,
@@ -26,6 +26,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Outlet> resistance{
-    declaration, [](std::span<const double> v) -> std::unique_ptr<Outlet> { return std::make_unique<Resistance>(v); }};
+    resistance_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Outlet> { return std::make_unique<Resistance>(v); }};
 
 }  // namespace tether::fluid

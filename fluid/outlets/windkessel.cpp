@@ -25,7 +25,7 @@ class Windkessel : public Outlet {
   double R_p_, R_d_, C_, initial_, P_distal_;
 };
 
-const EffectDeclaration declaration{
+const EffectDeclaration windkessel_declaration{
     "windkessel",
     "the vessels downstream: a resistance, then an elastic reservoir that drains through a second resistance",
     Place::outlet,
@@ -43,6 +43,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Outlet> windkessel{
-    declaration, [](std::span<const double> v) -> std::unique_ptr<Outlet> { return std::make_unique<Windkessel>(v); }};
+    windkessel_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Outlet> { return std::make_unique<Windkessel>(v); }};
 
 }  // namespace tether::fluid

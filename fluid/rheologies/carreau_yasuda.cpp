@@ -17,7 +17,7 @@ class CarreauYasuda : public Rheology {
   double mu_inf_, mu_0_, lambda_, n_, a_;
 };
 
-const EffectDeclaration declaration{
+const EffectDeclaration carreau_yasuda_declaration{
     "carreau_yasuda",
     "shear-thinning blood: thick where it hardly flows, thin where it is sheared fast",
     Place::blood,
@@ -34,7 +34,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Rheology> carreau_yasuda{
-    declaration,
+    carreau_yasuda_declaration,
     [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<CarreauYasuda>(v); }};
 
 }  // namespace tether::fluid

@@ -21,7 +21,7 @@ class Casson : public Rheology {
   double mu_c_, tau_y_, m_;
 };
 
-const EffectDeclaration declaration{
+const EffectDeclaration casson_declaration{
     "casson",
     "blood with a yield stress: it flows like a plug where the shear stress is small",
     Place::blood,
@@ -35,6 +35,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Rheology> casson{
-    declaration, [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<Casson>(v); }};
+    casson_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<Casson>(v); }};
 
 }  // namespace tether::fluid

@@ -14,16 +14,16 @@ class Newtonian : public Rheology {
   double viscosity_;
 };
 
-const EffectDeclaration declaration{"newtonian",
-                                    "blood of one viscosity, whatever the shear rate",
-                                    Place::blood,
-                                    {{"viscosity", "dynamic viscosity", dimension::viscosity, range::positive,
-                                      undefined, undefined, Transform::log, 0.3}}};
+const EffectDeclaration newtonian_declaration{"newtonian",
+                                              "blood of one viscosity, whatever the shear rate",
+                                              Place::blood,
+                                              {{"viscosity", "dynamic viscosity", dimension::viscosity, range::positive,
+                                                undefined, undefined, Transform::log, 0.3}}};
 
 }  // namespace
 
-extern const Registered<Rheology> newtonian{declaration, [](std::span<const double> v) -> std::unique_ptr<Rheology> {
-                                              return std::make_unique<Newtonian>(v[0]);
-                                            }};
+extern const Registered<Rheology> newtonian{
+    newtonian_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<Newtonian>(v[0]); }};
 
 }  // namespace tether::fluid

@@ -18,25 +18,27 @@ class PowerLaw : public Rheology {
   double mu_1_, n_, gamma_0_;
 };
 
-const EffectDeclaration declaration{"power_law",
-                                    "blood whose viscosity is a power of the shear rate",
-                                    Place::blood,
-                                    {{"viscosity", "dynamic viscosity at a shear rate of one per second",
-                                      dimension::viscosity, range::positive, undefined, undefined, Transform::log, 0.3},
-                                     {"index",
-                                      "exponent n; 1: Newtonian, below: thinning",
-                                      dimension::none,
-                                      {0, 2, true, false},
-                                      undefined,
-                                      1.0,
-                                      Transform::linear,
-                                      0.2},
-                                     {"lowest_shear_rate", "below it the viscosity no longer grows", dimension::rate,
-                                      range::positive, 0.1, undefined, Transform::log, undefined}}};
+const EffectDeclaration power_law_declaration{
+    "power_law",
+    "blood whose viscosity is a power of the shear rate",
+    Place::blood,
+    {{"viscosity", "dynamic viscosity at a shear rate of one per second", dimension::viscosity, range::positive,
+      undefined, undefined, Transform::log, 0.3},
+     {"index",
+      "exponent n; 1: Newtonian, below: thinning",
+      dimension::none,
+      {0, 2, true, false},
+      undefined,
+      1.0,
+      Transform::linear,
+      0.2},
+     {"lowest_shear_rate", "below it the viscosity no longer grows", dimension::rate, range::positive, 0.1, undefined,
+      Transform::log, undefined}}};
 
 }  // namespace
 
 extern const Registered<Rheology> power_law{
-    declaration, [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<PowerLaw>(v); }};
+    power_law_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<PowerLaw>(v); }};
 
 }  // namespace tether::fluid

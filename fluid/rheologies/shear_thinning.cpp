@@ -21,7 +21,7 @@ class ShearThinning : public Rheology {
   double mu_inf_, excess_;
 };
 
-const EffectDeclaration declaration{
+const EffectDeclaration shear_thinning_declaration{
     "shear_thinning",
     "blood that is thicker where it hardly flows; without excess the same as newtonian",
     Place::blood,
@@ -33,7 +33,7 @@ const EffectDeclaration declaration{
 }  // namespace
 
 extern const Registered<Rheology> shear_thinning{
-    declaration,
+    shear_thinning_declaration,
     [](std::span<const double> v) -> std::unique_ptr<Rheology> { return std::make_unique<ShearThinning>(v); }};
 
 }  // namespace tether::fluid

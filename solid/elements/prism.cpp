@@ -9,14 +9,14 @@ namespace {
 using NodeVector = Eigen::Matrix<double, 6, 1>;
 using Strains = StrainSamples<6, 12>;
 
-struct Place {
+struct QuadraturePoint {
   double xi, eta, zeta;
 };
 
 const double gauss = 1 / std::sqrt(3.0);
 
 /// Three points in the plane (degree 2), two through the thickness; level-major: points 0-2 at -gauss, 3-5 at +gauss.
-Place place(int point) {
+QuadraturePoint place(int point) {
   constexpr double xi[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6}, eta[3] = {1.0 / 6, 1.0 / 6, 2.0 / 3};
   return {xi[point % 3], eta[point % 3], point < 3 ? -gauss : gauss};
 }
@@ -25,14 +25,14 @@ Vec3 triangle_shape(double xi, double eta) {
   return {1 - xi - eta, xi, eta};
 }
 
-NodeVector shape(const Place& p) {
+NodeVector shape(const QuadraturePoint& p) {
   NodeVector n;
   n << (1 - p.zeta) / 2 * triangle_shape(p.xi, p.eta), (1 + p.zeta) / 2 * triangle_shape(p.xi, p.eta);
   return n;
 }
 
 /// Derivatives of the shape functions by xi, eta, zeta: the columns.
-Eigen::Matrix<double, 6, 3> derivatives(const Place& p) {
+Eigen::Matrix<double, 6, 3> derivatives(const QuadraturePoint& p) {
   const Vec3 by_xi(-1, 1, 0), by_eta(-1, 0, 1), n = triangle_shape(p.xi, p.eta);
   const double below = (1 - p.zeta) / 2, above = (1 + p.zeta) / 2;
   Eigen::Matrix<double, 6, 3> d;
@@ -69,7 +69,7 @@ Strains make_strains() {
 }
 
 /// Edge shears to the point: 2 E13 = s9 + c eta, 2 E23 = s10 - c xi with c = s10 - s9 - s11.
-void set_shear(PrismElement::Map& map, const Place& p, const Eigen::Matrix<double, 6, 1>& e13,
+void set_shear(PrismElement::Map& map, const QuadraturePoint& p, const Eigen::Matrix<double, 6, 1>& e13,
                const Eigen::Matrix<double, 6, 1>& e23) {
   map.col(9) = (1 - p.eta) * e13 + p.xi * e23;
   map.col(10) = p.eta * e13 + (1 - p.xi) * e23;
@@ -111,7 +111,7 @@ PrismElement::PrismElement(const Positions& reference) {
   const Mat3 centre = reference * derivatives({1.0 / 3, 1.0 / 3, 0});
   centre_contravariant_ = centre.inverse().transpose();
   for (int q = 0; q < points; ++q) {
-    const Place p = place(q);
+    const QuadraturePoint p = place(q);
     const Mat3 covariant = reference * derivatives(p);
     const double jacobian = covariant.determinant();
     points_[static_cast<std::size_t>(q)] = {jacobian / 6, covariant.inverse().transpose(),
@@ -123,7 +123,7 @@ PrismElement::PrismElement(const Positions& reference) {
 
 PrismElement::Map PrismElement::map(int point, double thickness_variation) const {
   const Mat3& g = points_[static_cast<std::size_t>(point)].contravariant;
-  const Place p = place(point);
+  const QuadraturePoint p = place(point);
   const int level = point < 3 ? 0 : 3;
   Map map = Map::Zero();
   map.col(level) = voigt_dyad(g.col(0), g.col(0));

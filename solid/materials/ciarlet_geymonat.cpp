@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration ciarlet_geymonat_declaration{
     .name = "ciarlet_geymonat",
     .meaning = "The aortic wall of Moireau et al. 2012: two isochoric constants and a logarithmic volume term",
     .place = Place::wall,
@@ -32,7 +32,7 @@ class CiarletGeymonat final : public Material {
 
 }  // namespace
 
-const Registered<Material> ciarlet_geymonat{declaration,
+const Registered<Material> ciarlet_geymonat{ciarlet_geymonat_declaration,
                                             [](std::span<const double> values) -> std::unique_ptr<Material> {
                                               return std::make_unique<CiarletGeymonat>(values);
                                             }};

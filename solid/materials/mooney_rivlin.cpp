@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration mooney_rivlin_declaration{
     .name = "mooney_rivlin",
     .meaning = "Rubber-like wall with two isochoric constants; small-strain shear modulus 2 (c1 + c2)",
     .place = Place::wall,
@@ -30,8 +30,8 @@ class MooneyRivlin final : public Material {
 
 }  // namespace
 
-const Registered<Material> mooney_rivlin{declaration, [](std::span<const double> values) -> std::unique_ptr<Material> {
-                                           return std::make_unique<MooneyRivlin>(values);
-                                         }};
+const Registered<Material> mooney_rivlin{
+    mooney_rivlin_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Material> { return std::make_unique<MooneyRivlin>(values); }};
 
 }  // namespace tether

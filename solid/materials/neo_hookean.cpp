@@ -4,10 +4,11 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{.name = "neo_hookean",
-                                    .meaning = "Rubber-like wall: isochoric neo-Hookean with a volumetric penalty",
-                                    .place = Place::wall,
-                                    .parameters = {young_parameter(), poisson_parameter()}};
+const EffectDeclaration neo_hookean_declaration{
+    .name = "neo_hookean",
+    .meaning = "Rubber-like wall: isochoric neo-Hookean with a volumetric penalty",
+    .place = Place::wall,
+    .parameters = {young_parameter(), poisson_parameter()}};
 
 /// W = mu/2 (I1 J^-2/3 - 3) + kappa/4 (J^2 - 1 - 2 ln J).
 class NeoHookean final : public Material {
@@ -26,8 +27,8 @@ class NeoHookean final : public Material {
 
 }  // namespace
 
-const Registered<Material> neo_hookean{declaration, [](std::span<const double> values) -> std::unique_ptr<Material> {
-                                         return std::make_unique<NeoHookean>(values);
-                                       }};
+const Registered<Material> neo_hookean{
+    neo_hookean_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Material> { return std::make_unique<NeoHookean>(values); }};
 
 }  // namespace tether

@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration saint_venant_kirchhoff_declaration{
     .name = "saint_venant_kirchhoff",
     .meaning = "Linear elasticity in the Green-Lagrange strain; for moderate strains only",
     .place = Place::wall,
@@ -29,7 +29,7 @@ class SaintVenantKirchhoff final : public Material {
 
 }  // namespace
 
-const Registered<Material> saint_venant_kirchhoff{declaration,
+const Registered<Material> saint_venant_kirchhoff{saint_venant_kirchhoff_declaration,
                                                   [](std::span<const double> values) -> std::unique_ptr<Material> {
                                                     return std::make_unique<SaintVenantKirchhoff>(values);
                                                   }};

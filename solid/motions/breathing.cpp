@@ -19,7 +19,7 @@ Parameter amplitude_along(const char* axis) {
           .prior_deviation = 2e-3};
 }
 
-const EffectDeclaration declaration{
+const EffectDeclaration breathing_declaration{
     .name = "breathing",
     .meaning =
         "The tissue that holds the wall moves to and fro, as the diaphragm does; what does not hold does not move",
@@ -60,8 +60,8 @@ class Breathing final : public MotionLaw {
 
 }  // namespace
 
-const Registered<MotionLaw> breathing{declaration, [](std::span<const double> v) -> std::unique_ptr<MotionLaw> {
-                                        return std::make_unique<Breathing>(v);
-                                      }};
+const Registered<MotionLaw> breathing{
+    breathing_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<MotionLaw> { return std::make_unique<Breathing>(v); }};
 
 }  // namespace tether

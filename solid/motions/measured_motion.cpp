@@ -3,7 +3,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration measured_motion_declaration{
     .name = "measured_motion",
     .meaning = "The tissue that holds the wall moves as measured, such as the heart at the inlet ring",
     .place = Place::ring,
@@ -28,8 +28,8 @@ class MeasuredMotion final : public MotionLaw {
 
 }  // namespace
 
-const Registered<MotionLaw> measured_motion{declaration, [](std::span<const double> v) -> std::unique_ptr<MotionLaw> {
-                                              return std::make_unique<MeasuredMotion>(v[0]);
-                                            }};
+const Registered<MotionLaw> measured_motion{
+    measured_motion_declaration,
+    [](std::span<const double> v) -> std::unique_ptr<MotionLaw> { return std::make_unique<MeasuredMotion>(v[0]); }};
 
 }  // namespace tether

@@ -6,7 +6,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration contact_declaration{
     .name = "contact",
     .meaning = "A hard neighbour, such as the spine: pushes the wall back where it comes closer, never holds it back",
     .place = Place::outer_wall,
@@ -50,7 +50,7 @@ class Contact final : public Support {
 
 }  // namespace
 
-const Registered<Support> contact{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
+const Registered<Support> contact{contact_declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
                                     return std::make_unique<Contact>(values);
                                   }};
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/expression.hpp"
+#include "solid/expression.hpp"
 
 namespace tether {
 namespace {

@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration external_pressure_declaration{
     .name = "external_pressure",
     .meaning = "Pressure around the vessel, such as that in the chest, beyond what it was when the image was taken",
     .place = Place::outer_wall,
@@ -33,7 +33,7 @@ class ExternalPressure final : public Support {
 
 }  // namespace
 
-const Registered<Support> external_pressure{declaration,
+const Registered<Support> external_pressure{external_pressure_declaration,
                                             [](std::span<const double> values) -> std::unique_ptr<Support> {
                                               return std::make_unique<ExternalPressure>(values);
                                             }};

@@ -3,7 +3,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration loose_ring_declaration{
     .name = "loose_ring",
     .meaning = "An end ring held elastically instead of clamped",
     .place = Place::ring,
@@ -35,8 +35,8 @@ class LooseRing final : public Support {
 
 }  // namespace
 
-const Registered<Support> loose_ring{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                       return std::make_unique<LooseRing>(values);
-                                     }};
+const Registered<Support> loose_ring{
+    loose_ring_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<LooseRing>(values); }};
 
 }  // namespace tether

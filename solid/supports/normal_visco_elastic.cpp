@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration normal_visco_elastic_declaration{
     .name = "normal_visco_elastic",
     .meaning = "Tissue along which the wall slides freely: springs and dampers normal to the wall only",
     .place = Place::outer_wall,
@@ -27,7 +27,7 @@ class NormalViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> normal_visco_elastic{declaration,
+const Registered<Support> normal_visco_elastic{normal_visco_elastic_declaration,
                                                [](std::span<const double> values) -> std::unique_ptr<Support> {
                                                  return std::make_unique<NormalViscoElastic>(values);
                                                }};

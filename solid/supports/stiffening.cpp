@@ -3,7 +3,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration stiffening_declaration{
     .name = "stiffening",
     .meaning = "Tissue that hardly holds the wall at first and ever more the farther it goes",
     .place = Place::outer_wall,
@@ -35,8 +35,8 @@ class Stiffening final : public Support {
 
 }  // namespace
 
-const Registered<Support> stiffening{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                       return std::make_unique<Stiffening>(values);
-                                     }};
+const Registered<Support> stiffening{
+    stiffening_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<Stiffening>(values); }};
 
 }  // namespace tether

@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration tangential_visco_elastic_declaration{
     .name = "tangential_visco_elastic",
     .meaning =
         "Tissue that tethers the wall along itself and lets it bulge: springs and dampers tangential to the wall only",
@@ -28,7 +28,7 @@ class TangentialViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> tangential_visco_elastic{declaration,
+const Registered<Support> tangential_visco_elastic{tangential_visco_elastic_declaration,
                                                    [](std::span<const double> values) -> std::unique_ptr<Support> {
                                                      return std::make_unique<TangentialViscoElastic>(values);
                                                    }};

@@ -3,7 +3,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration tissue_mass_declaration{
     .name = "tissue_mass",
     .meaning = "Tissue that the wall carries along: it makes the wall heavier",
     .place = Place::outer_wall,
@@ -35,8 +35,8 @@ class TissueMass final : public Support {
 
 }  // namespace
 
-const Registered<Support> tissue_mass{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                        return std::make_unique<TissueMass>(values);
-                                      }};
+const Registered<Support> tissue_mass{
+    tissue_mass_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<TissueMass>(values); }};
 
 }  // namespace tether

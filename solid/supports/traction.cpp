@@ -6,7 +6,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration traction_declaration{
     .name = "traction",
     .meaning = "A pull of unknown origin that goes with the beat: what the other effects do not explain",
     .place = Place::outer_wall,
@@ -42,8 +42,8 @@ class Traction final : public Support {
 
 }  // namespace
 
-const Registered<Support> traction{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                     return std::make_unique<Traction>(values);
-                                   }};
+const Registered<Support> traction{
+    traction_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<Traction>(values); }};
 
 }  // namespace tether

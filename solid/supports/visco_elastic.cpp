@@ -4,7 +4,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration visco_elastic_declaration{
     .name = "visco_elastic",
     .meaning = "Tissue that holds the wall by springs and dampers in all directions (Moireau et al. 2012)",
     .place = Place::outer_wall,
@@ -26,8 +26,8 @@ class ViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> visco_elastic{declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                          return std::make_unique<ViscoElastic>(values);
-                                        }};
+const Registered<Support> visco_elastic{
+    visco_elastic_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<ViscoElastic>(values); }};
 
 }  // namespace tether

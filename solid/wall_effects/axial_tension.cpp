@@ -3,7 +3,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration axial_tension_declaration{
     .name = "axial_tension",
     .meaning = "The vessel is stretched along its length in the body: it resists going sideways like a string",
     .place = Place::wall,
@@ -30,7 +30,7 @@ class AxialTension final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> axial_tension{declaration,
+const Registered<WallEffect> axial_tension{axial_tension_declaration,
                                            [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
                                              return std::make_unique<AxialTension>(values[0]);
                                            }};

@@ -5,7 +5,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration fibres_declaration{
     .name = "fibres",
     .meaning = "Collagen fibres: the wall is stiffer along two directions, symmetric about that around the vessel",
     .place = Place::wall,
@@ -50,7 +50,8 @@ class FibreFamilies final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> fibres{declaration, [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
+const Registered<WallEffect> fibres{fibres_declaration,
+                                    [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
                                       return std::make_unique<FibreFamilies>(values);
                                     }};
 

@@ -3,7 +3,7 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{
+const EffectDeclaration stiffness_factor_declaration{
     .name = "stiffness_factor",
     .meaning = "The wall is stiffer or softer here than the case says, such as in a calcified or diseased part",
     .place = Place::wall,
@@ -29,7 +29,7 @@ class StiffnessFactor final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> stiffness_factor{declaration,
+const Registered<WallEffect> stiffness_factor{stiffness_factor_declaration,
                                               [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
                                                 return std::make_unique<StiffnessFactor>(values[0]);
                                               }};

@@ -3,18 +3,19 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration declaration{.name = "thickness_factor",
-                                    .meaning = "The wall is thicker or thinner here than the imaged one",
-                                    .place = Place::wall,
-                                    .parameters = {{.name = "factor",
-                                                    .meaning = "of the thickness: of the material per area",
-                                                    .dimension = dimension::none,
-                                                    .range = range::positive,
-                                                    .standard = 1.0,
-                                                    .absent = 1.0,
-                                                    .transform = Transform::log2,
-                                                    .prior_deviation = 0.3,
-                                                    .scale = 0.3}}};
+const EffectDeclaration thickness_factor_declaration{
+    .name = "thickness_factor",
+    .meaning = "The wall is thicker or thinner here than the imaged one",
+    .place = Place::wall,
+    .parameters = {{.name = "factor",
+                    .meaning = "of the thickness: of the material per area",
+                    .dimension = dimension::none,
+                    .range = range::positive,
+                    .standard = 1.0,
+                    .absent = 1.0,
+                    .transform = Transform::log2,
+                    .prior_deviation = 0.3,
+                    .scale = 0.3}}};
 
 /// Elastic and viscous forces and mass times the factor, on the imaged shape; prestress stays as it is. (S.19)
 class ThicknessFactor final : public WallEffect {
@@ -28,7 +29,7 @@ class ThicknessFactor final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> thickness_factor{declaration,
+const Registered<WallEffect> thickness_factor{thickness_factor_declaration,
                                               [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
                                                 return std::make_unique<ThicknessFactor>(values[0]);
                                               }};

@@ -48,7 +48,9 @@ TEST(RunInForeground, ReturnsTheExitCode) {
 }
 
 TEST(RunInForeground, HandsSignalsOn) {
-  EXPECT_EQ(run_in_foreground(shell("trap 'exit 7' TERM; sleep 0.2; kill -TERM $PPID; sleep 1; sleep 1; exit 1")), 7);
+  EXPECT_EQ(run_in_foreground(
+                shell("trap 'exit 7' TERM; sleep 0.2; kill -TERM $PPID; for i in $(seq 60); do sleep 1; done; exit 1")),
+            7);
 }
 
 }  // namespace

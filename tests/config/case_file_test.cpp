@@ -1,7 +1,7 @@
 #include "tests/config/case_text.hpp"
 
 namespace tether {
-namespace {
+namespace case_file_test {
 
 struct Outlet {
   double compliance = undefined;
@@ -99,7 +99,7 @@ struct Wrong {
   const char *text, *message;
 };
 
-class WrongCase : public testing::TestWithParam<Wrong> {};
+class WrongCase : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongCase, IsNamedWithItsLine) {
   EXPECT_EQ(errors_in<Blood>(GetParam().text), GetParam().message);
@@ -169,7 +169,7 @@ const Wrong wrong_cases[] = {
      "case.yaml:8: fluid.densty: unknown field; did you mean 'density'?"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, WrongCase, testing::ValuesIn(wrong_cases));
+INSTANTIATE_TEST_SUITE_P(All, WrongCase, ::testing::ValuesIn(wrong_cases));
 
 std::string error_of_whole(const std::string& text) {
   const auto path = write_file("case.yaml", text);
@@ -208,5 +208,5 @@ TEST(CaseFile, UnitsOfTheCaseGovernItsNumbers) {
   EXPECT_EQ(file.units().name(), "SI");
 }
 
-}  // namespace
+}  // namespace case_file_test
 }  // namespace tether

@@ -13,7 +13,7 @@ namespace tether {
 
 /// A folder of its own for a test's files.
 inline std::filesystem::path test_folder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const auto folder = std::filesystem::temp_directory_path() / "tether_tests" / test->test_suite_name() / test->name();
   std::filesystem::create_directories(folder);
   return folder;

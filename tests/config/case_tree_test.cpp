@@ -5,7 +5,7 @@
 #include "tests/config/case_text.hpp"
 
 namespace tether {
-namespace {
+namespace case_tree_test {
 
 namespace fs = std::filesystem;
 
@@ -41,7 +41,7 @@ struct Blood {
 };
 
 /// A base in a folder of its own with a file beside it; what builds on it stands in another.
-class CaseTree : public testing::Test {
+class CaseTree : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::remove_all(test_folder());
@@ -199,5 +199,5 @@ TEST(YamlText, IsReadAsTheSameTree) {
   EXPECT_EQ(again.find("r")->text, "- s");
 }
 
-}  // namespace
+}  // namespace case_tree_test
 }  // namespace tether

@@ -11,7 +11,8 @@ struct Outcome {
   std::string out, err;
 };
 
-Outcome run(std::vector<std::string> arguments, const std::function<int(const CommandLine&)>& body) {
+Outcome run(std::vector<std::string> arguments, const std::function<int(const CommandLine&)>& body,
+            bool shares_work = false) {
   Program program;
   program.name = "pump";
   program.purpose = "moves blood";
@@ -21,14 +22,15 @@ Outcome run(std::vector<std::string> arguments, const std::function<int(const Co
   };
   program.validate = [](const CommandLine& c) { CaseFile(c.case_file).finish(); };
   program.run = body;
+  program.shares_work = shares_work;
   arguments.insert(arguments.begin(), "pump");
   std::vector<char*> argv;
   for (auto& argument : arguments) argv.push_back(argument.data());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
   const int code = run_main(static_cast<int>(argv.size()), argv.data(), program);
-  const std::string out = testing::internal::GetCapturedStdout();
-  return {code, out, testing::internal::GetCapturedStderr()};
+  const std::string out = ::testing::internal::GetCapturedStdout();
+  return {code, out, ::testing::internal::GetCapturedStderr()};
 }
 
 int never(const CommandLine&) {
@@ -43,7 +45,7 @@ TEST(CommandLine, HandsOverWhatWasTyped) {
     typed = c;
     return 0;
   };
-  EXPECT_EQ(run({file, "--output", "o", "--steps", "7", "--processes", "2", "--resume", "--quiet"}, keep).code,
+  EXPECT_EQ(run({file, "--output", "o", "--steps", "7", "--processes", "2", "--resume", "--quiet"}, keep, true).code,
             exit_done);
   EXPECT_EQ(typed.case_file, file);
   EXPECT_EQ(typed.output, "o");
@@ -93,6 +95,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run({}, never).code, exit_input_wrong);
   EXPECT_EQ(run({"case.yaml", "--sped"}, never).code, exit_input_wrong);
   EXPECT_EQ(run({"case.yaml", "--steps", "-1"}, never).code, exit_input_wrong);
+  EXPECT_EQ(run({"case.yaml", "--processes", "2"}, never).code, exit_input_wrong) << "a program that shares no work";
   EXPECT_EQ(run({"none.yaml", "--validate"}, never).err, "none.yaml: no such file\n");
   EXPECT_EQ(run({"--help"}, never).code, exit_done);
 }

@@ -5,7 +5,7 @@
 #include "common/config/case.hpp"
 
 namespace tether {
-namespace {
+namespace describe_test {
 
 const EffectDeclaration still{"still", "does not move", Place::ring, {}};
 const EffectDeclaration spring{
@@ -119,5 +119,5 @@ TEST(DescribeEffects, ListsEachEffectOnceWithWhatThereIsToSayOfItsNumbers) {
   EXPECT_EQ(text.find("## on an end ring: spring"), text.rfind("## on an end ring: spring"));
 }
 
-}  // namespace
+}  // namespace describe_test
 }  // namespace tether

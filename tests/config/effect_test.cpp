@@ -1,7 +1,7 @@
 #include "tests/config/case_text.hpp"
 
 namespace tether {
-namespace {
+namespace effect_test {
 
 const EffectDeclaration spring{
     "spring",
@@ -75,5 +75,5 @@ TEST(EffectOfACase, NamesWhatIsWrong) {
             "case.yaml:6: fluid.type: missing: must be given (how the end ring is held)");
 }
 
-}  // namespace
+}  // namespace effect_test
 }  // namespace tether

@@ -13,7 +13,7 @@ std::string claim(const std::string& name, bool overwrite = false, const std::st
   return input_error_of([&] { claim_output(command, CaseFile(path)); });
 }
 
-class OutputFolder : public testing::Test {
+class OutputFolder : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::remove_all(test_folder()); }
 };

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class OverlayTest : public testing::Test {
+class OverlayTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* folder : {"cases", "out/deep"}) fs::create_directories(test_folder() / folder);

@@ -2,10 +2,10 @@
 
 #include <numbers>
 
-#include "common/observation/contour_series.hpp"
-#include "common/observation/surface_series.hpp"
-#include "diagnosis/discrepancy.hpp"
-#include "tests/observation/lumens.hpp"
+#include "diagnosis/comparison/discrepancy.hpp"
+#include "observation_manager/measurements/contour_series.hpp"
+#include "observation_manager/measurements/surface_series.hpp"
+#include "tests/observation_manager/lumens.hpp"
 
 /// A tube about the z axis, radius 1, length 4, with the regions "right" (x > 0) and "left", whose radius beats with
 /// period 1; and surfaces and contours of it.

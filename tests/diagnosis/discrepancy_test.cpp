@@ -1,11 +1,11 @@
-#include "diagnosis/discrepancy.hpp"
+#include "diagnosis/comparison/discrepancy.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/diagnosis/beating_tube.hpp"
 
 namespace tether::testing {
-namespace {
+namespace discrepancy_test {
 
 const std::vector<std::string> regions{"right", "left"};
 
@@ -102,5 +102,5 @@ TEST(Discrepancy, AddsUpTheEffectiveNumbersOfSlices) {
   EXPECT_NEAR(significance(all, noise), all.model.mean / 0.02 * std::sqrt(slices), 1e-12);
 }
 
-}  // namespace
+}  // namespace discrepancy_test
 }  // namespace tether::testing

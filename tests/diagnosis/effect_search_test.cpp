@@ -1,6 +1,6 @@
 /// The search for a missing effect on a linear system: a band of 4 regions times 24 places, 8 training and 4 held-out
 /// moments, with noise that is alike over 3 places.
-#include "diagnosis/effect_search.hpp"
+#include "diagnosis/search/effect_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <random>
 
-#include "diagnosis/further_measurement.hpp"
+#include "diagnosis/search/further_measurement.hpp"
 
 namespace tether {
-namespace {
+namespace effect_search_test {
 
 using Index = Eigen::Index;
 
@@ -84,6 +84,13 @@ SearchResult found(const EffectProblem& problem, const SearchSettings& settings 
   return search_effects(problem, settings, linear_residual(problem));
 }
 
+/// The effect of a candidate, which must have been tested.
+TestedEffect effect_of(const SearchResult& result, std::size_t candidate) {
+  for (const TestedEffect& effect : result.effects)
+    if (effect.candidate == candidate) return effect;
+  throw std::logic_error("the candidate was not tested");
+}
+
 double share(const std::function<bool(std::mt19937_64&)>& happens, int trials = 200) {
   int count = 0;
   for (int trial = 0; trial < trials; ++trial) {
@@ -97,7 +104,7 @@ TEST(EffectSearch, RarelyFindsWhatIsNotThere) {
   const EffectProblem right = band(), naive = band(true);
   const auto alarm = [](EffectProblem problem, std::mt19937_64& generator) {
     problem.residual = noise(generator);
-    return found(problem).verdict != "nothing_missing";
+    return found(problem).verdict != Verdict::nothing_missing;
   };
   EXPECT_LE(share([&](auto& g) { return alarm(right, g); }), 0.10);
   EXPECT_GE(share([&](auto& g) { return alarm(naive, g); }), 0.80) << "errors that are taken for independent";
@@ -113,10 +120,11 @@ TEST(EffectSearch, FindsTheHiddenEffectFirst) {
     const SearchResult result = found(problem);
     const TestedEffect& first = result.effects.front();
     within += std::abs(first.amplitudes(0) - 4) < 1.96 * first.deviations(0) ? 1 : 0;
-    said[result.verdict + (result.path.empty() ? "" : ": " + result.path.back().reason)] += 1;
-    return result.verdict == "missing" && first.accepted && first.candidate == 4;
+    said[word_of(result.verdict) +
+         (result.path.empty() ? "" : std::string(": ") + reason_of(result.path.back().objection))] += 1;
+    return result.verdict == Verdict::missing && first.accepted && first.candidate == 4;
   });
-  EXPECT_GE(right, 0.90) << testing::PrintToString(said);
+  EXPECT_GE(right, 0.90) << ::testing::PrintToString(said);
   EXPECT_GE(within / 200.0, 0.90) << "the 95 % interval";
 }
 
@@ -124,12 +132,10 @@ TEST(EffectSearch, AWrongSignIsNoSign) {
   std::mt19937_64 generator(7);
   EffectProblem problem = band();
   problem.residual = noise(generator) - 3 * problem.changes.col(2);
-  for (const TestedEffect& effect : found(problem).effects)
-    if (effect.candidate == 2) {
-      EXPECT_DOUBLE_EQ(effect.p, 1);
-      EXPECT_FALSE(effect.accepted);
-      EXPECT_LT(effect.z, -5);
-    }
+  const TestedEffect effect = effect_of(found(problem), 2);
+  EXPECT_DOUBLE_EQ(effect.p, 1);
+  EXPECT_FALSE(effect.accepted);
+  EXPECT_LT(effect.z, -5);
 }
 
 TEST(EffectSearch, AVariantOfTheSameEffectIsNoOtherVerdict) {
@@ -140,7 +146,7 @@ TEST(EffectSearch, AVariantOfTheSameEffectIsNoOtherVerdict) {
       [&](std::mt19937_64& generator) {
         problem.residual = noise(generator) + 4 * problem.changes.col(2);
         const SearchResult result = found(problem);
-        return result.verdict == "missing" &&
+        return result.verdict == Verdict::missing &&
                (result.effects[1].rival || result.effects[1].gain < result.effects[0].gain);
       },
       50);
@@ -159,7 +165,7 @@ TEST(EffectSearch, TellsWhatItCannotTellApart) {
             if (effect.candidate == candidate) return effect.group;
           return -1;
         };
-        return result.verdict == "ambiguous" && group_of(2) == group_of(8) && group_of(2) >= 0;
+        return result.verdict == Verdict::ambiguous && group_of(2) == group_of(8) && group_of(2) >= 0;
       },
       50);
   EXPECT_GE(right, 0.90);
@@ -184,7 +190,7 @@ TEST(EffectSearch, KnowsThatTheCatalogueLacksSomething) {
   const double right = share(
       [&](std::mt19937_64& generator) {
         problem.residual = noise(generator) + 5 * stranger;
-        return found(problem).verdict == "not_in_catalogue";
+        return found(problem).verdict == Verdict::not_in_catalogue;
       },
       50);
   EXPECT_GE(right, 0.90);
@@ -195,7 +201,7 @@ TEST(EffectSearch, DoesNotDecideWhatTheDataCannotShow) {
   std::mt19937_64 generator(3);
   problem.residual = noise(generator);
   for (Amplitude& amplitude : problem.amplitudes) amplitude.scale = 0.01;
-  EXPECT_EQ(found(problem).verdict, "undecided");
+  EXPECT_EQ(found(problem).verdict, Verdict::undecided);
 }
 
 /// Errors 1.3 times as large as stated, everywhere or in the held-out data only: no candidate does that.
@@ -210,7 +216,7 @@ TEST(EffectSearch, DoubtsWhatChanceDoesNotExplain) {
           else
             problem.residual(problem.held_out) *= factor;
           const SearchResult result = found(problem);
-          return result.verdict == "undecided" && result.doubtful;
+          return result.verdict == Verdict::undecided && result.doubtful;
         },
         100);
   };
@@ -226,8 +232,8 @@ TEST(EffectSearch, HeldOutDataDecide) {
   for (const Index i : problem.training) problem.residual(i) += 2 * problem.changes(i, 0);
   const SearchResult result = found(problem);
   ASSERT_EQ(result.path.size(), 1U);
-  EXPECT_FALSE(result.path[0].accepted);
-  EXPECT_EQ(result.path[0].reason, "held-out data do not confirm it");
+  EXPECT_FALSE(result.path[0].accepted());
+  EXPECT_EQ(result.path[0].objection, Objection::not_confirmed);
 }
 
 /// One that follows the noise of the training data fits them best, and fails on the others.
@@ -242,9 +248,9 @@ TEST(EffectSearch, TriesTheNextIfHeldOutDataObject) {
   const SearchResult result = found(problem);
   ASSERT_EQ(result.path.size(), 2U);
   EXPECT_EQ(result.path[0].candidate, 8U);
-  EXPECT_EQ(result.path[0].reason, "held-out data do not confirm it");
+  EXPECT_EQ(result.path[0].objection, Objection::not_confirmed);
   EXPECT_EQ(result.path[1].candidate, 2U);
-  EXPECT_EQ(result.verdict, "missing");
+  EXPECT_EQ(result.verdict, Verdict::missing);
 }
 
 /// To first order an input that may be anything does nearly what the effect does; at the size of the truth it does not.
@@ -265,7 +271,7 @@ TEST(EffectSearch, RunsAtFiniteSizeWhatFirstOrderCannotJudge) {
   SearchSettings settings;
   settings.confirmed = 0;
   const SearchResult result = search_effects(problem, settings, runs);
-  ASSERT_EQ(result.verdict, "missing");
+  ASSERT_EQ(result.verdict, Verdict::missing);
   EXPECT_EQ(result.effects.front().candidate, 2U);
   EXPECT_NEAR(result.effects.front().amplitudes(0), 5, 3 * result.effects.front().deviations(0));
 }
@@ -280,7 +286,7 @@ TEST(EffectSearch, FindsAnAmplitudeThatSaturates) {
   };
   problem.residual = noise(generator) + problem.changes.col(0) * (12 / (1 + 12 / 6.0));
   const SearchResult result = search_effects(problem, {}, runs);
-  ASSERT_EQ(result.verdict, "missing");
+  ASSERT_EQ(result.verdict, Verdict::missing);
   EXPECT_EQ(result.effects.front().candidate, 0U);
   EXPECT_NEAR(result.effects.front().amplitudes(0) / 12, 1, 3 * result.effects.front().deviations(0) / 12);
   EXPECT_GT(result.effects.front().amplitudes(0), 6) << "first order says 4";
@@ -291,11 +297,11 @@ TEST(EffectSearch, DoesNotNameWhatWouldHaveToBeLargerThanItMayBe) {
   std::mt19937_64 generator(29);
   EffectProblem problem = band();
   problem.residual = noise(generator) + 6 * problem.changes.col(4);
-  ASSERT_EQ(found(problem).verdict, "missing");
+  ASSERT_EQ(found(problem).verdict, Verdict::missing);
   problem.amplitudes[4].upper = 2;
   const SearchResult result = found(problem);
-  EXPECT_EQ(result.verdict, "not_in_catalogue");
-  EXPECT_EQ(result.path.front().reason, "it would have to be larger than it may be");
+  EXPECT_EQ(result.verdict, Verdict::not_in_catalogue);
+  EXPECT_EQ(result.path.front().objection, Objection::beyond_its_limit);
   EXPECT_TRUE(result.effects.front().at_limit);
   EXPECT_NEAR(result.effects.front().amplitudes(0), 0.99 * 2, 1e-9);
 }
@@ -310,7 +316,7 @@ TEST(EffectSearch, RefitsWhatWasAcceptedBefore) {
         problem.residual = noise(generator) + 8 * problem.changes.col(4) + 8 * problem.changes.col(8);
         const SearchResult result = found(problem);
         within += std::abs(result.amplitudes(4) - 8) < 3 ? 1 : 0;
-        return result.verdict == "missing" && result.path.size() == 2 && result.effects[1].accepted;
+        return result.verdict == Verdict::missing && result.path.size() == 2 && result.effects[1].accepted;
       },
       50);
   EXPECT_GE(both, 0.80);
@@ -330,7 +336,7 @@ TEST(EffectSearch, SeesASecondThatTheLackOfFitDoesNotShow) {
           if (hidden) problem.residual += 2.2 * problem.changes.col(4);
           const SearchResult result = found(problem);
           only_said += result.path.size() == 1 && result.more ? 1 : 0;
-          return result.more || (result.path.size() == 2 && result.path.back().accepted);
+          return result.more || (result.path.size() == 2 && result.path.back().accepted());
         },
         100);
   };
@@ -348,7 +354,7 @@ TEST(EffectSearch, StillTestsWhereEnoughIsExplained) {
           problem.residual = noise(generator) + amplitude * problem.changes.col(4);
           SearchSettings settings;
           settings.enough = infinite;
-          return found(problem, settings).verdict == "missing";
+          return found(problem, settings).verdict == Verdict::missing;
         },
         100);
   };
@@ -363,7 +369,7 @@ TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
   SearchSettings settings;
   settings.most = 1;
   const SearchResult one = found(problem, settings);
-  EXPECT_NE(one.verdict, "not_in_catalogue");
+  EXPECT_NE(one.verdict, Verdict::not_in_catalogue);
   EXPECT_TRUE(one.more);
   EXPECT_FALSE(found(problem).more);
 }
@@ -374,11 +380,9 @@ TEST(EffectSearch, DoesNotNameWhatTheDataCouldNotShow) {
   EffectProblem problem = band();
   add_candidate(problem, "tiny", 0.01 * problem.changes.col(2));
   problem.residual = noise(generator) + 4 * problem.changes.col(2);
-  for (const TestedEffect& effect : found(problem).effects) {
-    if (effect.candidate != 8) continue;
-    EXPECT_FALSE(effect.testable);
-    EXPECT_FALSE(effect.accepted || effect.rival);
-  }
+  const TestedEffect effect = effect_of(found(problem), 8);
+  EXPECT_FALSE(effect.testable);
+  EXPECT_FALSE(effect.accepted || effect.rival);
 }
 
 TEST(EffectSearch, RunsNothingThatIsHopeless) {
@@ -391,7 +395,7 @@ TEST(EffectSearch, RunsNothingThatIsHopeless) {
     EXPECT_EQ(amplitudes.row(6).norm(), 0) << "far from it";
     return linear_residual(problem)(amplitudes);
   };
-  EXPECT_EQ(search_effects(problem, {}, counted).verdict, "missing");
+  EXPECT_EQ(search_effects(problem, {}, counted).verdict, Verdict::missing);
   EXPECT_LE(runs, 4);
 }
 
@@ -452,5 +456,5 @@ TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {
   EXPECT_NEAR(gain.before, std::sqrt(before.squaredNorm() / 40), 1e-12);
 }
 
-}  // namespace
+}  // namespace effect_search_test
 }  // namespace tether

@@ -1,4 +1,4 @@
-#include "diagnosis/force_law.hpp"
+#include "diagnosis/explanation/force_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace tether {
 namespace {
 
 /// Two harmonics of a beat of 0.8 s, 0.2 cm large.
-class ForceLawTest : public testing::Test {
+class ForceLawTest : public ::testing::Test {
  protected:
   ForceLawTest() {
     const double w = 2 * std::numbers::pi / 0.8;
@@ -42,7 +42,7 @@ TEST_F(ForceLawTest, FindsASpringAndADamperAndHowSureTheyAre) {
   int right = 0, inside = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const ForceLaw found = law(-1e5 * motion.displacement - 2e3 * motion.velocity + noise(500));
-    if (found.formula().find("un") == std::string::npos || found.terms.size() != 2) continue;
+    if (found.text.find("un") == std::string::npos || found.terms.size() != 2) continue;
     ++right;
     EXPECT_GT(found.explained, 0.99);
     EXPECT_TRUE(found.is_expression);
@@ -56,21 +56,21 @@ TEST_F(ForceLawTest, FindsASpringAndADamperAndHowSureTheyAre) {
 TEST_F(ForceLawTest, TellsACubicFromALinearSpring) {
   const VectorXd cube = motion.displacement.array().cube();
   const ForceLaw found = law(-3e6 * cube + noise(200));
-  ASSERT_EQ(found.terms.size(), 1U) << found.formula();
+  ASSERT_EQ(found.terms.size(), 1U) << found.text;
   EXPECT_EQ(found.terms[0].name, "un^3");
   EXPECT_NEAR(found.terms[0].coefficient, -3e6, 3 * found.terms[0].deviation);
 }
 
 TEST_F(ForceLawTest, APressureIsNoFormulaOfTheWall) {
   const ForceLaw found = law(-0.3 * motion.pressure + noise(100));
-  ASSERT_EQ(found.terms.size(), 1U) << found.formula();
+  ASSERT_EQ(found.terms.size(), 1U) << found.text;
   EXPECT_EQ(found.terms[0].name, "pressure");
   EXPECT_FALSE(found.is_expression);
 }
 
 TEST_F(ForceLawTest, WithoutNoiseTheCoefficientsAreExact) {
   const ForceLaw found = law(-7e4 * motion.displacement);
-  EXPECT_EQ(found.formula(), "-7e+04*un");
+  EXPECT_EQ(found.text, "-7e+04*un");
   EXPECT_NEAR(found.terms[0].coefficient, -7e4, 1e-6);
   EXPECT_NEAR(found.explained, 1, 1e-12);
 }
@@ -90,7 +90,7 @@ TEST_F(ForceLawTest, FewIndependentMomentsAreCautious) {
 TEST_F(ForceLawTest, SaysWhichTermsCannotBeToldApart) {
   motion.pressure = 3e5 * motion.displacement + noise(300);  // a vessel that only fills
   const ForceLaw found = law(-1e5 * motion.displacement + noise(2000));
-  ASSERT_EQ(found.terms.size(), 1U) << found.formula();
+  ASSERT_EQ(found.terms.size(), 1U) << found.text;
   const std::string other = found.terms[0].name == "un" ? "pressure" : "un";
   EXPECT_EQ(found.terms[0].alike, std::vector<std::string>{other});
 }

@@ -1,18 +1,18 @@
-#include "diagnosis/registration.hpp"
+#include "diagnosis/comparison/registration.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "common/observation/observations.hpp"
-#include "diagnosis/comparison.hpp"
-#include "diagnosis/curvature.hpp"
-#include "diagnosis/data_errors.hpp"
-#include "diagnosis/evidence.hpp"
+#include "diagnosis/comparison/comparison.hpp"
+#include "diagnosis/evidence/curvature.hpp"
+#include "diagnosis/evidence/data_errors.hpp"
+#include "diagnosis/evidence/evidence.hpp"
+#include "observation_manager/measurements/observations.hpp"
 #include "tests/diagnosis/beating_tube.hpp"
 
 namespace tether::testing {
-namespace {
+namespace registration_test {
 
 constexpr double noise = 0.02;
 
@@ -115,5 +115,5 @@ TEST(DataErrors, AreNoneOfAllFramesWhereOneIsTheImagedLumen) {
   EXPECT_EQ(problem.allowed.cols(), 4) << "displacement and bias are allowed";
 }
 
-}  // namespace
+}  // namespace registration_test
 }  // namespace tether::testing

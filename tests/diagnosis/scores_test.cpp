@@ -1,12 +1,12 @@
 /// What the search rests on: probabilities, scores beside allowed errors, and admissible amplitudes.
-#include "diagnosis/scores.hpp"
+#include "diagnosis/evidence/scores.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
-#include "diagnosis/chances.hpp"
-#include "diagnosis/effect_problem.hpp"
+#include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/evidence/effect_problem.hpp"
 
 namespace tether {
 namespace {
@@ -18,6 +18,10 @@ TEST(Chances, AreThoseOfTheTables) {
   EXPECT_NEAR(chi_square_tail(7.814728, 3), 0.05, 1e-6);
   EXPECT_NEAR(chi_square_tail(14.06714, 7), 0.05, 1e-6);
   EXPECT_NEAR(one_sided_tail(2.705543, 1), 0.05, 1e-6);
+  EXPECT_NEAR(chi_square_tail(80, 2), std::exp(-40), 1e-6 * std::exp(-40)) << "far out too";
+  EXPECT_EQ(chi_square_tail(0, 3), 1);
+  EXPECT_EQ(chi_square_tail(infinite, 3), 0);
+  EXPECT_TRUE(std::isnan(chi_square_tail(std::nan(""), 3)));
   const std::vector<double> q = holm({0.04, 0.01, 0.03});
   EXPECT_DOUBLE_EQ(q[1], 0.03);
   EXPECT_DOUBLE_EQ(q[2], 0.06);

@@ -1,11 +1,11 @@
-#include "diagnosis/slices.hpp"
+#include "diagnosis/comparison/slices.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/diagnosis/beating_tube.hpp"
 
 namespace tether::testing {
-namespace {
+namespace slices_test {
 
 const std::vector<std::string> regions{"right", "left"};
 
@@ -77,5 +77,5 @@ TEST(Slices, NodesBesideContoursHaveADistanceOthersNone) {
   EXPECT_GT(known, 2 * 48);
 }
 
-}  // namespace
+}  // namespace slices_test
 }  // namespace tether::testing

@@ -1,11 +1,12 @@
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/comparison/statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "diagnosis/run_motion.hpp"
+#include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/comparison/run_motion.hpp"
 
 namespace tether {
 namespace {

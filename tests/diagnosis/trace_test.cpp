@@ -1,4 +1,4 @@
-#include "diagnosis/trace_discrepancy.hpp"
+#include "diagnosis/comparison/trace_discrepancy.hpp"
 
 #include <gtest/gtest.h>
 

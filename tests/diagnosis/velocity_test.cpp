@@ -1,9 +1,11 @@
-#include "diagnosis/velocity_discrepancy.hpp"
+#include "diagnosis/comparison/velocity_discrepancy.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "observation_manager/measurements/independence.hpp"
 
 namespace tether {
 namespace {

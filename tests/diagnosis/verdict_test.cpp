@@ -1,13 +1,14 @@
-#include "diagnosis/verdict.hpp"
+#include "diagnosis/comparison/verdict.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "diagnosis/comparison/chances.hpp"
 #include "tests/diagnosis/beating_tube.hpp"
 
 namespace tether::testing {
-namespace {
+namespace verdict_test {
 
 const UnitSystem cgs = UnitSystem::cgs();
 const std::vector<std::string> regions{"right", "left"};
@@ -45,7 +46,7 @@ TEST(Verdict, NamesPlaceTimeAmountAndDirection) {
 
 TEST(Verdict, TellsTheFirstFailureFromTheWorst) {
   const SourceDiscrepancy source = source_of({0, 0.1, 0, 0, -0.2, -0.15, 0});
-  const Verdict verdict = judge(source, false);
+  const Judgement verdict = judge(source, false);
   EXPECT_EQ(verdict.failures.size(), 2U);
   EXPECT_EQ(sentences(source),
             (std::vector<std::string>{"ct: right, 0.5-0.6 s: the model lies 2 mm too far outward (13.3 sigma)",
@@ -74,7 +75,7 @@ TEST(Verdict, SeesDistancesBothWaysThatCancelInTheMean) {
 
 TEST(Verdict, SaysHowLargeAnOffsetWouldHaveBeenSeen) {
   const SourceDiscrepancy source = source_of({0, 0.01, 0, 0, 0});
-  const Verdict verdict = judge(source, false);
+  const Judgement verdict = judge(source, false);
   EXPECT_EQ(verdict.tests, 10);
   EXPECT_NEAR(verdict.limit, normal_quantile(1 - 0.05 / 40), 1e-12);
   ASSERT_EQ(verdict.visible.size(), 2U);
@@ -93,7 +94,7 @@ TEST(Verdict, WithoutNoiseCallsNothingSignificant) {
 TEST(Verdict, OfTheBeatingTubeHasTheSignOfItsShift) {
   const SourceDiscrepancy source =
       compare(beating_contours({0.01, 0.25, 0}, {0, 0}), regions, beating_run(1, Vec3(0.06, 0, 0)));
-  const Verdict verdict = judge(source, false);
+  const Judgement verdict = judge(source, false);
   ASSERT_EQ(verdict.failures.size(), 2U);
   for (const Failure& failure : verdict.failures) {
     EXPECT_TRUE(failure.shifted);
@@ -134,5 +135,5 @@ TEST(Verdict, RarelyAlarmsWhereNothingIsWrong) {
   EXPECT_LE(alarms, trials / 10);
 }
 
-}  // namespace
+}  // namespace verdict_test
 }  // namespace tether::testing

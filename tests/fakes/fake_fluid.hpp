@@ -10,7 +10,7 @@ namespace tether::fakes {
 ///   direction.
 struct FakeFluid {
   double pressure = 3.0, added_mass = 0.5;
-  bool has_tangent = true, has_state = true;
+  bool has_tangent = true, has_state = true, has_velocity = false;
   double time = 0, new_time = 0;
   protocol::Interface surface = tube();
 
@@ -30,6 +30,7 @@ struct FakeFluid {
     hello.program = "fake fluid 1";
     hello.has_tangent = has_tangent;
     hello.has_state = has_state;
+    hello.has_velocity = has_velocity;
     hello.state_size = 1;
     hello.parameters = {{"pressure", "amplitude of the load", "dyn", "linear", pressure, 0, -1e3, 1e3, 1},
                         {"added_mass", "scale of A", "g/s", "log", added_mass, 0, 0, 1e3, 1}};

@@ -20,7 +20,7 @@ inline std::string option(const std::string& role, const std::string& name) {
   return options.substr(start + key.size(), options.find(' ', start + 1) - start - key.size());
 }
 
-/// Leaves an empty file TETHER_FAKE_STAMP, whose time is that of the fault.
+/// Leaves an empty file TETHER_FAKE_STAMP, whose time is that of the fault (benchmarks/failure).
 inline void stamp() {
   if (const char* file = std::getenv("TETHER_FAKE_STAMP")) std::ofstream stamp(file);
 }

@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "common/mesh/box.hpp"
-#include "common/mesh/sweep.hpp"
 #include "fluid/fluid_solver.hpp"
+#include "tests/mesh/box.hpp"
+#include "vessel/sweep.hpp"
 
 /// Meshes, runs and norms that the fluid's tests share.
 namespace tether::fluid::testing {

@@ -8,7 +8,7 @@
 #include "tests/fluid/womersley.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace inlet_profile_test {
 
 constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
@@ -83,5 +83,5 @@ TEST(InletProfile, WomersleyReproducesTheExactProfileInTime) {
   }
 }
 
-}  // namespace
+}  // namespace inlet_profile_test
 }  // namespace tether::fluid::testing

@@ -8,7 +8,7 @@
 #include "tests/fluid/fluid_testing.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace manufactured_test {
 
 constexpr double pi = std::numbers::pi, rho = 1.3;
 
@@ -115,5 +115,5 @@ TEST(ManufacturedInTime, IsOfFirstOrder) {
   EXPECT_GT(order(pressure_coarse, pressure_fine), 0.5);
 }
 
-}  // namespace
+}  // namespace manufactured_test
 }  // namespace tether::fluid::testing

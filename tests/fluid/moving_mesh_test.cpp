@@ -5,7 +5,7 @@
 #include "tests/fluid/fluid_testing.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace moving_mesh_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -121,5 +121,5 @@ TEST(MassBalance, IsKeptToRoundOffAndOfTheTrueVolumeToFirstOrder) {
   EXPECT_NEAR(order(volume_coarse, volume_fine), 1, 0.15);
 }
 
-}  // namespace
+}  // namespace moving_mesh_test
 }  // namespace tether::fluid::testing

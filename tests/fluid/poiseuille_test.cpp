@@ -7,7 +7,7 @@
 #include "tests/fluid/fluid_testing.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace poiseuille_test {
 
 constexpr double pi = std::numbers::pi, R = 1, L = 3, Q = 1, mu = 0.5, rho = 1.0;
 
@@ -84,5 +84,5 @@ TEST(Poiseuille, VelocityPressureAndWallShearConverge) {
   EXPECT_LT(fine.shear, 0.025);
 }
 
-}  // namespace
+}  // namespace poiseuille_test
 }  // namespace tether::fluid::testing

@@ -6,7 +6,7 @@
 #include "tests/fluid/fluid_testing.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace rheology_flow_test {
 
 constexpr double pi = std::numbers::pi, n = 0.6, K = 1, rho = 1, L = 4, dt = 0.005;
 
@@ -83,5 +83,5 @@ TEST(PowerLaw, LeavesTheOutletUndisturbed) {
   EXPECT_LT(v.topRows<2>().norm(), 0.02 * v.row(2).norm());
 }
 
-}  // namespace
+}  // namespace rheology_flow_test
 }  // namespace tether::fluid::testing

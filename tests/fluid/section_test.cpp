@@ -11,7 +11,7 @@
 #include "tests/fluid/fluid_testing.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace section_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -247,5 +247,5 @@ TEST(Section, EndsTheRunWhereTheBloodMovesAwayFromIt) {
   }
 }
 
-}  // namespace
+}  // namespace section_test
 }  // namespace tether::fluid::testing

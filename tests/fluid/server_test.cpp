@@ -153,6 +153,22 @@ TEST(FluidServer, AnswersMistakesWithTheirReason) {
   EXPECT_THROW(server(protocol::SetState{{1, 2, 3}}), InputError);
 }
 
+TEST(FluidServer, SetsAllParametersOrNone) {
+  FluidServer server = make_server();
+  const auto values = [&] {
+    std::vector<double> all;
+    for (const auto& p : server.hello().parameters) all.push_back(p.value);
+    return all;
+  };
+  const std::vector<double> before = values();
+  EXPECT_THROW(server(protocol::SetParameters{{"fluid.density", "fluid.colour"}, {1.2, 1}}), InputError);
+  EXPECT_THROW(server(protocol::SetParameters{{"fluid.colour", "fluid.density"}, {1, 1.2}}), InputError);
+  EXPECT_THROW(server(protocol::SetParameters{{"fluid.rheology.viscosity", "fluid.density"}, {0.05, -1}}), InputError);
+  EXPECT_EQ(values(), before);
+  server(protocol::SetParameters{{"fluid.density"}, {1.2}});
+  EXPECT_NE(values(), before);
+}
+
 /// The triangles' normals point out of the fluid.
 TEST(FluidServer, OrientsTheInterfaceOutward) {
   FluidServer server = make_server();

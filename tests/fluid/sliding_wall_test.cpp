@@ -6,7 +6,7 @@
 #include "tests/fluid/womersley.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace sliding_wall_test {
 
 constexpr double pi = std::numbers::pi, omega = 2 * pi, nu = 0.7, rho = 1.06, L = 0.75, W = 3;  // Womersley number 3
 
@@ -66,5 +66,5 @@ TEST(SlidingWall, DragsTheBloodAndFeelsItsShear) {
   for (const Errors& errors : {coarse, fine}) EXPECT_LT(errors.sideways, 1e-4);
 }
 
-}  // namespace
+}  // namespace sliding_wall_test
 }  // namespace tether::fluid::testing

@@ -6,7 +6,7 @@
 #include "tests/fluid/fluid_testing.hpp"
 
 namespace tether::fluid::testing {
-namespace {
+namespace womersley_test {
 
 constexpr double pi = std::numbers::pi, omega = 2 * pi, nu = 0.4, rho = 1.06, L = 2;  // Womersley number 4
 
@@ -47,5 +47,5 @@ TEST(Womersley, VelocityAndPressureGradientConverge) {
   EXPECT_LT(fine.gradient, 0.03);
 }
 
-}  // namespace
+}  // namespace womersley_test
 }  // namespace tether::fluid::testing

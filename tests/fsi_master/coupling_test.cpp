@@ -6,7 +6,7 @@
 #include "tests/fsi_master/fakes.hpp"
 
 namespace tether {
-namespace {
+namespace coupling_test {
 
 constexpr double tolerance = 1e-6;
 constexpr double dt = 0.01;
@@ -54,7 +54,7 @@ VectorXd exact_velocity(const fake::Vessel& vessel) {
   return run(vessel, Method::tangents, 1, tight).last.velocity;
 }
 
-class AddedMass : public testing::TestWithParam<fake::Vessel> {};
+class AddedMass : public ::testing::TestWithParam<fake::Vessel> {};
 
 TEST_P(AddedMass, AllMethodsEndOnTheSameStep) {
   const VectorXd exact = exact_velocity(GetParam());
@@ -65,9 +65,9 @@ TEST_P(AddedMass, AllMethodsEndOnTheSameStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RatiosAndSprings, AddedMass,
-                         testing::Values(fake::Vessel{.ratio = 10}, fake::Vessel{.ratio = 100},
-                                         fake::Vessel{.ratio = 10, .hardening = 2e4},
-                                         fake::Vessel{.ratio = 100, .hardening = 2e4}));
+                         ::testing::Values(fake::Vessel{.ratio = 10}, fake::Vessel{.ratio = 100},
+                                           fake::Vessel{.ratio = 10, .hardening = 2e4},
+                                           fake::Vessel{.ratio = 100, .hardening = 2e4}));
 
 TEST(NewtonKrylov, NeedsTwoEvaluationsOfALinearVessel) {
   const Steps heavy = run({.ratio = 10}, Method::operators, 60);
@@ -235,5 +235,5 @@ TEST(Extrapolation, ForeseesTwoModes) {
   EXPECT_LT(worst, 0.01);
 }
 
-}  // namespace
+}  // namespace coupling_test
 }  // namespace tether

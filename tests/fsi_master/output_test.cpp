@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder of its own for each test.
-class Output : public testing::Test {
+class Output : public ::testing::Test {
  protected:
-  Output() : folder(fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name()) {
+  Output() : folder(fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(folder);
     fs::create_directories(folder);
   }

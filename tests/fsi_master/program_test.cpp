@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Program : public testing::Test {
+class Program : public ::testing::Test {
  protected:
   Program()
-      : folder(fs::path(testing::TempDir()) / fmt::format("fsi_master_{}", getpid()) /
-               testing::UnitTest::GetInstance()->current_test_info()->name()) {
+      : folder(fs::path(::testing::TempDir()) / fmt::format("fsi_master_{}", getpid()) /
+               ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(folder);
     fs::create_directories(folder);
     write_case("time: {step: 0.01, end: 0.08}");

@@ -5,7 +5,7 @@
 #include "tests/fsi_master/fakes.hpp"
 
 namespace tether {
-namespace {
+namespace time_loop_test {
 
 constexpr double dt = 0.01;
 
@@ -113,5 +113,5 @@ TEST(TimeLoop, ACodeWithoutStateIsSimulated) {
   EXPECT_TRUE(coupled.loop.snapshot().fluid.empty());
 }
 
-}  // namespace
+}  // namespace time_loop_test
 }  // namespace tether

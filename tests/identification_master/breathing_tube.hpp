@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "common/observation/surface_series.hpp"
 #include "identification_master/identification.hpp"
-#include "tests/observation/lumens.hpp"
+#include "observation_manager/measurements/surface_series.hpp"
+#include "tests/observation_manager/lumens.hpp"
 
 namespace tether::testing {
 
@@ -17,6 +17,15 @@ struct BreathingTube {
 
   static double swing(double time) { return std::pow(std::sin(std::numbers::pi * time / beat), 2); }
   static double widening(double z, double front, double rear) { return front + (rear - front) * z / length; }
+  /// Along z, of what flows in the widening tube, in a way: it falls to zero at the wall, and is none (NaN) behind it.
+  static Points velocity(const Points& at, double time, double front, double rear) {
+    Points all = Points::Zero(3, at.cols());
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      const double share = at.col(i).head<2>().norm() / radius;
+      all(2, i) = share > 1 ? std::nan("") : swing(time) * widening(at(2, i), front, rear) * (1 - share * share);
+    }
+    return all;
+  }
   /// Nodes on the tube.
   static TriangleSurface at(int around, int along, double time, double front, double rear) {
     return tube(around, along, length, [=](double z) { return radius + swing(time) * widening(z, front, rear); });
@@ -76,6 +85,8 @@ class BreathingEnsemble : public Ensemble {
       states(0, static_cast<Eigen::Index>(i)) = BreathingTube::swing(end) * front;
       ParticleReport report;
       report.observables = {BreathingTube::swing(end) * front};
+      const Points velocity = BreathingTube::velocity(data_.points(), end, front, rear);
+      report.velocities.assign(velocity.data(), velocity.data() + velocity.size());
       if (step.observe)
         for (const Sample& sample : data_.observe(BreathingTube::at(around_, along_, end, front, rear).points, end)) {
           report.distances.push_back(sample.distance);

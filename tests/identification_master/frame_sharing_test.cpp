@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace tether {
-namespace {
+namespace frame_sharing_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr StepEnds ends{.start = 0, .dt = 0.01, .length = 0.8};
@@ -91,5 +91,5 @@ TEST(FrameSharing, NothingIsSeenOutsideAndOfNothing) {
   EXPECT_NEAR(frames.at(0.25).gap, 0.2, 1e-12);
 }
 
-}  // namespace
+}  // namespace frame_sharing_test
 }  // namespace tether

@@ -22,7 +22,7 @@ const std::vector<protocol::ParameterInfo> announced{
     {"fluid.shift", "", "s", "linear", 0, 0, -0.1, 0.1, undefined, undefined},
     {"fluid.age", "", "s", "linear", 50, undefined, 0, infinite, 5, undefined}};
 
-class Parameters : public testing::Test {
+class Parameters : public ::testing::Test {
  protected:
   IdentifiedParameters made(const std::string& text) const {
     std::ofstream(folder / "case.yaml")

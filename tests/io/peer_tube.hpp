@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/io/vessel_files.hpp"
+#include "vessel/vessel_files.hpp"
 
 namespace tether {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "common/mesh/box.hpp"
-#include "common/mesh/quality.hpp"
 #include "common/mesh/surface.hpp"
+#include "tests/mesh/box.hpp"
 #include "tests/mesh/mesh_assertions.hpp"
+#include "vessel/quality.hpp"
 
 namespace tether {
 namespace {

@@ -7,8 +7,8 @@
 #include "common/base/child_process.hpp"
 #include "common/io/vtp_writer.hpp"
 #include "common/io/vtu_writer.hpp"
-#include "common/mesh/sweep.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "vessel/sweep.hpp"
 
 namespace tether {
 namespace {
@@ -17,7 +17,7 @@ struct Colour {
   double red, green, blue;
 };
 
-class Picture : public testing::Test {
+class Picture : public ::testing::Test {
  protected:
   void SetUp() override {
     const WallMesh wall = circular_tube(1, 4, 0.2, 16, 8).wall;

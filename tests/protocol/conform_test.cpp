@@ -1,4 +1,4 @@
-#include "common/protocol/conform.hpp"
+#include "common/protocol/conform/conform.hpp"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +106,21 @@ struct Credulous : fakes::FakeFluid {
   Ready operator()(const SetParameters&) { return {}; }
 };
 
+/// Sets names one after the other until it finds one that it does not know.
+struct HalfWay : fakes::FakeFluid {
+  using FakeFluid::operator();
+  Ready operator()(const SetParameters& m) {
+    for (std::size_t i = 0; i < m.names.size(); ++i) FakeFluid::operator()(SetParameters{{m.names[i]}, {m.values[i]}});
+    return {};
+  }
+};
+
+struct WithoutVelocity : fakes::FakeFluid {
+  using FakeFluid::operator();
+  Velocity operator()(const GetVelocity&) { throw run_error("cannot interpolate"); }
+  Ready operator()(const MoveInterface&) { return {}; }
+};
+
 TEST(Conform, Finds_a_wrong_tangent) {
   EXPECT_EQ(faults_of<ToSolid>("solid", WrongTangent{}), Names{"tangent is the derivative of the evaluation"});
 }
@@ -130,6 +145,17 @@ TEST(Conform, Finds_an_asymmetric_preconditioner) {
 
 TEST(Conform, Finds_that_unknown_parameters_are_swallowed) {
   EXPECT_EQ(faults_of<ToFluid>("fluid", Credulous{}), Names{"parameters can be set, unknown ones are refused"});
+}
+
+TEST(Conform, Finds_that_known_parameters_are_set_beside_an_unknown_one) {
+  EXPECT_EQ(faults_of<ToFluid>("fluid", HalfWay{}), Names{"parameters can be set, unknown ones are refused"});
+}
+
+TEST(Conform, A_fluid_that_announces_its_velocity_and_fails_to_tell_it_is_at_fault) {
+  WithoutVelocity fluid;
+  EXPECT_EQ(faults_of<ToObservedFluid>("fluid", fluid), Names{});
+  fluid.has_velocity = true;
+  EXPECT_EQ(faults_of<ToObservedFluid>("fluid", fluid), Names{"tells its velocity inside, and none outside"});
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include "tests/protocol/run_job.hpp"
 
-/// Whatever dies, whenever, however the job was started: one message, the end within seconds, no process left.
+/// Whatever dies, whenever, however the job was started: one message, an end of its own accord, no process left.
+/// (How soon: benchmarks/failure.)
 namespace tether::tests {
 namespace {
 
@@ -39,17 +40,18 @@ std::string without_details(const std::string& text) {
   return result;
 }
 
-class AnyDeath : public testing::TestWithParam<Case> {};
+class AnyDeath : public ::testing::TestWithParam<Case> {};
 
 TEST_P(AnyDeath, Ends_with_one_message_and_no_orphan) {
   const Case& c = GetParam();
   const bool hangs = std::string(c.fault).find("hang") != std::string::npos;
   Environment environment{{"TETHER_FAKE", c.fault}};
-  if (hangs) environment["TETHER_START_LIMIT"] = environment["TETHER_SETUP_LIMIT"] = "2";
+  if (hangs)
+    environment["TETHER_START_LIMIT"] = environment["TETHER_SETUP_LIMIT"] = "8";  // a busy machine starts slowly
   const auto job = run_job(command_for(c.start), environment);
   EXPECT_EQ(without_details(job.errors), c.message[0] == '\0' ? "" : std::string("fake_master: ") + c.message + "\n");
   EXPECT_EQ(job.exit_code, c.exit_code);
-  EXPECT_LT(job.seconds_after_fault, hangs ? 2 + 5 : 5);
+  EXPECT_FALSE(job.had_to_be_ended);
   EXPECT_TRUE(job.orphans.empty());
 }
 
@@ -59,46 +61,46 @@ constexpr auto before_mpi = "solid ended before it reached MPI", setting_up = "s
                fluid_0 = "fluid died while computing step 0 (FluidEvaluate)",
                failed = "solid failed while computing step 0 (SolidEvaluate): element 12 is inverted",
                refused = "solid: case.yaml:7: solid.density: -1 g/cm3: must be positive",
-               silent = "solid gave no sign for 2 s while setting up (TETHER_SETUP_LIMIT=SECONDS lets it take longer)",
-               too_late = "solid did not reach MPI within 2 s",
-               not_started = "MPI did not start within 2 s: a program of the mpirun line did not reach it",
+               silent = "solid gave no sign for 8 s while setting up (TETHER_SETUP_LIMIT=SECONDS lets it take longer)",
+               too_late = "solid did not reach MPI within 8 s",
+               not_started = "MPI did not start within 8 s: a program of the mpirun line did not reach it",
                line_ended = "interrupted while MPI started: a program of the mpirun line ended";
 
 // mpirun's exit code for a killed process is 137, whatever the master returns.
 INSTANTIATE_TEST_SUITE_P(
     Fault, AnyDeath,
-    testing::Values(Case{"alone_none", Start::alone, "", "", 0},
-                    Case{"alone_at_start", Start::alone, "solid.kill=start", before_mpi, 1},
-                    Case{"alone_setting_up", Start::alone, "solid.kill=hello", setting_up, 1},
-                    Case{"alone_computing", Start::alone, "solid.kill=SolidEvaluate", step_0, 1},
-                    Case{"alone_fluid", Start::alone, "fluid.kill=FluidEvaluate", fluid_0, 1},
-                    Case{"alone_stopping", Start::alone, "solid.kill=Stop", stopping, 1},
-                    Case{"alone_early_exit", Start::alone, "solid.exit=start", before_mpi, 1},
-                    Case{"alone_exit_in_step", Start::alone, "solid.exit=SolidEvaluate", step_0, 1},
-                    Case{"alone_never_appears", Start::alone, "solid.hang=start", too_late, 1},
-                    Case{"alone_hangs_setting_up", Start::alone, "solid.hang=hello", silent, 1},
-                    Case{"alone_failure", Start::alone, "solid.fail=SolidEvaluate", failed, 1},
-                    Case{"alone_input", Start::alone, "solid.refuse=hello", refused, 2},
-                    Case{"alone_master", Start::alone, "master.kill=step1", "", 137},
-                    Case{"mpirun_none", Start::mpirun, "", "", 0},
-                    Case{"mpirun_at_start", Start::mpirun, "solid.kill=start", before_mpi, 137},
-                    Case{"mpirun_setting_up", Start::mpirun, "solid.kill=hello", setting_up, 137},
-                    Case{"mpirun_computing", Start::mpirun, "solid.kill=SolidEvaluate", step_0, 137},
-                    Case{"mpirun_never_appears", Start::mpirun, "solid.hang=start", too_late, 1},
-                    Case{"mpirun_input", Start::mpirun, "solid.refuse=hello", refused, 2},
-                    Case{"mpirun_master", Start::mpirun, "master.kill=step1", "", 137},
-                    Case{"mpmd_none", Start::mpmd, "", "", 0},
-                    Case{"mpmd_at_start", Start::mpmd, "solid.kill=start", line_ended, 137},
-                    Case{"mpmd_setting_up", Start::mpmd, "solid.kill=hello", setting_up, 137},
-                    Case{"mpmd_computing", Start::mpmd, "solid.kill=SolidEvaluate", step_0, 137},
-                    Case{"mpmd_never_appears", Start::mpmd, "solid.hang=start", not_started, 1},
-                    Case{"mpmd_input", Start::mpmd, "solid.refuse=hello", refused, 2},
-                    Case{"mpmd_master", Start::mpmd, "master.kill=step1", "", 137}),
+    ::testing::Values(Case{"alone_none", Start::alone, "", "", 0},
+                      Case{"alone_at_start", Start::alone, "solid.kill=start", before_mpi, 1},
+                      Case{"alone_setting_up", Start::alone, "solid.kill=hello", setting_up, 1},
+                      Case{"alone_computing", Start::alone, "solid.kill=SolidEvaluate", step_0, 1},
+                      Case{"alone_fluid", Start::alone, "fluid.kill=FluidEvaluate", fluid_0, 1},
+                      Case{"alone_stopping", Start::alone, "solid.kill=Stop", stopping, 1},
+                      Case{"alone_early_exit", Start::alone, "solid.exit=start", before_mpi, 1},
+                      Case{"alone_exit_in_step", Start::alone, "solid.exit=SolidEvaluate", step_0, 1},
+                      Case{"alone_never_appears", Start::alone, "solid.hang=start", too_late, 1},
+                      Case{"alone_hangs_setting_up", Start::alone, "solid.hang=hello", silent, 1},
+                      Case{"alone_failure", Start::alone, "solid.fail=SolidEvaluate", failed, 1},
+                      Case{"alone_input", Start::alone, "solid.refuse=hello", refused, 2},
+                      Case{"alone_master", Start::alone, "master.kill=step1", "", 137},
+                      Case{"mpirun_none", Start::mpirun, "", "", 0},
+                      Case{"mpirun_at_start", Start::mpirun, "solid.kill=start", before_mpi, 137},
+                      Case{"mpirun_setting_up", Start::mpirun, "solid.kill=hello", setting_up, 137},
+                      Case{"mpirun_computing", Start::mpirun, "solid.kill=SolidEvaluate", step_0, 137},
+                      Case{"mpirun_never_appears", Start::mpirun, "solid.hang=start", too_late, 1},
+                      Case{"mpirun_input", Start::mpirun, "solid.refuse=hello", refused, 2},
+                      Case{"mpirun_master", Start::mpirun, "master.kill=step1", "", 137},
+                      Case{"mpmd_none", Start::mpmd, "", "", 0},
+                      Case{"mpmd_at_start", Start::mpmd, "solid.kill=start", line_ended, 137},
+                      Case{"mpmd_setting_up", Start::mpmd, "solid.kill=hello", setting_up, 137},
+                      Case{"mpmd_computing", Start::mpmd, "solid.kill=SolidEvaluate", step_0, 137},
+                      Case{"mpmd_never_appears", Start::mpmd, "solid.hang=start", not_started, 1},
+                      Case{"mpmd_input", Start::mpmd, "solid.refuse=hello", refused, 2},
+                      Case{"mpmd_master", Start::mpmd, "master.kill=step1", "", 137}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(Death, Even_what_cleans_up_is_gone_within_five_seconds) {
-  const auto job = run_job(command_for(Start::alone), {{"TETHER_FAKE", "solid.kill=SolidEvaluate"}});
-  EXPECT_LT(job.seconds_after_fault + seconds_until_empty(), 5);
+TEST(Death, Even_what_cleans_up_goes) {
+  run_job(command_for(Start::alone), {{"TETHER_FAKE", "solid.kill=SolidEvaluate"}});
+  EXPECT_TRUE(nothing_remains());
 }
 
 /// Three levels: identification_master, two fsi_masters, two fluids and solids.
@@ -129,11 +131,11 @@ TEST(Groups, A_death_on_any_level_ends_all_three) {
               "identification_master: fsi_master failed while answering Observe: fluid died while computing step 0 "
               "(FluidEvaluate)\n");
     EXPECT_TRUE(low.orphans.empty());
-    EXPECT_LT(low.seconds_after_fault, 5);
+    EXPECT_FALSE(low.had_to_be_ended);
     const auto middle = run_job(groups_command(start), {{"TETHER_FAKE", "fsi_master.kill=Observe"}});
     EXPECT_EQ(without_details(middle.errors), "identification_master: fsi_master died while answering Observe\n");
     EXPECT_TRUE(middle.orphans.empty());
-    EXPECT_LT(middle.seconds_after_fault, 5);
+    EXPECT_FALSE(middle.had_to_be_ended);
   }
 }
 

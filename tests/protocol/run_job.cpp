@@ -23,11 +23,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double seconds_since_written(const fs::path& file) {
-  if (!fs::exists(file)) return 0;
-  return std::chrono::duration<double>(fs::file_time_type::clock::now() - fs::last_write_time(file)).count();
-}
-
 void nap(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
@@ -63,22 +58,30 @@ std::string last_mark;
   _exit(127);
 }
 
+constexpr double patience = 60;  // [s], for what takes a second where nothing else runs
+
 /// Waits for the child; kills the whole job after `limit` seconds.
-int wait_for(pid_t child, const std::string& mark, double limit) {
+void wait_for(pid_t child, const std::string& mark, double limit, JobResult& result) {
   const auto start = Clock::now();
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     nap(0.005);
     if (seconds_since(start) < limit) continue;
+    result.had_to_be_ended = true;
     for (const int pid : marked_processes(mark)) kill(pid, SIGKILL);
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// What is left after a grace of 10 s, which a busy machine may take; ended here so that no test leaves a process.
-std::vector<int> remaining(const std::string& mark) {
+bool empties(const std::string& mark, bool with_cleaners) {
   const auto start = Clock::now();
-  while (!marked_processes(mark).empty() && seconds_since(start) < 10) nap(0.05);
+  while (!marked_processes(mark, with_cleaners).empty() && seconds_since(start) < patience) nap(0.05);
+  return marked_processes(mark, with_cleaners).empty();
+}
+
+/// What is left all the same is ended here, so that no test leaves a process.
+std::vector<int> remaining(const std::string& mark) {
+  if (empties(mark, false)) return {};
   const auto orphans = marked_processes(mark);
   for (const int pid : orphans) kill(pid, SIGKILL);
   return orphans;
@@ -93,17 +96,13 @@ JobResult run_job(const std::vector<std::string>& command, const Environment& ex
   fs::create_directories(folder);
   Environment environment = extra;
   environment["TETHER_TEST_JOB"] = name;
-  environment["TETHER_FAKE_STAMP"] = folder / "fault";
   environment["OMPI_ALLOW_RUN_AS_ROOT"] = environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
   const std::string mark = "TETHER_TEST_JOB=" + name + '\0';
   last_mark = mark;
-  const auto start = Clock::now();
   const pid_t child = fork();
   if (child == 0) become(command, environment, folder);
   JobResult result;
-  result.exit_code = wait_for(child, mark, limit);
-  result.seconds = seconds_since(start);
-  result.seconds_after_fault = seconds_since_written(folder / "fault");
+  wait_for(child, mark, limit, result);
   result.orphans = remaining(mark);
   result.output = contents(folder / "out");
   result.errors = contents(folder / "err");
@@ -111,10 +110,8 @@ JobResult run_job(const std::vector<std::string>& command, const Environment& ex
   return result;
 }
 
-double seconds_until_empty() {
-  const auto start = Clock::now();
-  while (!marked_processes(last_mark, true).empty() && seconds_since(start) < 10) nap(0.05);
-  return seconds_since(start);
+bool nothing_remains() {
+  return empties(last_mark, true);
 }
 
 std::string test_program(const std::string& name) {

@@ -9,12 +9,16 @@
 
 #include "common/base/child_process.hpp"
 #include "common/io/lumen_motion.hpp"
-#include "common/observation/observed_case.hpp"
+#include "common/io/record_file.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/missing_force.hpp"
+#include "identification_master/results/estimate.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "tests/scenarios/surface_file.hpp"
 
 namespace tether {
-namespace {
+namespace browser_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -64,7 +68,7 @@ solid: {{support: {{regions: {{spine: {{stiffness: 0}}}}}}}}
 )";
 
 /// Two models of a beat's first part; the second is held by the spine, and what was measured is its lumen.
-class ReportPage : public testing::Test {
+class ReportPage : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     fs::create_directories(folder);
@@ -101,78 +105,90 @@ class ReportPage : public testing::Test {
       if (group["region"].is_null() && group["series"].is_null()) return group;
     return {};
   }
-  static Json distance(const std::string& name, const char* kind) {
+  static Misfit distance(const std::string& name, const char* kind) {
     const Json group = whole(compared(name)[kind]["all_frames"]);
-    return {{"l2", group["l2"]}, {"in_noise", group["in_noise"]["l2"]}};
+    return {group["l2"], group["in_noise"]["l2"]};
+  }
+  static Finding candidate(int i, CandidateKind kind, bool accepted) {
+    Finding made;
+    made.name = fmt::format("effect_{}<i>", i);
+    made.where = "spine";
+    made.meaning = "no <script>document.documentElement.dataset.errors = 'markup'</script>";
+    made.kind = kind;
+    made.accepted = accepted;
+    made.z = 9.0 - i;
+    made.q = 1e-9;
+    made.amplitude = {"a.b", "", 1e6, 9e5, 1.1e6, "1", 4e6, false};
+    made.confirmed_by_runs = accepted;
+    made.retained_information = 0.5;
+    return made;
+  }
+  static Diagnosis diagnosis(Verdict verdict, const char* sentence, std::vector<Finding> effects) {
+    Diagnosis made;
+    made.case_name = "model_0";
+    made.title = "t";
+    made.verdict = verdict;
+    made.sentences = {sentence};
+    made.effects = std::move(effects);
+    made.independent_data = 40;
+    made.cost = {17, 14, 12, 5};
+    return made;
+  }
+  /// The page of a diagnosis alone: what its head says.
+  static Json head_of(const std::string& name, const Diagnosis& diagnosis) {
+    fs::create_directories(folder / name);
+    write_record(folder / name / "diagnosis.json", diagnosis);
+    EXPECT_EQ(tether({"report", (folder / name).string()}).exit_code, 0);
+    return found_in(folder / name / "report.html", R"js(
+      found = { errors: document.documentElement.dataset.errors || "", chip: document.querySelector(".chip").textContent,
+        verdict: document.querySelector(".verdict").textContent,
+        list: [...document.querySelectorAll("#head .further li")].map((item) => item.textContent) };)js");
   }
   /// What `tether explain` would say of these two.
   static void explain() {
     fs::create_directories(folder / "diagnosis_0");
-    Json diagnosis{{"case", "model_0"}, {"title", "t"}, {"verdict", "missing"}, {"sentences", {"MISSING: x"}}};
-    for (int i = 0; i < candidates; ++i)
-      diagnosis["effects"].push_back(
-          {{"name", fmt::format("effect_{}<i>", i)},
-           {"where", "spine"},
-           {"meaning", "no <script>document.documentElement.dataset.errors = 'markup'</script>"},
-           {"kind", "effect"},
-           {"accepted", i == 0},
-           {"z", 9.0 - i},
-           {"q", 1e-9},
-           {"amplitude",
-            {{"parameter", "a.b"}, {"value", 1e6}, {"lower", 9e5}, {"upper", 1.1e6}, {"unit", "1"}, {"without", 4e6}}},
-           {"retained_information", 0.5},
-           {"group", nullptr},
-           {"held_out_gain", nullptr}});
-    diagnosis["look_alike"] = {{1.0, 0.5}, {0.5, 1.0}};
-    diagnosis["detectable"] = {{{"name", "x"},
-                                {"where", ""},
-                                {"parameter", "a.b"},
-                                {"value", 2.0},
-                                {"unit", "1"},
-                                {"without", 0.0},
-                                {"in_scale", 0.4}}};
+    std::vector<Finding> effects;
+    for (int i = 0; i < candidates; ++i) effects.push_back(candidate(i, CandidateKind::effect, i == 0));
+    Diagnosis diagnosis = ReportPage::diagnosis(Verdict::missing, "MISSING: x", effects);
+    diagnosis.look_alike = (MatrixXd(2, 2) << 1, 0.5, 0.5, 1).finished();
+    diagnosis.detectable = {{"x", "", "a.b", 2, "1", 0, 0.4}};
+    write_record(folder / "diagnosis_0/diagnosis.json", diagnosis);
     fs::create_directories(folder / "identification_1");
-    const Json range{{"value", 1e6}, {"lower_95", 9e5}, {"upper_95", 1.1e6}};
-    write(
-        "identification_1/estimate.json",
-        Json{
-            {"parameters",
-             {{{"name", "wall"}, {"unit", "g/(cm s2)"}, {"transform", "log2"}, {"prior", range}, {"estimate", range}}}}}
-            .dump());
+    const EstimateRange range{1e6, 9e5, 1.1e6, 0, 1};
+    Estimate estimate;
+    estimate.parameters = {{"wall", {}, "g/(cm s2)", "log2", range, range, {}, 1}};
+    write_record(folder / "identification_1/estimate.json", estimate);
     write("identification_1/estimate.csv",
           "time [s], wall, wall.lower, wall.upper\n0, 3e6, 1e6, 9e6\n0.1, 1e6, 9e5, 1.1e6\n");
-    const Json force{{"region", "spine"},
-                     {"unit", "g/(cm s2)"},
-                     {"time", {0.0, 0.1}},
-                     {"value", {0.0, -5.0}},
-                     {"lower", {-1.0, -6.0}},
-                     {"upper", {1.0, -4.0}},
-                     {"law", {{"text", "-1e5 y"}, {"r2", 0.9}, {"terms", Json::array()}}}};
-    write("force.json", Json{{"regions", {force}}, {"sentences", {"a force"}}}.dump());
-    write("diagnosis_0/diagnosis.json", diagnosis.dump());
-    Json models;
-    for (const char* name : {"model_0", "model_1"})
-      models.push_back({{"number", models.size()},
-                        {"name", name},
-                        {"case", std::string(name) + ".yaml"},
-                        {"run", name},
-                        {"diagnosis", models.empty() ? Json("diagnosis_0") : Json()},
-                        {"identification", models.empty() ? Json() : Json("identification_1")},
-                        {"added", Json::array()},
-                        {"accepted", true},
-                        {"reason", ""},
-                        {"training", distance(name, "training")},
-                        {"held_out", distance(name, "held_out")},
-                        {"held_out_gain", nullptr}});
-    write("explain.json", Json{{"case", "model_0"},
-                               {"title", "A tube & its wall"},
-                               {"verdict", "missing"},
-                               {"sentences", {"MISSING: support by the spine", "Held-out frames agree"}},
-                               {"models", models},
-                               {"best", 1},
-                               {"missing_force", "force.json"},
-                               {"cost", {{"runs", 2}, {"cpu_seconds", 3.0}, {"wall_seconds", 2.0}}}}
-                              .dump());
+    const ForceLaw law{{{"displacement", -1e5, 2e3, {"pressure"}}}, 0.9, true, "-1e5 displacement"};
+    write_record(
+        folder / "force.json",
+        ForceFound{
+            {{"spine", "force_spine", "g/(cm2 s2)", {0, 0.1}, {0, -5}, {-1, -6}, {1, -4}, law}}, {"a force"}, {}});
+    write_record(folder / "explain.json", explanation());
+  }
+  static Explanation explanation() {
+    Explanation made;
+    made.case_name = "model_0";
+    made.title = "A tube & its wall";
+    made.verdict = Verdict::missing;
+    made.sentences = {"MISSING: support by the spine", "Held-out frames agree"};
+    for (const char* name : {"model_0", "model_1"}) {
+      ExplainedModel model;
+      model.number = static_cast<int>(made.models.size());
+      model.name = model.run = name;
+      model.case_file = model.run + ".yaml";
+      model.training = distance(name, "training");
+      model.held_out = distance(name, "held_out");
+      made.models.push_back(model);
+    }
+    made.models[0].diagnosis = "diagnosis_0";
+    made.models[1].identification = "identification_1";
+    made.best = 1;
+    made.missing_force = "force.json";
+    made.effects = {candidate(0, CandidateKind::effect, true)};
+    made.cost = {3, 2};
+    return made;
   }
 
   static constexpr double step = 4e-3;
@@ -215,10 +231,12 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
       names: document.querySelector("#ranking .name").textContent, title: document.title, wide: root.scrollWidth,
       first: at(0), last: at(2), models: document.querySelectorAll("#models tbody tr").length,
       charts: [...document.querySelectorAll(".chart")].filter((chart) => !chart.querySelector("svg")).length,
-      sections: [...document.querySelectorAll("section")].map((s) => s.id), tiles: document.querySelector(".tiles").textContent };)js");
+      sections: [...document.querySelectorAll("section")].map((s) => s.id), tiles: document.querySelector(".tiles").textContent,
+      law: document.querySelector("#force .note").textContent.replaceAll("\u00a0", " ") };)js");
   EXPECT_EQ(found["state"], "ready");
   EXPECT_EQ(found["errors"], "");
   EXPECT_EQ(found["verdict"], "Support by the spine");
+  EXPECT_EQ(found["chip"], "Missing effect found");
   EXPECT_EQ(found["title"], "A tube & its wall");
   EXPECT_EQ(found["names"], "effect 0<i> · spine") << "text, not markup";
   EXPECT_EQ(found["rows"], candidates);
@@ -239,11 +257,44 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
   EXPECT_GT((blue(before) - blue(after)) * (mean < 0 ? 1 : -1), 10) << "blue where the data lie inside the model; the "
                                                                        "second model is at the data";
   EXPECT_GT(std::abs(blue(before) - blue(found["first"][0])), 5) << "the slider changes the colours";
-  const std::string held_out = fmt::format("{:.2f}", 10 * distance("model_0", "held_out")["l2"].get<double>());
-  EXPECT_NE(found["tiles"].get<std::string>().find(held_out), std::string::npos) << found["tiles"];
+  const std::string held_out = fmt::format("{:.2f}", 10 * distance("model_0", "held_out").length);
+  const std::string tiles = found["tiles"];
+  EXPECT_NE(tiles.find(held_out), std::string::npos) << tiles;
+  EXPECT_NE(tiles.find("Runs of the model173 s of CPU"), std::string::npos) << tiles;
+  EXPECT_EQ(found["law"],
+            "−1 × 10⁵ displacement explains 90 % of the force. displacement: −1 × 10⁵ ± 2000, in whose "
+            "place pressure would do as well");
 }
 
-TEST_F(ReportPage, OfAComparisonAndOfMeasurementsThatHaveChanged) {
+TEST_F(ReportPage, ListsWhatCannotBeToldApart) {
+  std::vector<Finding> effects;
+  for (int i = 0; i < 4; ++i) effects.push_back(candidate(i, CandidateKind::effect, i == 0));
+  for (int i = 0; i < 3; ++i) effects[i].group = "1";
+  for (int i = 1; i < 3; ++i) effects[i].rival = true;
+  effects.push_back(candidate(4, CandidateKind::data, true));
+  const Json found =
+      head_of("ambiguous", diagnosis(Verdict::ambiguous, "AMBIGUOUS: in words that nobody reads", effects));
+  EXPECT_EQ(found["errors"], "");
+  EXPECT_EQ(found["chip"], "Cannot tell which");
+  EXPECT_EQ(found["verdict"], "These data cannot tell 3 effects from each other");
+  const std::string amount = "<i> · spine, 1 (0.9 … 1.1) × 10⁶";
+  const Json expected{"Effect 0" + amount, "Effect 1" + amount, "Effect 2" + amount,
+                      "The data are off: effect 4" + amount};
+  EXPECT_EQ(found["list"], expected);
+}
+
+TEST_F(ReportPage, AnErrorOfTheDataIsNoMissingEffect) {
+  const std::vector<Finding> error{candidate(0, CandidateKind::data, true)};
+  const Json off = head_of("off", diagnosis(Verdict::missing, "in words that nobody reads", error));
+  EXPECT_EQ(off["errors"], "");
+  EXPECT_EQ(off["chip"], "The data are off");
+  EXPECT_EQ(off["verdict"], "In words that nobody reads");
+  const std::vector<Finding> effects{candidate(0, CandidateKind::numerics, true),
+                                     candidate(1, CandidateKind::effect, false)};
+  EXPECT_EQ(head_of("coarse", diagnosis(Verdict::missing, "x", effects))["chip"], "The numerics are too coarse");
+}
+
+TEST_F(ReportPage, OfAComparisonAloneAndWithoutItsWall) {
   const std::string run = (folder / "model_0").string();
   ASSERT_EQ(tether({"report", run}).exit_code, 0);
   const std::string script =
@@ -254,20 +305,24 @@ TEST_F(ReportPage, OfAComparisonAndOfMeasurementsThatHaveChanged) {
   EXPECT_EQ(found["errors"], "");
   EXPECT_EQ(found["walls"], 1);
 
-  fs::copy_file(folder / "frame_28.stl", folder / "kept.stl");
-  fs::copy_file(folder / "frame_12.stl", folder / "frame_28.stl", fs::copy_options::overwrite_existing);
+  fs::rename(folder / "frame_28.stl", folder / "kept.stl");  // the report shows what was compared
   ASSERT_EQ(tether({"report", run}).exit_code, 0);
-  const Json changed = found_in(folder / "model_0/report.html", script);
-  EXPECT_EQ(changed["errors"], "");
-  EXPECT_EQ(changed["walls"], 0);
-  EXPECT_NE(changed["notes"].get<std::string>().find("case or measurements have changed since"), std::string::npos)
-      << changed["notes"];
+  EXPECT_EQ(found_in(folder / "model_0/report.html", script)["walls"], 1);
   fs::rename(folder / "kept.stl", folder / "frame_28.stl");
+
+  fs::rename(folder / "model_0/wall.json", folder / "wall.json");
+  ASSERT_EQ(tether({"report", run}).exit_code, 0);
+  const Json without = found_in(folder / "model_0/report.html", script);
+  EXPECT_EQ(without["errors"], "");
+  EXPECT_EQ(without["walls"], 0);
+  EXPECT_NE(without["notes"].get<std::string>().find("wall.json: cannot be read"), std::string::npos)
+      << without["notes"];
+  fs::rename(folder / "wall.json", folder / "model_0/wall.json");
 
   const ChildEnd nothing = tether({"report", (folder / "none").string()});
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_NE(nothing.errors.find("none: is not a folder of results"), std::string::npos) << nothing.errors;
 }
 
-}  // namespace
+}  // namespace browser_test
 }  // namespace tether

@@ -6,32 +6,74 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
+#include "diagnosis/results/comparison.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/missing_force.hpp"
+#include "identification_master/results/estimate.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {
-namespace {
+namespace collect_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* comparison = R"({
- "case": "tube", "title": "A <b>tube</b>", "units": {"system": "cgs", "length": "cm", "time": "s"},
- "sentences": ["ct: spine, 0.1 s: the model lies 1 mm too far outward, 6 sigma"],
- "sources": [{"name": "ct", "kind": "surfaces", "series": ["ct"], "regions": ["spine"],
-   "noise": {"deviation": 0.02, "correlation_length": 0.5, "correlation_time": 0}, "notes": ["two holes"], "frames": 1,
-   "frames_outside_the_run": [],
-   "training": {"verdict": {}, "all_frames": [{"series": null, "region": null, "l2": 0.1}, {"series": "ct", "region": null, "l2": 0.1}]},
-   "held_out": {"verdict": {}, "all_frames": []},
-   "moments": [{"time": 0.1, "held_out": false, "frames": [{"series": "ct", "frame": 0, "time": 0.1}],
-     "groups": [{"series": null, "region": "spine", "l2": 0.2}, {"series": "ct", "region": "spine", "l2": 0.2}]}]}],
- "traces": [], "velocities": []
-})";
-constexpr const char* diagnosis =
-    R"({"verdict": "nothing_missing", "sentences": ["NOTHING MISSING: ..."], "case": "tube",
- "title": "A tube", "effects": [], "detectable": [], "path": []})";
-constexpr const char* estimate = R"({"case": "tube", "title": "A tube", "parameters": [{"name": "wall"}]})";
+/// Of one region and one contour.
+GroupTold group(std::optional<std::string> series, std::optional<std::string> region, double rms) {
+  GroupTold made;
+  made.series = std::move(series);
+  made.region = std::move(region);
+  made.rms = rms;
+  return made;
+}
 
-class Collect : public testing::Test {
+std::string comparison_text() {
+  ComparisonResult made;
+  made.case_name = "tube";
+  made.title = "A <b>tube</b>";
+  made.units = {"cgs", "cm", "s"};
+  made.sentences = {"ct: spine, 0.1 s: the model lies 1 mm too far outward, 6 sigma"};
+  SourceCompared& ct = made.sources.emplace_back();
+  ct.name = "ct";
+  ct.series = {"ct"};
+  ct.regions = {"spine"};
+  ct.noise = {0.02, 0.5, 0};
+  ct.training.all_frames = {group({}, {}, 0.1), group("ct", {}, 0.1)};
+  ct.moments = {{0.1, false, {{"ct", 0, 0.1}}, {group({}, "spine", 0.2), group("ct", "spine", 0.2)}}};
+  return json_of(made);
+}
+
+std::string diagnosis_text() {
+  Diagnosis made;
+  made.verdict = Verdict::nothing_missing;
+  made.sentences = {"NOTHING MISSING: ..."};
+  made.case_name = "tube";
+  made.title = "A tube";
+  return json_of(made);
+}
+
+std::string estimate_text() {
+  Estimate made;
+  made.case_name = "tube";
+  made.parameters.emplace_back().name = "wall";
+  return json_of(made);
+}
+
+ExplainedModel model(int number, const std::string& name, const char* diagnosis, const char* identification) {
+  ExplainedModel made;
+  made.number = number;
+  made.name = name;
+  made.run = fmt::format("model_{}", number);
+  made.case_file = made.run + ".yaml";
+  if (diagnosis) made.diagnosis = diagnosis;
+  if (identification) made.identification = identification;
+  return made;
+}
+
+const std::string comparison = comparison_text(), diagnosis = diagnosis_text(), estimate = estimate_text();
+
+class Collect : public ::testing::Test {
  protected:
   Json document() const { return Json::parse(collected(folder.path())); }
   void write(const std::string& name, const std::string& text) const {
@@ -55,7 +97,8 @@ TEST_F(Collect, AComparison) {
   EXPECT_EQ(source["moments"][0]["groups"][0]["l2"], 0.2) << "the file's own figures";
   EXPECT_TRUE(report["wall"].is_null());
   ASSERT_EQ(report["notes"].size(), 1U);
-  EXPECT_EQ(report["notes"][0], "The moving wall is not shown: the case file of these results is not where it was");
+  EXPECT_EQ(report["notes"][0],
+            "The moving wall is not shown: " + (folder / "wall.json").string() + ": cannot be read");
 }
 
 TEST_F(Collect, AnIdentificationThinnedOut) {
@@ -90,19 +133,23 @@ TEST_F(Collect, ADiagnosisAndItsCase) {
 }
 
 TEST_F(Collect, AnExplanation) {
-  const char* explain =
-      R"({"case": "tube", "title": "A tube", "verdict": "missing", "sentences": ["MISSING: x"], "best": 1,
-    "models": [{"number": 0, "name": "as given", "case": "model_0.yaml", "run": "model_0", "diagnosis": "diagnosis_0", "identification": null},
-               {"number": 1, "name": "with x", "case": "model_1.yaml", "run": "model_1", "diagnosis": null, "identification": "identification_1"},
-               {"number": 2, "name": "with y", "case": "model_2.yaml", "run": "model_2", "diagnosis": null, "identification": null}],
-    "missing_force": "force/force.json"})";
+  Explanation made;
+  made.case_name = "tube";
+  made.title = "A tube";
+  made.verdict = Verdict::missing;
+  made.sentences = {"MISSING: x"};
+  made.best = 1;
+  made.models = {model(0, "as given", "diagnosis_0", nullptr), model(1, "with x", nullptr, "identification_1"),
+                 model(2, "with y", nullptr, nullptr)};
+  made.missing_force = "force/force.json";
+  const std::string explain = json_of(made);
   write("explain.json", explain);
   write("model_0/comparison.json", comparison);
   write("model_0/summary.json", R"({"steps": 8, "cpu_seconds": {"total": 2.5}, "effective_case": {"fluid": 1}})");
   write("model_1/comparison.json", comparison);
   write("diagnosis_0/diagnosis.json", diagnosis);
   write("identification_1/estimate.json", estimate);
-  write("force/force.json", R"({"regions": []})");
+  write("force/force.json", json_of(ForceFound{}));
   write("force/run/comparison.json", comparison);
   const Json report = document();
   EXPECT_EQ(report["kind"], "explain");
@@ -128,5 +175,5 @@ TEST_F(Collect, WhatCannotBeReported) {
   EXPECT_THROW(collected(folder.path()), InputError);
 }
 
-}  // namespace
+}  // namespace collect_test
 }  // namespace tether

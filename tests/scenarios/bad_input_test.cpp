@@ -84,7 +84,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
   *out << mistake.name;
 }
 
-class BadInput : public testing::TestWithParam<Mistake> {};
+class BadInput : public ::testing::TestWithParam<Mistake> {};
 
 /// `text`, with the mistake if it belongs there.
 std::string spoilt(const std::string& text, const Mistake& mistake, In where) {
@@ -179,7 +179,7 @@ const Mistake mistakes[] = {
      "case.yaml:18: fluid.inlets.inlet.flow.file: inflw.csv: no such file or folder: inflw.csv (comma-separated table "
      "whose first line names the columns)"},
     {"NoSuchProgram", In::the_case, "solid:\n", "coupling: {programs: {solid: my_solver}}\nsolid:\n",
-     "program of the solid: my_solver does not exist"},
+     "case.yaml:21: coupling.programs.solid: my_solver does not exist"},
     {"OuterWallWithoutRegion", In::the_case, ", rest: {}", "",
      "mesh.regions: no region holds the outer wall at angle 20.1 degrees, position 0.06: end the list with a region "
      "without limits"},
@@ -191,7 +191,8 @@ const Mistake mistakes[] = {
      "case.yaml:9: mesh.swept.wall_thickness: -0.2 cm: must be positive (of the imaged wall)"},
     {"WallThickerThanLumen", In::the_case, "wall_thickness: 0.2", "wall_thickness: 3",
      "mesh: the wall is 2.898 thick on average, the lumen 3.864 wide: must be 0.001 to 0.5 of it"},
-    {"NoSuchColumn", In::the_case, "value: q", "value: flow", "inflow.csv: has no column 'flow'; its columns are t, q"},
+    {"NoSuchColumn", In::the_case, "value: q", "value: flow",
+     "case.yaml:18: fluid.inlets.inlet.flow.value: flow: inflow.csv has no column 'flow'; its columns are t, q"},
     {"CellIsNoNumber", In::the_curve, "100", "much", "inflow.csv:3: q: 'much' is not a number"},
     {"CellIsMissing", In::the_curve, "0.1, 100", "0.1", "inflow.csv:3: cells in this row: 1, columns: 2"},
     {"TimesGoBack", In::the_curve, "0.5", "0.05", "inflow.csv:4: the time 0.05 does not come after 0.1"},
@@ -207,8 +208,13 @@ const Mistake mistakes[] = {
      "case.yaml:7: mesh.files.fluid: lumen.vtu: no such file or folder: lumen.vtu (volume mesh of the lumen: .vtu, "
      ".vtk or .msh)"},
     {"FaceOfAnotherMesh", In::mesh_in_files, "fluid/faces/interface", "solid/faces/outside_spine",
-     "solid/faces/outside_spine.vtp: its node 0 at (-1.90526, 1.1, 0) is no node of fluid/mesh.vtu: the one of the "
+     "case.yaml:8: mesh.files.interface: solid/faces/outside_spine.vtp: its node 0 at (-1.90526, 1.1, 0) is no node of "
+     "fluid/mesh.vtu: the one of the "
      "same GlobalNodeID lies 1.26 away (at most 0.0001)"},
+    {"LabelOfAFaceWithoutLabels", In::mesh_in_files, "fluid/faces/inlet.vtp}", "fluid/faces/inlet.vtp, label: 77}",
+     "case.yaml:9: mesh.files.inlets.inlet: fluid/faces/inlet.vtp: has no array \"ModelFaceID\" on triangles; arrays "
+     "in "
+     "the file: GlobalElementID"},
     {"FaceForgotten", In::mesh_in_files, ",\n              b: {file: PEER/solid/faces/outside_vicinity_b.vtp}", "",
      "wall mesh: 80 of its 2112 boundary triangles carry no label, the first near (-1.404, 1.672, 0.1667): each must "
      "be in the interface, the outside or a ring"},
@@ -218,14 +224,16 @@ const Mistake mistakes[] = {
      "interface: fluid node 91 at (2, 0, 0.5) has no partner on the wall solid/mesh.vtu: the nearest node lies 0.5 "
      "away (at most 0.0001)"},
     {"LumenForWall", In::mesh_in_files, "wall: PEER/solid", "wall: PEER/fluid",
-     "solid/faces/interface.vtp: its node 24 at (2, 0, 0.5) is no node of fluid/mesh.vtu: the one of the same "
+     "case.yaml:12: mesh.files.wall_interface: solid/faces/interface.vtp: its node 24 at (2, 0, 0.5) is no node of "
+     "fluid/mesh.vtu: the one of the same "
      "GlobalNodeID lies 2.55 away (at most 0.0001)"},
     {"MillimetresForCentimetres", In::mesh_in_files, "    wall:", "    scale: 10\n    wall:",
      "mesh: the lumen's mean diameter is 39.66 cm = 396.6 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
      "another unit? Multiplied by 0.1 it would be 39.7 mm"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, BadInput, testing::ValuesIn(mistakes), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, BadInput, ::testing::ValuesIn(mistakes),
+                         [](const auto& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace tether

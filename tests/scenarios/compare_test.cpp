@@ -11,13 +11,14 @@
 #include "common/base/child_process.hpp"
 #include "common/base/csv.hpp"
 #include "common/io/lumen_motion.hpp"
-#include "common/observation/observed_case.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "tests/scenarios/surface_file.hpp"
+#include "tests/scenarios/valid_results.hpp"
 
 namespace tether {
-namespace {
+namespace compare_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -25,7 +26,7 @@ using Json = nlohmann::json;
 constexpr double step = 2e-3, outward = 0.05, higher = 1000;
 
 /// A run of eight steps, and the case that measures it.
-class Compare : public testing::Test {
+class Compare : public ::testing::Test {
  protected:
   static constexpr const char* source = TETHER_SOURCE "/configs/tube/case.yaml";
   static void SetUpTestSuite() {
@@ -35,6 +36,7 @@ class Compare : public testing::Test {
     ASSERT_EQ(end.exit_code, 0) << end.errors;
   }
   static void TearDownTestSuite() { fs::remove_all(run); }
+  void TearDown() override { expect_valid_results(folder.path()); }
   void SetUp() override {
     fs::copy(run / "out", output, fs::copy_options::recursive);
     compared = variant(folder / "case", {{"output:", measurements()}, {"Straight tube", "A tube"}});
@@ -273,5 +275,5 @@ TEST_F(Compare, NeedsMeasurements) {
   EXPECT_NE(end.errors.find("observations: names nothing that was measured"), std::string::npos) << end.errors;
 }
 
-}  // namespace
+}  // namespace compare_test
 }  // namespace tether

@@ -1,6 +1,5 @@
 #include "tests/scenarios/coupled_vessel.hpp"
 
-#include "common/case/mesh_case.hpp"
 #include "common/config/case_file.hpp"
 #include "common/protocol/in_process.hpp"
 #include "fluid/case.hpp"
@@ -8,6 +7,7 @@
 #include "fsi_master/coupling_case.hpp"
 #include "solid/case.hpp"
 #include "solid/server.hpp"
+#include "vessel/mesh_case.hpp"
 
 namespace tether {
 
@@ -21,7 +21,7 @@ struct WholeCase {
     file.finish();
   }
   VesselMesh vessel() const {
-    return load_mesh(mesh, file.units(), solid.element == "p1" ? WallElement::p1 : WallElement::prism);
+    return load_mesh(mesh, file, solid.element == "p1" ? WallElement::p1 : WallElement::prism);
   }
   CaseFile file;
   MeshCase mesh;

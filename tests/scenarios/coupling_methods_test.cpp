@@ -6,7 +6,7 @@
 namespace tether {
 namespace {
 
-class CouplingMethods : public testing::Test {
+class CouplingMethods : public ::testing::Test {
  protected:
   std::filesystem::path coarse_tube(const std::string& method, const std::string& step = "2e-3") const {
     return case_variant(TETHER_SOURCE "/configs/tube/case.yaml", folder / method,

@@ -7,9 +7,10 @@
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/valid_results.hpp"
 
 namespace tether {
-namespace {
+namespace diagnose_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -38,7 +39,7 @@ twin:
   hidden: {}
 )";
 
-class Diagnose : public testing::Test {
+class Diagnose : public ::testing::Test {
  protected:
   /// The model's case, which a twin's builds on.
   fs::path written(const std::string& candidates, const std::string& truth, const std::string& hidden) const {
@@ -59,6 +60,7 @@ class Diagnose : public testing::Test {
     said = end.output;
     return Json::parse(content_of(output() / "diagnosis.json"));
   }
+  void TearDown() override { expect_valid_results(folder.path()); }
   fs::path output() const { return folder / "out"; }
 
   TemporaryFolder folder;
@@ -123,5 +125,5 @@ TEST_F(Diagnose, FindsNothingWhereNothingIsHidden) {
   says("assumed: [solid.material.yung]", "did you mean solid.material.young?");
 }
 
-}  // namespace
+}  // namespace diagnose_test
 }  // namespace tether

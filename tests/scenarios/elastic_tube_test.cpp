@@ -8,7 +8,7 @@
 /// Womersley's elastic tube: a harmonic pressure enters, the outlet swallows the wave. Propagation, wall motion and
 /// velocity profile at three stations against the closed form.
 namespace tether {
-namespace {
+namespace elastic_tube_test {
 
 using testing::Complex;
 
@@ -133,5 +133,5 @@ TEST(ElasticTube, CarriesWomersleysWave) {
   EXPECT_LE(fine.speed, 0.02);
 }
 
-}  // namespace
+}  // namespace elastic_tube_test
 }  // namespace tether

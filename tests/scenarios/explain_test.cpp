@@ -1,15 +1,17 @@
 /// `tether explain` with the real programs: a coarse configs/tube without the spine's support, against data with it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/base/child_process.hpp"
-#include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/valid_results.hpp"
 
 namespace tether {
-namespace {
+namespace explain_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -31,21 +33,26 @@ twin:
   hidden: {{effects: {{visco_elastic: {{where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}}}}
 )";
 
-class Explain : public testing::Test {
+/// Both tests look at the same twin.
+class Explain : public ::testing::Test {
  protected:
-  Explain() {
-    folder.file("held.yaml",
-                "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n");
+  static void SetUpTestSuite() {
+    fs::create_directories(folder);
+    write("held.yaml",
+          "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n");
+    write("model.yaml", fmt::format(model, TETHER_SOURCE, "tissue_mass"));
+    const ChildEnd made = tether({"twin", (folder / "model.yaml").string(), "--output", (folder / "twin").string()});
+    ASSERT_EQ(made.exit_code, 0) << made.errors;
   }
+  static void TearDownTestSuite() {
+    expect_valid_results(folder);
+    fs::remove_all(folder);
+  }
+  static void write(const std::string& name, const std::string& content) { std::ofstream(folder / name) << content; }
   static ChildEnd tether(const std::vector<std::string>& words) {
     std::vector<std::string> line{TETHER_PROGRAM};
     line.insert(line.end(), words.begin(), words.end());
     return capture({line, {}});
-  }
-  void make_twin(const std::string& candidates) const {
-    const fs::path file = folder.file("model.yaml", fmt::format(model, TETHER_SOURCE, candidates));
-    const ChildEnd made = tether({"twin", file.string(), "--output", (folder / "twin").string()});
-    ASSERT_EQ(made.exit_code, 0) << made.errors;
   }
   Json explained() {
     const ChildEnd end = tether({"explain", (folder / "twin/case.yaml").string(), "--output", output().string()});
@@ -53,14 +60,13 @@ class Explain : public testing::Test {
     said = end.output;
     return Json::parse(content_of(output() / "explain.json"));
   }
-  fs::path output() const { return folder / "out"; }
+  static fs::path output() { return folder / ::testing::UnitTest::GetInstance()->current_test_info()->name(); }
 
-  TemporaryFolder folder;
+  static inline const fs::path folder = fs::temp_directory_path() / fmt::format("tether_explain_{}", getpid());
   std::string said;
 };
 
 TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
-  make_twin("tissue_mass");
   const Json found = explained();
   EXPECT_EQ(found["verdict"], "missing") << said;
   ASSERT_EQ(found["models"].size(), 2U) << said;
@@ -82,6 +88,14 @@ TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
   const ChildEnd scored = tether({"score", (folder / "twin").string(), "--output", output().string()});
   EXPECT_NE(scored.output.find("verdict: missing: right"), std::string::npos) << scored.output << scored.errors;
 
+  EXPECT_EQ(said_by_python(fmt::format("import tether, numpy\n"
+                                       "found = tether.load('{}')\n"
+                                       "d = found.distances('spine', 2)\n"
+                                       "print(found.verdict, found.effects[0].name, len(found.models), found.file)\n"
+                                       "print(d.ndim == 1 and d.size > 10 and bool(numpy.isfinite(d).any()))\n",
+                                       output().string())),
+            "missing visco_elastic 2 explain.json\nTrue\n");
+
   fs::remove(output() / "model_1/comparison.json");  // as if it had been interrupted there
   const auto identified = fs::last_write_time(output() / "identification_1/estimate.json");
   const Json again = explained();
@@ -93,13 +107,11 @@ TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
 
 /// The catalogue is cut to what cannot explain the data: the force itself is sought, and looks like a spring.
 TEST_F(Explain, SeeksTheForceThatNoCandidateExplains) {
-  make_twin("tissue_mass");
-  const fs::path blind = folder / "twin/case.yaml";
-  folder.file("twin/other.yaml",
-              "base: case.yaml\nname: other\ndiagnosis: {exclude: [spine, vicinity_left, vicinity_right, opposite, "
-              "solid.support.regions.spine.stiffness, solid.support.regions.spine.damping, solid.material.young, "
-              "solid.density, fluid.density, "
-              "fluid.rheology.viscosity]}\n");
+  write("twin/other.yaml",
+        "base: case.yaml\nname: other\ndiagnosis: {exclude: [spine, vicinity_left, vicinity_right, opposite, "
+        "solid.support.regions.spine.stiffness, solid.support.regions.spine.damping, solid.material.young, "
+        "solid.density, fluid.density, "
+        "fluid.rheology.viscosity]}\n");
   const ChildEnd end = tether({"explain", (folder / "twin/other.yaml").string(), "--output", output().string()});
   ASSERT_EQ(end.exit_code, 0) << end.errors << end.output;
   const Json found = Json::parse(content_of(output() / "explain.json"));
@@ -114,5 +126,5 @@ TEST_F(Explain, SeeksTheForceThatNoCandidateExplains) {
   EXPECT_TRUE(comparison.contains("sources"));
 }
 
-}  // namespace
+}  // namespace explain_test
 }  // namespace tether

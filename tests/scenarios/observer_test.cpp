@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "common/mesh/surface.hpp"
-#include "common/observation/observed_case.hpp"
 #include "common/protocol/in_process.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
 #include "observation_manager/server.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
@@ -64,7 +64,7 @@ class Elsewhere : public ObservationPartner {
   Points rest_;
 };
 
-class ObservedTube : public testing::Test {
+class ObservedTube : public ::testing::Test {
  protected:
   std::filesystem::path tube(double gain, double dt) const {
     return case_variant(

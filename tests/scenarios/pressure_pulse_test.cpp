@@ -8,7 +8,7 @@
 /// configs/pressure_pulse with a small and smooth pulse: how fast it runs from a quarter to the middle of the tube, by
 /// the wall's motion there, against the pulse of linear theory at the same two places.
 namespace tether {
-namespace {
+namespace pressure_pulse_test {
 
 constexpr testing::ElasticTube tube{.a = 0.5, .h = 0.1, .E = 3e6, .nu = 0.3, .rho_s = 1.2, .rho = 1, .mu = 0.03};
 constexpr double pulse_length = 0.01, quarter = 2.5, middle = 5, end = 0.026;
@@ -142,5 +142,5 @@ TEST(PressurePulse, RunsAtTheSpeedOfTheory) {
   EXPECT_GE(order, 0.8);
 }
 
-}  // namespace
+}  // namespace pressure_pulse_test
 }  // namespace tether

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int all_steps = 12;
 
-class Resume : public testing::TestWithParam<const char*> {
+class Resume : public ::testing::TestWithParam<const char*> {
  protected:
   Resume() {
     case_file = case_variant(TETHER_SOURCE "/configs/tube/case.yaml", folder / "case",
@@ -96,7 +96,7 @@ TEST_P(Resume, LeavesTheFilesOfARunThatWasNotInterrupted) {
   expect_same_results("whole", "killed");
 }
 
-INSTANTIATE_TEST_SUITE_P(Coupling, Resume, testing::Values("newton_krylov", "iqn_ils", "observed"),
+INSTANTIATE_TEST_SUITE_P(Coupling, Resume, ::testing::Values("newton_krylov", "iqn_ils", "observed"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

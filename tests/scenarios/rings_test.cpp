@@ -11,7 +11,7 @@
 namespace tether {
 namespace {
 
-class Rings : public testing::TestWithParam<std::pair<const char*, const char*>> {
+class Rings : public ::testing::TestWithParam<std::pair<const char*, const char*>> {
  protected:
   std::filesystem::path tube() const {
     const auto file = case_variant(TETHER_SOURCE "/configs/tube/case.yaml", folder / "case",
@@ -48,10 +48,10 @@ TEST_P(Rings, StayQuiet) {
 
 INSTANTIATE_TEST_SUITE_P(
     Inlet, Rings,
-    testing::Values(std::pair{"clamped", "{type: clamped}"}, std::pair{"free", "{type: free}"},
-                    std::pair{"held", "{type: visco_elastic, stiffness: 1e5}"},
-                    std::pair{"moved",
-                              "{type: visco_elastic, stiffness: 1e7, motion: {file: heart.csv, period: 0.8}}"}),
+    ::testing::Values(std::pair{"clamped", "{type: clamped}"}, std::pair{"free", "{type: free}"},
+                      std::pair{"held", "{type: visco_elastic, stiffness: 1e5}"},
+                      std::pair{"moved",
+                                "{type: visco_elastic, stiffness: 1e7, motion: {file: heart.csv, period: 0.8}}"}),
     [](const auto& info) { return std::string(info.param.first); });
 
 }  // namespace

@@ -10,9 +10,10 @@
 #include "common/io/lumen_motion.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/valid_results.hpp"
 
 namespace tether {
-namespace {
+namespace twin_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -24,7 +25,7 @@ ChildEnd tether(const std::vector<std::string>& words) {
 }
 
 /// The model, and truths that build on it: itself, and one with the spine's support on the same mesh.
-class Twin : public testing::Test {
+class Twin : public ::testing::Test {
  protected:
   void SetUp() override {
     folder.file("model.yaml", fmt::format("base: {}/configs/tube/case.yaml\nname: model\n"
@@ -49,6 +50,7 @@ class Twin : public testing::Test {
     EXPECT_EQ(end.exit_code, 0) << end.errors;
     return Json::parse(content_of(results() / "comparison.json"));
   }
+  void TearDown() override { expect_valid_results(folder.path()); }
   fs::path results() const { return folder / "out"; }
   static Json group(const Json& comparison, const Json& region) {
     for (const Json& g : comparison["sources"][0]["training"]["all_frames"])
@@ -127,6 +129,7 @@ TEST_F(Twin, HasImagesNoiseTracesAndAnAnswer) {
             "verdict: missing: right\n"
             "visco_elastic at spine: rank 1, accepted, amplitude +10.0 %, within its interval\n");
   EXPECT_TRUE(Json::parse(content_of(results() / "score.json"))["verdict_right"]);
+  fs::remove(results() / "diagnosis.json");  // no file of ours: it says what a score reads, and no more
 }
 
 TEST_F(Twin, TellsWhatIsWrong) {
@@ -154,5 +157,5 @@ TEST_F(Twin, TellsWhatIsWrong) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace twin_test
 }  // namespace tether

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double density = 1.3;
 
-class ElementContract : public testing::TestWithParam<std::tuple<ElementKind, int>> {
+class ElementContract : public ::testing::TestWithParam<std::tuple<ElementKind, int>> {
  protected:
   ElementContract()
       : material_(entry().make(values_of_order_one(entry().declaration))),
@@ -183,8 +183,8 @@ TEST_P(ElementContract, InertiaHasTheMassAndMomentumOfTheVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ElementContract,
-                         testing::Combine(testing::Values(ElementKind::prism, ElementKind::tetrahedron),
-                                          testing::Range(0, static_cast<int>(materials().size()))),
+                         testing::Combine(::testing::Values(ElementKind::prism, ElementKind::tetrahedron),
+                                          ::testing::Range(0, static_cast<int>(materials().size()))),
                          [](const auto& info) {
                            return std::string(name_of(std::get<0>(info.param))) + "_" +
                                   materials()[static_cast<std::size_t>(std::get<1>(info.param))].declaration.name;

@@ -9,7 +9,7 @@
 
 // Frequencies of a beam and of a ring.
 namespace tether {
-namespace {
+namespace frequency_test {
 
 constexpr double young = 1e6, density = 1.0, pi = std::numbers::pi;
 
@@ -98,5 +98,5 @@ TEST(Ring, BreathesAtItsFrequency) {
   }
 }
 
-}  // namespace
+}  // namespace frequency_test
 }  // namespace tether

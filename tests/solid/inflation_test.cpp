@@ -9,7 +9,7 @@
 
 // Finite inflation of a nearly incompressible neo-Hookean tube against the incompressible closed form.
 namespace tether {
-namespace {
+namespace inflation_test {
 
 TEST(FollowerPressure, TangentIsTheDerivativeOfTheForce) {
   const WallMesh wall = tube_slice({8, 1});
@@ -79,5 +79,5 @@ TEST(FiniteInflation, ThickTube) {
   EXPECT_NEAR(std::log2(first / second), 2, 0.2);
 }
 
-}  // namespace
+}  // namespace inflation_test
 }  // namespace tether

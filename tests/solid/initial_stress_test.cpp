@@ -11,7 +11,7 @@
 
 // The stress with which an imaged wall carries the image's pressure. Units: cm, g, s; 80 mmHg.
 namespace tether {
-namespace {
+namespace initial_stress_test {
 
 constexpr double pressure = 80 * 1333.22, radius = 1.0, thickness = 0.16, young = 4e6, poisson = 0.45;
 
@@ -68,7 +68,8 @@ TEST(InitialStress, DoesNotDependOnTheModulus) {
                                  *neo(modulus));
     return elements->cauchy_stress(wall.points, *neo(modulus));
   };
-  const auto softest = stress(2e4), soft = stress(1e6), stiff = stress(1e7);  // the softest would be crushed: it is not asked to
+  const auto softest = stress(2e4), soft = stress(1e6),
+             stiff = stress(1e7);  // the softest would be crushed: it is not asked to
   EXPECT_LT((soft - stiff).cwiseAbs().maxCoeff(), 1e-9 * stiff.cwiseAbs().maxCoeff());
   EXPECT_LT((softest - stiff).cwiseAbs().maxCoeff(), 1e-9 * stiff.cwiseAbs().maxCoeff());
 }
@@ -162,5 +163,5 @@ TEST(InitialStress, TensionStiffensTheSectionAgainstOvalisation) {
   EXPECT_NEAR(resistance / (tension / (middle * middle)), 9.0 / 4, 0.06 * 9 / 4);
 }
 
-}  // namespace
+}  // namespace initial_stress_test
 }  // namespace tether

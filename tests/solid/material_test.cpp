@@ -8,7 +8,7 @@
 namespace tether {
 namespace {
 
-class MaterialContract : public testing::TestWithParam<int> {
+class MaterialContract : public ::testing::TestWithParam<int> {
  protected:
   const Registered<Material>& entry() const { return materials()[static_cast<std::size_t>(GetParam())]; }
   std::vector<double> values() const { return values_of_order_one(entry().declaration); }
@@ -116,7 +116,7 @@ TEST_P(MaterialContract, RefusesValuesOutOfRangeAndUnknownNames) {
   EXPECT_EQ(configured.values(), values()) << "a refused value changes nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, MaterialContract, testing::Range(0, static_cast<int>(materials().size())),
+INSTANTIATE_TEST_SUITE_P(Registry, MaterialContract, ::testing::Range(0, static_cast<int>(materials().size())),
                          [](const auto& info) {
                            return materials()[static_cast<std::size_t>(info.param)].declaration.name;
                          });

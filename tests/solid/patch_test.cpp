@@ -11,7 +11,7 @@
 
 // Patch test: a uniform deformation is reproduced exactly, at large strain and rotation.
 namespace tether {
-namespace {
+namespace patch_test {
 
 std::unique_ptr<Material> rubber() {
   return neo_hookean.make(std::array{2.0, 0.4});
@@ -29,7 +29,7 @@ Mat3 cauchy(const Material& material, const Mat3& f) {
   return f * to_tensor(stress(material, green_lagrange(f))) * f.transpose() / f.determinant();
 }
 
-class Patch : public testing::TestWithParam<ElementKind> {
+class Patch : public ::testing::TestWithParam<ElementKind> {
  protected:
   Mat3 gradient() {
     Random random(3);
@@ -132,8 +132,8 @@ TEST(PrismStability, APressedAndStretchedPlateIsStable) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::Values(ElementKind::prism, ElementKind::tetrahedron),
+INSTANTIATE_TEST_SUITE_P(Elements, Patch, ::testing::Values(ElementKind::prism, ElementKind::tetrahedron),
                          [](const auto& info) { return name_of(info.param); });
 
-}  // namespace
+}  // namespace patch_test
 }  // namespace tether

@@ -10,7 +10,7 @@
 
 // The stress-free wall of an imaged one. Units: cm, g, s; an aorta of radius 10 mm and wall 1.6 mm at 80 mmHg.
 namespace tether {
-namespace {
+namespace prestress_test {
 
 constexpr double pressure = 80 * 1333.22, radius = 1.0, thickness = 0.16;
 
@@ -135,5 +135,5 @@ TEST(StressFreeConfiguration, NotFindingOneIsAResult) {
   EXPECT_FALSE(found.converged);
 }
 
-}  // namespace
+}  // namespace prestress_test
 }  // namespace tether

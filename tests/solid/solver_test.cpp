@@ -68,16 +68,19 @@ TEST(SolidSolver, OpenFormAndEvaluationEndAtTheSameMotion) {
     open.solver.begin_step(open.time, 2e-3);
     const InterfaceMotion expected = closed.solver.evaluate(load);
     VectorXd correction, first;
+    int corrections = 0;
     for (int iteration = 0; iteration < 10; ++iteration) {
       const VectorXd residual = open.solver.residual(correction, load);
       if (iteration == 0) first = residual;
       if (residual.norm() <= 1e-11 * first.norm()) break;
       correction = VectorXd::Zero(residual.size());
+      ++corrections;
       EXPECT_TRUE(conjugate_gradients([&](const VectorXd& v) { return open.solver.product(v); },
                                       [&](const VectorXd& r) { return open.solver.precondition(r); }, residual,
                                       correction, 1e-8, 100)
                       .converged);
     }
+    EXPECT_GT(corrections, 1);
     EXPECT_LE(relative(open.solver.interface_motion().velocity, expected.velocity), 1e-8);
     EXPECT_LE(relative(open.solver.interface_motion().displacement, expected.displacement), 1e-9);
   }
@@ -255,6 +258,19 @@ TEST(WallParameters, AnUnknownNameIsRefusedWithTheKnownOnes) {
       EXPECT_NE(message.find(known), std::string::npos) << message;
   }
   EXPECT_THROW(vessel.model.parameters().set("solid.density", -1), InputError);
+}
+
+TEST(WallParameters, AreSetTogetherOrNotAtAll) {
+  Vessel vessel;
+  const ParameterTable& table = vessel.model.parameters();
+  const std::vector<double> before = table.values();
+  EXPECT_THROW(table.set({"solid.density", "solid.colour"}, {2.4, 1}), InputError);
+  EXPECT_THROW(table.set({"solid.colour", "solid.density"}, {1, 2.4}), InputError);
+  EXPECT_THROW(table.set({"solid.material.young", "solid.density"}, {5e6, -1}), InputError);
+  EXPECT_THROW(table.set({"solid.density"}, {}), InputError);
+  EXPECT_EQ(table.values(), before);
+  table.set({"solid.material.young", "solid.density"}, {5e6, 2.4});
+  EXPECT_NE(table.values(), before);
 }
 
 TEST(WallModel, EnergyConservationNeedsTheMidpoint) {

@@ -9,7 +9,7 @@
 namespace tether {
 namespace {
 
-class SupportContract : public testing::TestWithParam<int> {
+class SupportContract : public ::testing::TestWithParam<int> {
  protected:
   const Registered<Support>& entry() const { return surface_effects()[static_cast<std::size_t>(GetParam())]; }
   std::unique_ptr<Support> with(double factor) const {
@@ -108,12 +108,12 @@ TEST_P(SupportContract, KnowsNoPreferredDirectionButTheNormal) {
   EXPECT_LE((with(1)->at(turned).traction - turn * with(1)->at(at).traction).norm(), 1e-13);
 }
 
-std::string name_of_entry(const testing::TestParamInfo<int>& info) {
+std::string name_of_entry(const ::testing::TestParamInfo<int>& info) {
   return surface_effects()[static_cast<std::size_t>(info.param)].declaration.name;
 }
-INSTANTIATE_TEST_SUITE_P(Registry, SupportContract, testing::Range(0, static_cast<int>(surface_effects().size())),
+INSTANTIATE_TEST_SUITE_P(Registry, SupportContract, ::testing::Range(0, static_cast<int>(surface_effects().size())),
                          name_of_entry);
-INSTANTIATE_TEST_SUITE_P(Registry, HoldingContract, testing::Range(0, static_cast<int>(supports().size())),
+INSTANTIATE_TEST_SUITE_P(Registry, HoldingContract, ::testing::Range(0, static_cast<int>(supports().size())),
                          name_of_entry);
 
 constexpr double stiffness = 3.0, damping = 0.4;

@@ -9,7 +9,7 @@
 #include "tests/solid/tube.hpp"
 
 namespace tether {
-namespace {
+namespace surface_effects_test {
 
 using Values = std::map<std::string, double>;
 
@@ -363,5 +363,5 @@ TEST(ManyEffects, EachIsFeltWhenSwitchedOnWhileTheOthersAreThere) {
   }
 }
 
-}  // namespace
+}  // namespace surface_effects_test
 }  // namespace tether

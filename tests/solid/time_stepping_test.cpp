@@ -7,7 +7,7 @@
 
 // A swinging beam: energy over many periods, dissipation, orders in time.
 namespace tether {
-namespace {
+namespace time_stepping_test {
 
 constexpr double young = 1e6, density = 1.0, pi = std::numbers::pi;
 
@@ -165,5 +165,5 @@ TEST(FreeVibration, ViscosityDissipatesExactlyItsPower) {
   }
 }
 
-}  // namespace
+}  // namespace time_stepping_test
 }  // namespace tether

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "common/linalg/cholesky.hpp"
-#include "common/mesh/sweep.hpp"
 #include "solid/statics.hpp"
 #include "tests/solid/tube_references.hpp"
 #include "tests/solid/walls.hpp"
+#include "vessel/sweep.hpp"
 
 /// Slices of tubes in plane strain, their loads and what is measured on them.
 namespace tether {

@@ -6,7 +6,7 @@
 
 // Linear tubes in plane strain: inflation against Lame, ovalisation against Michell.
 namespace tether {
-namespace {
+namespace tube_test {
 
 constexpr double young = 4e6;
 
@@ -40,7 +40,7 @@ TEST(MichellReference, ApproachesTheThinRing) {
   }
 }
 
-class Tube : public testing::TestWithParam<double> {};
+class Tube : public ::testing::TestWithParam<double> {};
 
 TEST_P(Tube, PrismsDoNotLockAtTheWorkingResolution) {
   for (const int layers : {1, 2, 4}) {
@@ -74,8 +74,8 @@ TEST_P(Tube, OneWayDiagonalsDoNotLockOneLayer) {
   EXPECT_LT(std::abs(tube_errors(tube, with_one_way_diagonals(tube_slice(tube)), GetParam()).ovalisation), 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Poisson, Tube, testing::Values(0.3, 0.45, 0.499),
+INSTANTIATE_TEST_SUITE_P(Poisson, Tube, ::testing::Values(0.3, 0.45, 0.499),
                          [](const auto& info) { return fmt::format("{:.0f}", 1000 * info.param); });
 
-}  // namespace
+}  // namespace tube_test
 }  // namespace tether

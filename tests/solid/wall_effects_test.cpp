@@ -12,7 +12,7 @@
 #include "tests/solid/tube.hpp"
 
 namespace tether {
-namespace {
+namespace wall_effects_test {
 
 const std::vector<double> rubber_values{2.0, 0.3};
 
@@ -41,7 +41,7 @@ VectorXd force_at(const WallElements& elements, const Points& x, const Material&
   return force;
 }
 
-class WallEffectContract : public testing::TestWithParam<std::tuple<int, ElementKind>> {
+class WallEffectContract : public ::testing::TestWithParam<std::tuple<int, ElementKind>> {
  protected:
   const Registered<WallEffect>& entry() const {
     return wall_effects()[static_cast<std::size_t>(std::get<0>(GetParam()))];
@@ -108,8 +108,8 @@ TEST_P(WallEffectContract, ConservesEnergyWhereTheStepDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, WallEffectContract,
-                         testing::Combine(testing::Range(0, static_cast<int>(wall_effects().size())),
-                                          testing::Values(ElementKind::prism, ElementKind::tetrahedron)),
+                         testing::Combine(::testing::Range(0, static_cast<int>(wall_effects().size())),
+                                          ::testing::Values(ElementKind::prism, ElementKind::tetrahedron)),
                          [](const auto& info) {
                            return wall_effects()[static_cast<std::size_t>(std::get<0>(info.param))].declaration.name +
                                   "_" + name_of(std::get<1>(info.param));
@@ -262,5 +262,5 @@ TEST(WallEffects, CauchyStressHoldsWhatTheyAdd) {
   EXPECT_LE((stiff->cauchy_stress(x, *rubber()) - 2 * plain).norm(), 1e-12);
 }
 
-}  // namespace
+}  // namespace wall_effects_test
 }  // namespace tether

@@ -32,11 +32,11 @@ end
 )sh";
 
 /// A folder with the front-end, a case, and the programs that a test makes up.
-class FrontEnd : public testing::Test {
+class FrontEnd : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ =
-        fs::temp_directory_path() / "tether_tests" / testing::UnitTest::GetInstance()->current_test_info()->name();
+        fs::temp_directory_path() / "tether_tests" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     fs::copy_file(TETHER_PROGRAM, folder_ / "tether");

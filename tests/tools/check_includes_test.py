@@ -6,12 +6,21 @@ import sys
 import tempfile
 import unittest
 
+ROOMS = """
+# from the ground up
+common/base:
+common/mesh: common/base
+common/protocol: common/base
+fluid: common/base common/mesh
+fluid/inner: common/base fluid
+solid: common/base
+"""
 CHECK = pathlib.Path(__file__).resolve().parents[2] / "tools" / "check_includes.py"
 
 
 def check(files):
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in files.items():
+        for name, text in {"tools/rooms.txt": ROOMS, **files}.items():
             path = pathlib.Path(folder) / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
@@ -51,7 +60,15 @@ class CheckIncludes(unittest.TestCase):
 
     def test_unknown_room(self):
         self.assertEqual(check({"common/attic/a.cpp": ""}),
-                         (1, "common/attic/a.cpp:1: common/attic is not a known room; add it to tools/check_includes.py"))
+                         (1, "common/attic/a.cpp:1: in no room; add its folder to tools/rooms.txt"))
+
+    def test_inner_room(self):
+        self.assertEqual(check({"fluid/inner/a.cpp": '#include "fluid/b.hpp"\n#include "common/mesh/c.hpp"\n'}),
+                         (1, "fluid/inner/a.cpp:2: fluid/inner must not include common/mesh (common/mesh/c.hpp)"))
+
+    def test_list_goes_upward(self):
+        code, _ = check({"tools/rooms.txt": "a: b\nb:\n"})
+        self.assertEqual(code, 1)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,8 @@ def check(page, source):
         root = pathlib.Path(folder)
         (root / "docs").mkdir()
         (root / "solid").mkdir()
+        (root / "tools").mkdir()
+        (root / "tools/rooms.txt").write_text("solid:\n")
         (root / "docs/equations.md").write_text(page)
         (root / "solid/a.cpp").write_text(source)
         run = subprocess.run([sys.executable, CHECK, folder], capture_output=True, text=True)

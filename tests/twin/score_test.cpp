@@ -7,16 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 namespace {
 
-const Answer spine{"missing", {{"visco_elastic", "spine", "g/(cm2 s2)", 1e6}}, "truth.yaml", 1, 0.015, 0.01};
+const Answer spine{Verdict::missing, {{"visco_elastic", "spine", "g/(cm2 s2)", 1e6}}, "truth.yaml", 1, 0.015, 0.01};
 
 /// A diagnosis of two effects as tether diagnose writes it.
-Diagnosis diagnosis(const std::string& verdict, bool first_accepted = true, bool second_accepted = false,
-                    const std::string& group = "null") {
+Claim diagnosis(const std::string& verdict, bool first_accepted = true, bool second_accepted = false,
+                const std::string& group = "null") {
   const TemporaryFolder folder;
   const auto word = [](bool is) { return is ? "true" : "false"; };
   const std::string text = fmt::format(
@@ -26,7 +27,7 @@ Diagnosis diagnosis(const std::string& verdict, bool first_accepted = true, bool
         {{"name": "contact", "where": "spine", "group": {}, "amplitude": {{"value": 3}}, "accepted": {}}}],
       "held_out": {{"before": 0.4, "after": 0.1}}}})text",
       verdict, group, word(first_accepted), group, word(second_accepted));
-  return read_diagnosis(folder.file("diagnosis.json", text));
+  return read_claim(folder.file("diagnosis.json", text));
 }
 
 TEST(Score, OfTheRightEffect) {
@@ -55,9 +56,9 @@ TEST(Score, OfAWrongEffect) {
 TEST(Score, OfAnotherVerdict) {
   const Score score = score_of(diagnosis("nothing_missing", false), spine);
   EXPECT_FALSE(score.verdict_right);
-  EXPECT_EQ(score.true_verdict, "missing");
+  EXPECT_EQ(score.true_verdict, Verdict::missing);
   EXPECT_TRUE(text_of(score).starts_with("verdict: nothing_missing: wrong, the answer is missing\n"));
-  const Answer nothing{"nothing_missing", {}, "", 1, 0, 0};
+  const Answer nothing{Verdict::nothing_missing, {}, "", 1, 0, 0};
   EXPECT_TRUE(score_of(diagnosis("nothing_missing", false), nothing).verdict_right);
   EXPECT_FALSE(score_of(diagnosis("missing"), nothing).verdict_right);
   EXPECT_EQ(score_of(diagnosis("missing"), nothing).wrongly_accepted.size(), 1U);
@@ -65,15 +66,15 @@ TEST(Score, OfAnotherVerdict) {
 
 TEST(Score, OfEffectsThatLookAlike) {
   Answer alike = spine;
-  alike.verdict = "ambiguous";
-  EXPECT_TRUE(score_of(diagnosis("ambiguous", false, true, "2"), alike).verdict_right) << "its group is accepted";
+  alike.verdict = Verdict::ambiguous;
+  EXPECT_TRUE(score_of(diagnosis("ambiguous", false, true, R"("visco_elastic at spine")"), alike).verdict_right) << "its group is accepted";
   EXPECT_FALSE(score_of(diagnosis("ambiguous", false, true), alike).verdict_right);
 }
 
 TEST(Score, OfAnEffectThatIsNotListedOrInAnotherUnit) {
   Answer other = spine;
   other.effects[0].where = "opposite";
-  EXPECT_EQ(score_of(diagnosis("missing"), other).found[0].rank, 0);
+  EXPECT_EQ(score_of(diagnosis("missing"), other).found[0].rank, std::nullopt);
   other.effects[0] = {"contact", "", "", 3};
   EXPECT_EQ(score_of(diagnosis("missing"), other).found[0].rank, 2) << "anywhere";
   EXPECT_NEAR(*score_of(diagnosis("missing"), other).found[0].amplitude_error, 0, 1e-12);
@@ -85,7 +86,7 @@ TEST(Score, OfAnEffectThatIsNotListedOrInAnotherUnit) {
 TEST(Score, IsWritten) {
   const Score score = score_of(diagnosis("missing"), spine);
   const TemporaryFolder folder;
-  write_json(folder / "score.json", score);
+  write_record(folder / "score.json", score);
   std::ifstream file(folder / "score.json");
   const auto json = nlohmann::json::parse(file);
   EXPECT_TRUE(json["verdict_right"]);
@@ -94,17 +95,19 @@ TEST(Score, IsWritten) {
   EXPECT_NEAR(json["held_out_gain"], 0.75, 1e-12);
 }
 
-TEST(Diagnosis, ThatCannotBeReadIsTold) {
+TEST(Claim, ThatCannotBeReadIsTold) {
   const TemporaryFolder folder;
   const auto error_of = [&](const std::string& text) {
-    return message_of([&] { read_diagnosis(folder.file("d.json", text)); });
+    return message_of([&] { read_claim(folder.file("d.json", text)); });
   };
   const std::string file = (folder / "d.json").string();
-  EXPECT_TRUE(error_of("{").starts_with(file + ": is no diagnosis: "));
-  EXPECT_TRUE(error_of(R"({"verdict": "missing"})").starts_with(file + ": is no diagnosis: "));
-  EXPECT_EQ(error_of(R"({"verdict": "maybe", "effects": []})"),
-            file + ": verdict: maybe: must be one of nothing_missing, missing, ambiguous, not_in_catalogue, undecided");
-  EXPECT_EQ(message_of([&] { read_diagnosis(folder / "none.json"); }),
+  EXPECT_EQ(error_of("{"), "is no diagnosis: " + file + ": is no JSON");
+  EXPECT_EQ(error_of(R"({"verdict": "missing"})"), "is no diagnosis: " + file + ": effects: is missing");
+  EXPECT_EQ(
+      error_of(R"({"verdict": "maybe", "effects": []})"),
+      "is no diagnosis: " + file +
+          ": verdict: \"maybe\": must be one of missing, nothing_missing, ambiguous, not_in_catalogue, undecided");
+  EXPECT_EQ(message_of([&] { read_claim(folder / "none.json"); }),
             (folder / "none.json").string() + ": no such file; run tether diagnose first");
 }
 
@@ -120,7 +123,7 @@ TEST(Answer, IsSealedAndOpened) {
     answer.truth += std::string(more, 'x');
     seal(folder / "answer", answer);
     const Answer opened = unsealed(folder / "answer");
-    EXPECT_EQ(opened.verdict, "missing");
+    EXPECT_EQ(opened.verdict, Verdict::missing);
     EXPECT_EQ(opened.truth, answer.truth);
     ASSERT_EQ(opened.effects.size(), 1U);
     EXPECT_EQ(opened.effects[0].where, "spine");

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "common/mesh/surface.hpp"
-#include "common/observation/signed_surface.hpp"
+#include "observation_manager/measurements/signed_surface.hpp"
 
 namespace tether::testing {
 

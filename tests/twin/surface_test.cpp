@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "common/mesh/topology.hpp"
-#include "common/observation/open_ends.hpp"
+#include "observation_manager/measurements/open_ends.hpp"
 #include "tests/twin/shapes.hpp"
 #include "twin/closed_lumen.hpp"
 #include "twin/random.hpp"

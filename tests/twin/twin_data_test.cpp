@@ -38,7 +38,7 @@ TwinFrames made(const TwinCase& given) {
   return make_frames(given, UnitSystem::named("mm-g-s"), beating(), "case.yaml:9: twin");
 }
 
-double mean_radius(const TriangleSurface& surface) {
+double radius_of(const TriangleSurface& surface) {
   return surface.points.topRows(2).colwise().norm().mean();
 }
 
@@ -48,7 +48,7 @@ TEST(TwinFrames, ShowTheTruthAtTheStatedTimes) {
   for (int i = 0; i < 10; ++i) {
     const TwinFrame& frame = frames.frames[static_cast<std::size_t>(i)];
     EXPECT_NEAR(frame.time, 1.1 + 0.1 * i, 1e-12) << "the last is at the end";
-    EXPECT_NEAR(mean_radius(frame.surface), radius_at(frame.time), 1e-3);
+    EXPECT_NEAR(radius_of(frame.surface), radius_at(frame.time), 1e-3);
   }
   EXPECT_EQ(frames.image_error, 0);
   TwinCase given = plain();
@@ -62,7 +62,7 @@ TEST(TwinFrames, ShowTheTruthAtTheStatedTimes) {
 TEST(TwinFrames, OfVoxelsAreUnbiasedWithinATenthOfAVoxel) {
   const TwinFrames frames = made(with_voxels());
   for (const TwinFrame& frame : frames.frames) {
-    EXPECT_NEAR(mean_radius(frame.surface), radius_at(frame.time), 0.06);
+    EXPECT_NEAR(radius_of(frame.surface), radius_at(frame.time), 0.06);
     EXPECT_GT(frame.surface.points.row(2).maxCoeff(), 19);
     EXPECT_LT(frame.surface.points.row(2).maxCoeff(), 20.5) << "open, without what was drawn out";
   }
@@ -131,7 +131,7 @@ TEST(TwinFaults, DoWhatTheySay) {
     EXPECT_EQ(frame.time, as_it_was.time) << "what is wrong is not stated";
     const Points &x = frame.surface.points, &before = as_it_was.surface.points;
     if (frame.number == 2)
-      EXPECT_NEAR(mean_radius(frame.surface), radius_at(1.35), 1e-3);
+      EXPECT_NEAR(radius_of(frame.surface), radius_at(1.35), 1e-3);
     else if (frame.number == 4)
       EXPECT_LT((x - before - Vec3(1, 2, 3).replicate(1, x.cols())).cwiseAbs().maxCoeff(), 1e-12);
     else if (frame.number == 5)
@@ -150,7 +150,7 @@ TEST(TwinFaults, ConcernAllFramesUnlessOneIsNamed) {
   given.faults.bias = 0.5;
   given.faults.clipped_ends = 6;
   for (const TwinFrame& frame : made(given).frames) {
-    EXPECT_NEAR(mean_radius(frame.surface), radius_at(frame.time + 0.1) + 0.5, 2e-3);
+    EXPECT_NEAR(radius_of(frame.surface), radius_at(frame.time + 0.1) + 0.5, 2e-3);
     EXPECT_LT(frame.surface.points.row(2).cwiseAbs().maxCoeff(), 20 - std::sqrt(6 * 6 - 0.5 * 0.5) + 1e-3);
     EXPECT_GT(frame.surface.points.row(2).cwiseAbs().maxCoeff(), 12);
   }

@@ -1,0 +1,99 @@
+#include "common/protocol/programs.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/output_folder.hpp"
+
+namespace tether {
+namespace {
+
+void add_options(std::vector<std::string>& words, const CommandLine& command) {
+  if (!command.output.empty()) words.insert(words.end(), {"--output", command.output.string()});
+  if (command.steps) words.insert(words.end(), {"--steps", std::to_string(*command.steps)});
+  if (command.processes > 0) words.insert(words.end(), {"--processes", std::to_string(command.processes)});
+  if (command.resume) words.push_back("--resume");
+  if (command.overwrite) words.push_back("--overwrite");
+  if (command.quiet) words.push_back("--quiet");
+}
+
+/// mpirun gives its processes a terminal of its own: whether a person looks at ours, and how wide it is, is ours to
+/// say.
+void add_terminal(std::vector<std::pair<std::string, std::string>>& environment) {
+  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  environment.emplace_back("TETHER_PROGRESS", terminal ? "bar" : "lines");
+  winsize size{};
+  if (terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    environment.emplace_back("COLUMNS", std::to_string(size.ws_col));
+}
+
+/// The file by which a run's programs let this process know that they said why they failed; gone with this process.
+class NoteOfFailure {
+ public:
+  NoteOfFailure() { remove(); }
+  ~NoteOfFailure() { remove(); }
+  NoteOfFailure(const NoteOfFailure&) = delete;
+  NoteOfFailure& operator=(const NoteOfFailure&) = delete;
+  std::string path() const { return path_.string(); }
+  /// Whether there was one.
+  bool remove() {
+    std::error_code error;
+    return std::filesystem::remove(path_, error);
+  }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() / fmt::format("tether_told_{}", getpid());
+};
+
+NoteOfFailure& note_of_failure() {
+  static NoteOfFailure note;
+  return note;
+}
+
+/// How to go on from the last state saved; nothing if there is none.
+std::string way_on(const char* verb, const CommandLine& command) {
+  const std::filesystem::path output = output_of(command, CaseFile(command.case_file));
+  std::error_code error;
+  if (!std::filesystem::exists(output / "checkpoint", error) || std::filesystem::is_empty(output / "checkpoint", error))
+    return {};
+  return fmt::format("To continue: tether {} {} --output {} --resume\n", verb, command.case_file.string(),
+                     output.string());
+}
+
+}  // namespace
+
+std::filesystem::path sibling(const std::string& name) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  if (access(program.c_str(), X_OK) != 0) throw input_error("{}: no such program; is Tether built?", program.string());
+  return program;
+}
+
+Command parallel_run(const std::string& master, const CommandLine& command) {
+  Command run{{"mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n",
+               "1", sibling(master).string(), command.case_file.string()},
+              {}};
+  add_options(run.words, command);
+  add_terminal(run.environment);
+  note_of_failure().remove();
+  run.environment.emplace_back("TETHER_TOLD", note_of_failure().path());
+  if (geteuid() == 0) {
+    run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+  }
+  return run;
+}
+
+int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command) {
+  const bool is_told = note_of_failure().remove();
+  if (code > 128 && !is_told)
+    std::cerr << fmt::format("tether: {} was ended by signal {}{}\n", master, code - 128,
+                             code == 128 + 9 ? " (killed; out of memory?)" : "");
+  if (code > 128) std::cerr << way_on(verb, command);
+  return code == exit_input_wrong ? code : exit_run_failed;
+}
+
+}  // namespace tether

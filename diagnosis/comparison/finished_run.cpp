@@ -1,0 +1,133 @@
+#include "diagnosis/comparison/finished_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
+#include "common/config/output_folder.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// Sections that do not change what a run computes; measurements do if an observer pulls the wall toward them.
+constexpr std::array without_effect{"title", "twin", "observations", "identification", "diagnosis", "output"};
+
+bool has_effect(const std::string& section, const YamlNode& tree) {
+  if (section == "observations" && tree.find("observer") != nullptr) return true;
+  return std::find(without_effect.begin(), without_effect.end(), section) == without_effect.end();
+}
+
+bool same(const YamlNode& a, const YamlNode& b);
+
+bool same_entries(const YamlNode& a, const YamlNode& b) {
+  return std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(), b.entries.end(),
+                    [](const auto& x, const auto& y) { return x.key == y.key && same(x.value, y.value); });
+}
+
+bool same(const YamlNode& a, const YamlNode& b) {
+  return a.kind == b.kind && a.text == b.text && same_entries(a, b) &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same);
+}
+
+/// The first section that one case says otherwise than the other; empty if none matters.
+std::string first_difference(const YamlNode& one, const YamlNode& other) {
+  for (const auto* tree : {&one, &other})
+    for (const auto& entry : tree->entries) {
+      const YamlNode *a = one.find(entry.key), *b = other.find(entry.key);
+      if (has_effect(entry.key, *tree) && (a == nullptr || b == nullptr || !same(*a, *b))) return entry.key;
+    }
+  return {};
+}
+
+/// A file that the case names and that was written after `moment`; empty if there is none.
+std::string newer_file(const YamlNode& node, const fs::path& folder, fs::file_time_type moment) {
+  if (node.kind == YamlNode::Kind::scalar) {
+    std::error_code none;
+    const bool is_file = fs::is_regular_file(folder / node.text, none);
+    return is_file && fs::last_write_time(folder / node.text) > moment ? node.text : "";
+  }
+  for (const auto& item : node.items)
+    if (const std::string found = newer_file(item, folder, moment); !found.empty()) return found;
+  for (const auto& entry : node.entries)
+    if (const std::string found = newer_file(entry.value, folder, moment); !found.empty()) return found;
+  return {};
+}
+
+/// The later of `moment` and when a file below the node was written.
+fs::file_time_type newest(const YamlNode& node, const fs::path& folder, fs::file_time_type moment) {
+  std::error_code none;
+  if (node.kind == YamlNode::Kind::scalar && fs::is_regular_file(folder / node.text, none))
+    moment = std::max(moment, fs::last_write_time(folder / node.text));
+  for (const auto& item : node.items) moment = newest(item, folder, moment);
+  for (const auto& entry : node.entries) moment = newest(entry.value, folder, moment);
+  return moment;
+}
+
+Json summary_of(const fs::path& output) {
+  std::ifstream file(output / "summary.json");
+  try {
+    return Json::parse(file);
+  } catch (const Json::exception& error) {
+    throw input_error("{}: is not a run's summary: {}", (output / "summary.json").string(), error.what());
+  }
+}
+
+/// Of a state observer, in any region.
+double largest_gain(const Json& observer) {
+  double gain = observer.value("gain", 0.0);
+  for (const Json& region : observer.value("regions", Json::object())) gain = std::max(gain, region.value("gain", 0.0));
+  return gain;
+}
+
+}  // namespace
+
+std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& file, int steps) {
+  for (const char* name : {case_as_run, "summary.json", "lumen.motion", "timeseries.csv"})
+    if (!fs::exists(output / name)) return fmt::format("{} holds no finished run", output.string());
+  const YamlNode now = as_one_file(read_case_tree(file.path())), then = read_yaml(output / case_as_run);
+  if (const std::string section = first_difference(now, then); !section.empty())
+    return fmt::format("the run in {} had another '{}'", output.string(), section);
+  const auto written = fs::last_write_time(output / "summary.json");
+  for (const auto& entry : now.entries)
+    if (const std::string newer = newer_file(entry.value, file.path().parent_path(), written);
+        has_effect(entry.key, now) && !newer.empty())
+      return fmt::format("{} is newer than the run in {}", newer, output.string());
+  if (const int made = summary_of(output).value("steps", 0); made < steps)
+    return fmt::format("the run in {} ended after {} of {} steps", output.string(), made, steps);
+  return std::nullopt;
+}
+
+fs::file_time_type newest_file(const CaseFile& file) {
+  return newest(as_one_file(read_case_tree(file.path())), file.path().parent_path(), fs::file_time_type::min());
+}
+
+std::optional<std::string> why_no_velocity(const fs::path& output, const Points& points) {
+  if (points.cols() == 0) return std::nullopt;
+  const fs::path file = output / "blood.velocity";
+  if (fs::exists(file) && BloodVelocity(file).points() == points) return std::nullopt;
+  return fmt::format("the run in {} did not record the velocity at the points of these measurements", output.string());
+}
+
+FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion") {
+  if (fs::exists(output / "blood.velocity")) velocity.emplace(output / "blood.velocity");
+  const Json summary = summary_of(output);
+  steps = summary.value("steps", 0);
+  observer_gain = largest_gain(summary.value("/effective_case/observer"_json_pointer, Json::object()));
+}
+
+RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen) {
+  const Points &ours = lumen.points, &its = run.motion.imaged();
+  const double size = (ours.rowwise().maxCoeff() - ours.rowwise().minCoeff()).norm();
+  if (ours.cols() != its.cols() || (ours - its).cwiseAbs().maxCoeff() > 1e-6 * size)
+    throw input_error("lumen.motion: its {} nodes are not the {} of the case's mesh", its.cols(), ours.cols());
+  return {run.motion.times().front(), run.motion.times().back(), its,
+          [&run](double time) { return run.motion.at(time); }};
+}
+
+}  // namespace tether

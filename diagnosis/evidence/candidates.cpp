@@ -1,0 +1,190 @@
+#include "diagnosis/evidence/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/base/error.hpp"
+#include "common/config/overlay.hpp"
+#include "common/config/rules.hpp"
+#include "common/protocol/programs.hpp"
+#include "diagnosis/evidence/data_errors.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+bool holds(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+double number(const Json& value) {
+  return value.is_null() ? undefined : value.get<double>();
+}
+
+/// A generic direction is a candidate only if it is asked for.
+bool is_wanted(const Json& effect, const DiagnosisCase& diagnosis) {
+  const std::string type = effect["type"], part = effect["part"];
+  if (holds(diagnosis.exclude, type) || holds(diagnosis.exclude, part)) return false;
+  return diagnosis.candidates.empty() ? !effect["generic"].get<bool>() : holds(diagnosis.candidates, type);
+}
+
+/// A number of the model as an amplitude that is zero as the model is.
+Amplitude amplitude_of(const Json& p) {
+  const double value = p["value"], absent = number(p["absent"]), scale = number(p["scale"]),
+               prior = number(p["prior_deviation"]);
+  const bool is_absent = value == absent;
+  Amplitude amplitude{p["name"], p["meaning"], p["unit"], is_absent && value == number(p["lower"]), {}, value, {}};
+  if (!p["lower"].is_null()) amplitude.lower = p["lower"];
+  if (!p["upper"].is_null()) amplitude.upper = p["upper"];
+  amplitude.doubles = p["transform"].get<std::string>().starts_with("log") && value > 0;
+  if (is_absent)
+    amplitude.scale = amplitude.doubles ? std::log2(1 + scale / value) : scale;
+  else
+    amplitude.scale = amplitude.doubles && p["transform"] == "log" ? prior / std::log(2.0) : prior;
+  return amplitude;
+}
+
+/// How far an input may be off without that being news.
+double allowed_deviation(const Amplitude& amplitude, const DiagnosisCase& diagnosis) {
+  if (holds(diagnosis.assumed, amplitude.name)) return infinite;
+  const double inputs = diagnosis.allowed.inputs;
+  return amplitude.doubles ? std::log2(1 + inputs) : inputs * std::abs(amplitude.base);
+}
+
+/// The candidate that a number belongs to, made if need be.
+Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool is_absent,
+                        const std::vector<PlacedEffect>& effects) {
+  const std::string path = amplitude.name.substr(0, amplitude.name.rfind('.'));
+  const auto effect =
+      std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
+  Candidate wanted{amplitude.name, {}, amplitude.meaning, Candidate::Kind::input, {}};
+  if (is_absent && effect != effects.end())
+    wanted = {effect->type, effect->part, effect->meaning, Candidate::Kind::effect, {}};
+  if (wanted.kind == Candidate::Kind::effect && amplitude.one_sided) {  // one at a time
+    wanted.parameter = amplitude.name.substr(path.size() + 1);
+    return problem.candidates.emplace_back(wanted);
+  }
+  for (Candidate& known : problem.candidates)
+    if (known.name == wanted.name && known.where == wanted.where) return known;
+  return problem.candidates.emplace_back(wanted);
+}
+
+void check_known(const CaseFile& file, const std::string& field, const std::vector<std::string>& words,
+                 const std::vector<std::string>& known) {
+  for (const std::string& word : words) {
+    if (holds(known, word)) continue;
+    const std::string near = nearest(word, known);
+    throw input_error("{}: {} is unknown here; {}", file.where(field), word,
+                      near.empty() ? "known are " + listed(known) : fmt::format("did you mean {}?", near));
+  }
+}
+
+/// Types of effects and parts of the wall. Numbers, which have a dot, are known when the model has announced them.
+void check_names(const CaseFile& file, const Json& catalogue, const DiagnosisCase& diagnosis) {
+  std::set<std::string> types, parts;
+  for (const char* list : {"possible", "present"})
+    for (const Json& effect : catalogue[list]) {
+      types.insert(effect["type"].get<std::string>());
+      if (effect["part"] != "") parts.insert(effect["part"].get<std::string>());
+    }
+  check_known(file, "diagnosis.candidates", diagnosis.candidates, {types.begin(), types.end()});
+  parts.merge(types);
+  std::vector<std::string> words;
+  for (const std::string& word : diagnosis.exclude)
+    if (word.find('.') == std::string::npos) words.push_back(word);
+  check_known(file, "diagnosis.exclude", words, {parts.begin(), parts.end()});
+}
+
+/// Sections of data that no run needs to know: they pull none, and are compared when it is over. Where velocities were
+/// measured, a run must record its own.
+std::vector<std::string> not_recorded(const CaseFile& from, const Observations& data) {
+  if (data.points().cols() == 0)
+    return from.has("observations") ? std::vector<std::string>{"observations"} : std::vector<std::string>{};
+  std::vector<std::string> sections;
+  for (const Measurement* source : data.all())
+    if (source->velocity_points().cols() == 0) sections.push_back(source->facts().field());
+  return sections;
+}
+
+}  // namespace
+
+std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis) {
+  const ChildEnd end = capture({{sibling("solid").string(), "--list-effects", file.path().string()}, {}});
+  if (end.exit_code != exit_done) throw InputError(end.errors);
+  const Json list = Json::parse(end.output);
+  check_names(file, list, diagnosis);
+  std::vector<PlacedEffect> all;
+  for (const Json& effect : list["possible"]) {
+    if (!is_wanted(effect, diagnosis)) continue;
+    const std::string type = effect["type"], part = effect["part"];
+    all.push_back({"solid.effects." + type + (part.empty() ? "" : "_" + part), type, part, effect["meaning"], true,
+                   effect["required"]});
+  }
+  for (const Json& effect : list["present"])
+    all.push_back({effect["path"], effect["type"], effect["part"], "An effect that the model has, at zero", false, {}});
+  return all;
+}
+
+void check_diagnosis(const fs::path& case_file) {
+  CaseFile file(case_file);
+  if (!file.has("diagnosis")) return;
+  DiagnosisCase diagnosis;
+  file.read("diagnosis", diagnosis);
+  catalogue_of(file, diagnosis);
+}
+
+void write_candidates(const fs::path& file, const CaseFile& from, const Observations& data,
+                      const std::vector<PlacedEffect>& effects) {
+  const CommonCase& common = from.common();
+  Overlay overlay{fs::absolute(from.path()),
+                  common.name + "_candidates",
+                  (common.title.empty() ? common.name : common.title) + ", with all candidates absent",
+                  {}};
+  for (const PlacedEffect& effect : effects) {
+    if (!effect.is_new) continue;
+    overlay.values.push_back({effect.path + ".type", effect.type});
+    if (!effect.part.empty()) overlay.values.push_back({effect.path + ".region", effect.part});
+    for (const std::string& required : effect.required)  // the period of a load
+      overlay.values.push_back({effect.path + "." + required, number_text(common.time.end - common.time.start)});
+  }
+  overlay.values.push_back({"diagnosis.runs", "sensitivities"});
+  overlay.values.push_back({"output.write_every", "1000000"});
+  overlay.values.push_back({"output.checkpoint_every", "1000000"});
+  if (from.has("observer")) overlay.values.push_back({"observer", ""});
+  for (std::string& section : not_recorded(from, data)) overlay.values.push_back({std::move(section), ""});
+  write_overlay(file, overlay);
+}
+
+void add_model_changes(EffectProblem& problem, const std::string& runs_json, const MatrixXd& residuals,
+                       const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis) {
+  const Json json = Json::parse(runs_json);
+  constexpr double no_response = 1e-3;  // of a noise's deviation, over all data
+  for (std::size_t i = 1; i < json["runs"].size(); ++i) {
+    const Json& run = json["runs"][i];
+    const auto parameter = std::find_if(json["parameters"].begin(), json["parameters"].end(),
+                                        [&](const Json& p) { return p["name"] == run["parameter"]; });
+    const Amplitude amplitude = amplitude_of(*parameter);
+    const double value = run["value"],
+                 step = amplitude.doubles ? std::log2(value / amplitude.base) : value - amplitude.base;
+    const VectorXd seen = residuals.col(0) - residuals.col(static_cast<Eigen::Index>(i));
+    const VectorXd change = seen.array().isFinite().select(seen, 0);  // (D.7)
+    if (change.dot(problem.precision.cwiseProduct(change)) < no_response * no_response) continue;
+    const bool is_absent = amplitude.base == number((*parameter)["absent"]),
+               is_assumed = holds(diagnosis.assumed, amplitude.name);
+    if (!is_absent || is_assumed) {
+      const auto before = problem.allowed.cols();
+      allow(problem, change / step, allowed_deviation(amplitude, diagnosis), amplitude.name);
+      if (problem.allowed.cols() > before) problem.allowed_runs.push_back({before, static_cast<Eigen::Index>(i), step});
+    }
+    if (is_assumed) continue;
+    candidate_of(problem, amplitude, is_absent, effects).amplitudes.push_back(problem.changes.cols());
+    append_columns(problem.changes, change / step);
+    problem.amplitudes.push_back(amplitude);
+  }
+}
+
+}  // namespace tether

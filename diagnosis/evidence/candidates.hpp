@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/config/case_file.hpp"
+#include "common/config/diagnosis_case.hpp"
+#include "diagnosis/evidence/evidence.hpp"
+
+namespace tether {
+
+/// An effect of the catalogue on a part of the wall, by where the case with all candidates has it.
+struct PlacedEffect {
+  std::string path, type, part, meaning;
+  bool is_new = false;                ///< the case itself does not have it
+  std::vector<std::string> required;  ///< numbers that must be given for it
+};
+
+/// What the solid program says could be missing, and what the case has; restricted as the case wants it. Throws
+/// InputError with the program's message.
+std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis);
+
+/// Throws InputError if the case's section `diagnosis`, if there is one, names what is not there.
+void check_diagnosis(const std::filesystem::path& case_file);
+
+/// The case with every candidate at the value at which it does nothing, from which identification_master makes the
+/// sensitivity runs.
+void write_candidates(const std::filesystem::path& file, const CaseFile& from, const Observations& data,
+                      const std::vector<PlacedEffect>& effects);
+
+/// Adds what the runs show: the change of all data per amplitude, and what its number is called. residuals: one column
+/// a run of `runs_json`, the base first. (D.7)
+void add_model_changes(EffectProblem& problem, const std::string& runs_json, const MatrixXd& residuals,
+                       const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis);
+
+}  // namespace tether

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/config/case_file.hpp"
+#include "common/config/diagnosis_case.hpp"
+#include "diagnosis/evidence/candidates.hpp"
+#include "diagnosis/evidence/evidence.hpp"
+#include "observation_manager/measurements/observed_case.hpp"
+#include "vessel/mesh_case.hpp"
+
+namespace tether {
+
+/// A case with measurements whose noise is stated.
+struct DiagnosedCase {
+  /// Throws InputError if there are none, or if the noise of one is not given.
+  explicit DiagnosedCase(const std::filesystem::path& path);
+
+  CaseFile file;
+  MeshCase mesh;
+  ObservationsCase observations;
+  DiagnosisCase diagnosis;
+  LumenSurface lumen;
+  Observations data;
+};
+
+/// What runs.json in `folder` lists, in its order; lumens are read when they are asked for. Those that failed are
+/// empty.
+std::vector<FinishedMotion> stored_runs(const std::filesystem::path& folder);
+
+/// Data against the base run, what each candidate and each allowed error does to first order. runs_json: of the
+/// sensitivity runs, `motions` these.
+EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
+                         const std::vector<FinishedMotion>& motions, const std::string& runs_json,
+                         const std::vector<PlacedEffect>& effects);
+
+/// Data minus model of each run, a column each; where a run has no datum as `otherwise` [n]. NaN for a run that failed.
+MatrixXd residuals_of(const Evidence& evidence, const std::vector<FinishedMotion>& motions, const VectorXd& otherwise);
+
+std::string content_of(const std::filesystem::path& path);
+
+}  // namespace tether

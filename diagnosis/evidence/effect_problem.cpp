@@ -1,0 +1,40 @@
+#include "diagnosis/evidence/effect_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tether {
+namespace {
+
+constexpr double farthest = 4;  ///< in scales: beyond, a number is that of no patient, and the model breaks
+
+}  // namespace
+
+double Amplitude::limited(double amplitude) const {
+  const double least = std::isfinite(lower) ? lower + 0.01 * (base - lower) : lower;
+  const double most = std::isfinite(upper) ? upper - 0.01 * (upper - base) : upper;
+  double low = least - base, high = most - base;
+  if (doubles) {
+    const double far = scale > 0 ? farthest * scale : infinite;
+    low = least > 0 ? std::max(-far, std::log2(least / base)) : -far;
+    high = std::min(far, std::log2(most / base));
+  }
+  return std::clamp(amplitude, std::min(low, 0.0), std::max(high, 0.0));
+}
+
+double Amplitude::value(double amplitude) const {
+  return doubles ? base * std::exp2(limited(amplitude)) : base + limited(amplitude);
+}
+
+bool is_variant(const Candidate& one, const Candidate& other) {
+  const bool named = one.name.ends_with("_" + other.name) || other.name.ends_with("_" + one.name);
+  return named && one.where == other.where && one.parameter == other.parameter;
+}
+
+ResidualAt linear_residual(const EffectProblem& problem) {
+  return [&problem](const MatrixXd& amplitudes) -> MatrixXd {
+    return (-problem.changes * amplitudes).colwise() + problem.residual;
+  };
+}
+
+}  // namespace tether

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/base/effect.hpp"
+#include "diagnosis/evidence/scores.hpp"
+#include "diagnosis/results/finding.hpp"
+#include "diagnosis/results/lack_of_fit.hpp"
+
+namespace tether {
+
+/// A number that may differ from what the model says. Its amplitude is 0 as the model is.
+struct Amplitude {
+  std::string name, meaning, unit;             ///< name: by its place in the case; of an error of the data its own
+  bool one_sided = false;                      ///< cannot be negative
+  double scale = undefined;                    ///< how large it may be in a patient
+  double base = 0;                             ///< value of the model
+  bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
+  double lower = -infinite, upper = infinite;  ///< of the value
+  /// The admissible one that is nearest: its value is short of the bounds by a hundredth of the way from the base; of
+  /// what doubles, it is not beyond four times the scale.
+  double limited(double amplitude) const;
+  double value(double amplitude) const;  ///< of the admissible one
+};
+
+/// Which data are wrong.
+struct DataPlace {
+  std::string field;         ///< of the source in the case: observations.surfaces.ct
+  double frame = undefined;  ///< of one frame its number, as the case counts them
+  Vec3 middle{0, 0, 0};      ///< of the places that were compared [length]
+};
+
+/// What may be missing or wrong: one effect at one place.
+struct Candidate {
+  using Kind = CandidateKind;
+  std::string name, where, meaning;
+  Kind kind = Kind::effect;
+  std::vector<Eigen::Index> amplitudes;  ///< numbers of its amplitudes
+  bool confirmable = true;               ///< it acts on held-out data as well
+  std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
+  DataPlace data = {};                   ///< of an error of the data
+  /// Whether the model is run with it; what the data or the numerics do follows to first order.
+  bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
+};
+
+/// Whether one candidate is a special shape of the other at the same place: its name ends with the other's, as
+/// normal_visco_elastic is a visco_elastic support. Which of the two it is is no other verdict.
+bool is_variant(const Candidate& one, const Candidate& other);
+
+/// A way in which data may be off that no effect has to explain: a region at a moment, or over the beat.
+struct Pattern {
+  std::string region;
+  double time = undefined;  ///< of a moment; undefined: over the whole run
+  using Form = PatternForm;
+  Form form = Form::alike;
+};
+
+/// An allowed error that is a number of the model: what a run showed of it.
+struct AllowedRun {
+  Eigen::Index column = 0, run = 0;  ///< of `allowed`; of the sensitivity runs
+  double step = 1;                   ///< amplitude in that run
+};
+
+/// Data set against a model, and all that might change it, to first order.
+struct EffectProblem {
+  VectorXd residual;       ///< r, data minus model, training and held-out [n]
+  VectorXd precision;      ///< W of each [n]
+  VectorXd independent;    ///< how many independent data each is [n]
+  std::vector<int> block;  ///< of each: a patch of a frame, alike in its errors
+  std::vector<Eigen::Index> training, held_out;
+
+  MatrixXd changes;  ///< S [n x q]
+  std::vector<Amplitude> amplitudes;
+  std::vector<Candidate> candidates;
+  MatrixXd allowed;                        ///< N [n x k]
+  VectorXd allowed_deviation;              ///< [k]
+  std::vector<std::string> allowed_names;  ///< of those that a person may look after, else empty [k]
+  std::vector<AllowedRun> allowed_runs;
+  MatrixXd patterns;  ///< [n x g]
+  std::vector<Pattern> pattern_names;
+};
+
+/// The residual with amplitudes at finite size, one column for each column of amplitudes [q x m]: runs of the model.
+using ResidualAt = std::function<MatrixXd(const MatrixXd& amplitudes)>;
+
+/// To first order, without runs.
+ResidualAt linear_residual(const EffectProblem& problem);
+
+}  // namespace tether

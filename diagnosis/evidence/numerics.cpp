@@ -1,0 +1,79 @@
+#include "diagnosis/evidence/numerics.hpp"
+
+#include "common/config/overlay.hpp"
+#include "common/mesh/surface.hpp"
+#include "diagnosis/evidence/data_errors.hpp"
+#include "observation_manager/measurements/signed_surface.hpp"
+
+namespace tether {
+namespace {
+
+/// Refined once more and again: the sum of the steps to the limit, of the first; at least first order.
+constexpr double limit = 2;
+
+RefinedCase write(const std::filesystem::path& candidates, const DiagnosedCase& given, const std::string& name,
+                  const std::string& meaning, std::vector<Overlay::Value> values) {
+  const std::string suffix = "_" + name;
+  const std::filesystem::path file = candidates.parent_path() / ("refined" + suffix + ".yaml");
+  values.push_back({"diagnosis.runs", "trials"});
+  values.push_back({"diagnosis.trials.refined", "{}"});
+  const CommonCase& common = given.file.common();
+  write_overlay(file, {candidates, common.name + suffix, common.title + ", refined", values});
+  return {name, meaning, file};
+}
+
+}  // namespace
+
+std::vector<RefinedCase> write_refined(const std::filesystem::path& candidates, const DiagnosedCase& given) {
+  std::vector<RefinedCase> all{write(candidates, given, "long_step",
+                                     "share of what half the time step changes: its limit is at most 2",
+                                     {{"time.step", number_text(given.file.common().time.step / 2)}})};
+  if (given.mesh.source == "swept")
+    all.push_back(write(candidates, given, "coarse_mesh",
+                        "share of what twice the elements around and along change: their limit is at most 2",
+                        {{"mesh.swept.around", std::to_string(2 * given.mesh.swept.around)},
+                         {"mesh.swept.along", std::to_string(2 * given.mesh.swept.along)}}));
+  return all;
+}
+
+LumenSurface lumen_in(const std::filesystem::path& case_file) {
+  CaseFile file(case_file);
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  return lumen_of(load_mesh(mesh, file, WallElement::prism));
+}
+
+FinishedMotion on_nodes_of(const LumenSurface& lumen, const LumenSurface& other, const FinishedMotion& run) {
+  const Eigen::Index nodes = lumen.points.cols();
+  Eigen::Matrix3Xi corners(3, nodes);
+  Points shares(3, nodes);
+  const std::vector<Closest> closest = SignedSurface({other.points, other.triangles}).closest(lumen.points);
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const Closest& place = closest[static_cast<std::size_t>(i)];
+    const Triangle& t = other.triangles[static_cast<std::size_t>(place.triangle)];
+    corners.col(i) << t[0], t[1], t[2];
+    shares.col(i) =
+        closest_in_triangle(place.point, other.points.col(t[0]), other.points.col(t[1]), other.points.col(t[2]));
+  }
+  FinishedMotion mapped = run;
+  mapped.motion.imaged = lumen.points;
+  mapped.motion.positions = [=, rest = other.points, imaged = lumen.points](double time) {
+    const Points moved = run.motion.positions(time) - rest;
+    Points result = imaged;
+    for (Eigen::Index i = 0; i < nodes; ++i)
+      for (Eigen::Index k = 0; k < 3; ++k) result.col(i) += shares(k, i) * moved.col(corners(k, i));
+    return result;
+  };
+  return mapped;
+}
+
+void add_numerics(EffectProblem& problem, const RefinedCase& refined, const VectorXd& change) {
+  Amplitude amplitude{"share", refined.meaning, "1", true, limit};
+  amplitude.upper = limit;
+  problem.candidates.push_back(
+      {refined.name, {}, refined.meaning, Candidate::Kind::numerics, {problem.changes.cols()}, true});
+  problem.amplitudes.push_back(amplitude);
+  append_columns(problem.changes, change);
+}
+
+}  // namespace tether

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence/diagnosed_case.hpp"
+
+namespace tether {
+
+/// The model with a finer mesh or a shorter step: how much of the misfit is numerical.
+struct RefinedCase {
+  std::string name;     ///< of the candidate: coarse_mesh or long_step
+  std::string meaning;  ///< of its amplitude
+  std::filesystem::path file;
+};
+
+/// Writes cases beside that of all candidates: half the step; of a swept mesh twice the elements around and along.
+std::vector<RefinedCase> write_refined(const std::filesystem::path& candidates, const DiagnosedCase& given);
+
+/// The lumen in the mesh of a case.
+LumenSurface lumen_in(const std::filesystem::path& case_file);
+
+/// A run on another mesh of the same vessel, as the nodes of `lumen` move in it: each by the displacement of the
+/// closest place of the other imaged lumen.
+FinishedMotion on_nodes_of(const LumenSurface& lumen, const LumenSurface& other, const FinishedMotion& run);
+
+/// Adds what refining changes as a candidate: amplitude 0 as the model is, 1 as the refined one.
+void add_numerics(EffectProblem& problem, const RefinedCase& refined, const VectorXd& change);
+
+}  // namespace tether

@@ -1,0 +1,24 @@
+#include "diagnosis/evidence/stored_run.hpp"
+
+namespace tether {
+
+StoredRun::StoredRun(const std::filesystem::path& folder)
+    : lumen(std::make_shared<LumenMotion>(folder / "lumen.motion")),
+      table(std::make_shared<CsvTable>(folder / "timeseries.csv")) {
+  if (std::filesystem::exists(folder / "blood.velocity"))
+    velocity = std::make_shared<BloodVelocity>(folder / "blood.velocity");
+}
+
+FinishedMotion StoredRun::motion() const {
+  return {{lumen->times().front(), lumen->times().back(), lumen->imaged(),
+           [kept = lumen](double time) { return kept->at(time); }},
+          [kept = table](const std::string& column) {
+            return RunTrace{kept->numbers("time"), kept->numbers(column), kept->unit(column)};
+          },
+          [kept = velocity](const Points& points, double time) -> Points {
+            const Eigen::Index first = place_of(points, kept == nullptr ? Points(3, 0) : kept->points());
+            return kept->vectors_at(time).middleCols(first, points.cols());
+          }};
+}
+
+}  // namespace tether

@@ -1,0 +1,90 @@
+#include "diagnosis/explanation/explained_steps.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+
+#include "common/base/built_from.hpp"
+#include "common/base/error.hpp"
+#include "common/base/progress_line.hpp"
+#include "common/config/case_essence.hpp"
+#include "common/config/case_tree.hpp"
+#include "common/io/record_file.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Of this process and all that it started and that ended.
+double cpu_seconds_of_all() {
+  double sum = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    sum += seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+  return sum;
+}
+
+constexpr const char* begun_step = "step_begun";
+
+std::string first_line(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+/// Of the case and of the version, whose files others may not understand.
+std::string key_of(const fs::path& case_file) {
+  return fmt::format("{:016x} {}", hash_case(yaml_text(as_one_file(read_case_tree(case_file))), 0), built_from);
+}
+
+}  // namespace
+
+ExplainedSteps::ExplainedSteps(fs::path output, fs::file_time_type data, bool quiet)
+    : output_(std::move(output)), data_(data), quiet_(quiet) {
+  if (!fs::exists(output_ / "steps.json")) return;
+  try {
+    before_ = read_record<StepsMade>(output_ / "steps.json").steps;
+  } catch (const InputError&) {  // of another version: its steps are made anew
+  }
+}
+
+void ExplainedSteps::make(const std::string& title, const fs::path& case_file, const std::string& folder,
+                          const std::string& result, const std::function<int(bool)>& act) {
+  const std::string key = key_of(case_file);
+  const fs::path made = output_ / folder / result;
+  const auto kept = std::find_if(before_.begin(), before_.end(), [&](const ExplainedStep& step) {
+    return step.name == title && step.folder == folder && step.key == key;
+  });
+  if (!quiet_) std::cout << fmt::format("\n== {}\n", title) << std::flush;
+  if (kept != before_.end() && fs::exists(made) && fs::last_write_time(made) > data_) {
+    if (!quiet_) std::cout << fmt::format("is there, in {}\n", (output_ / folder).string()) << std::flush;
+    done_.push_back(*kept);
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds_of_all();
+  const std::string mark = title + " " + key;
+  const bool was_begun = first_line(output_ / begun_step) == mark;
+  std::ofstream(output_ / begun_step) << mark << std::endl;
+  if (act(was_begun) != exit_done) throw run_error("{}: failed (see above); the same command goes on from here", title);
+  done_.push_back({title, folder, seconds_since(start), cpu_seconds_of_all() - cpu, key});
+  save();
+}
+
+void ExplainedSteps::save() const {
+  write_record(output_ / "steps.json", StepsMade{done_});
+}
+
+}  // namespace tether

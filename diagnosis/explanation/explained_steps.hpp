@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+
+#include <filesystem>
+
+#include "diagnosis/results/explanation.hpp"
+
+namespace tether {
+
+/// Makes the steps of an explanation, and leaves out those that were made before from the same case and data:
+/// steps.json in the output folder remembers.
+class ExplainedSteps {
+ public:
+  /// data: what the given case was measured with; newer files make every step anew.
+  ExplainedSteps(std::filesystem::path output, std::filesystem::file_time_type data, bool quiet);
+
+  /// Runs a verb on a case, which leaves `result` in OUTPUT/folder. `act` is told whether this very step was begun
+  /// before and did not end. Throws RunError if it fails.
+  void make(const std::string& title, const std::filesystem::path& case_file, const std::string& folder,
+            const std::string& result, const std::function<int(bool was_begun)>& act);
+
+  const std::vector<ExplainedStep>& all() const { return done_; }
+
+ private:
+  void save() const;
+
+  std::filesystem::path output_;
+  std::filesystem::file_time_type data_;
+  bool quiet_;
+  std::vector<ExplainedStep> before_, done_;
+};
+
+}  // namespace tether

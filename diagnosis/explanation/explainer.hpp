@@ -1,0 +1,28 @@
+#pragma once
+
+#include "diagnosis/evidence/diagnosed_case.hpp"
+#include "diagnosis/explanation/path.hpp"
+
+namespace tether {
+
+/// A case whose results go into a folder.
+struct ExplanationTask {
+  std::filesystem::path case_file, folder;
+  bool resume = false;  ///< from the checkpoint that is there
+};
+
+/// What an explanation has others do. Each leaves its results in the task's folder and returns an exit code.
+class ExplanationWork {
+ public:
+  virtual ~ExplanationWork() = default;
+  virtual int compare(const ExplanationTask& task) = 0;   ///< comparison.json, after a run
+  virtual int diagnose(const ExplanationTask& task) = 0;  ///< diagnosis.json, suggested.yaml
+  virtual int identify(const ExplanationTask& task) = 0;  ///< estimate.json, identified.yaml
+};
+
+/// Walks the whole path: compares, finds what the model lacks, adds it, identifies it, compares on held-out data, and
+/// again until there is a verdict. What was done before into the same folder is kept. Throws RunError.
+ExplanationPath explain(const DiagnosedCase& given, const std::filesystem::path& output, ExplanationWork& work,
+                        bool quiet);
+
+}  // namespace tether

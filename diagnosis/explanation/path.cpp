@@ -1,0 +1,78 @@
+#include "diagnosis/explanation/path.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/explanation/path_findings.hpp"
+#include "diagnosis/explanation/path_sentences.hpp"
+
+namespace tether {
+namespace {
+
+const PathModel& best_of(const ExplanationPath& path) {
+  return path.models[path.best];
+}
+
+ExplanationCost cost_of(const std::vector<ExplainedStep>& steps) {
+  ExplanationCost cost;
+  for (const ExplainedStep& step : steps) {
+    cost.cpu_seconds += step.cpu_seconds;
+    cost.wall_seconds += step.wall_seconds;
+  }
+  return cost;
+}
+
+ExplainedModel told(const PathModel& model) {
+  ExplainedModel told = model.told;
+  told.case_file = model.folder() + ".yaml";
+  told.run = model.folder();
+  if (model.diagnosis) told.diagnosis = model.diagnosis_folder();
+  told.reason = reason_of(told.objection);
+  return told;
+}
+
+}  // namespace
+
+const Diagnosis* first_diagnosis(const ExplanationPath& path) {
+  const auto first = std::find_if(path.models.begin(), path.models.end(), [](const auto& m) { return m.diagnosis; });
+  return first == path.models.end() ? nullptr : &*first->diagnosis;
+}
+
+std::optional<std::string> corrected_case(const ExplanationPath& path) {
+  const PathModel& last = best_of(path);
+  if (!last.diagnosis || !last.diagnosis->corrected_case) return std::nullopt;
+  return last.diagnosis_folder() + "/" + *last.diagnosis->corrected_case;
+}
+
+Verdict verdict_of(const ExplanationPath& path) {
+  const Diagnosis& last = last_diagnosis(path);
+  if (last.verdict == Verdict::not_in_catalogue) return last.verdict;
+  const auto upheld = upheld_diagnoses(path);
+  if (std::any_of(upheld.begin(), upheld.end(), [](const auto* d) { return d->verdict == Verdict::ambiguous; }))
+    return Verdict::ambiguous;
+  if (!found_on(path).empty()) return Verdict::missing;
+  if (path.was_last_refused()) return Verdict::undecided;  // what a diagnosis accepted was not confirmed
+  return last.verdict;
+}
+
+Explanation explanation_of(const ExplanationPath& path) {
+  Explanation e;
+  e.case_name = path.case_name;
+  e.title = path.title;
+  e.case_file = path.case_file;
+  e.verdict = verdict_of(path);
+  e.statement = statement_of(path);
+  e.sentences = sentences_of(path);
+  for (const PathModel& model : path.models) e.models.push_back(told(model));
+  e.best = best_of(path).told.number;
+  e.effects = all_candidates(path);
+  e.detectable = last_diagnosis(path).detectable;
+  e.held_out = path.held_out;
+  if (path.force) e.missing_force = "force/force.json";
+  if (path.best > 0) e.suggested_case = best_of(path).folder() + ".yaml";
+  e.corrected_case = corrected_case(path);
+  e.cost = cost_of(path.steps);
+  e.steps = path.steps;
+  return e;
+}
+
+}  // namespace tether

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "common/config/overlay.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/missing_force.hpp"
+
+/// The path from a model to one that explains its measurements, while it is walked.
+namespace tether {
+
+/// A model of the path, and what is known of it.
+struct PathModel {
+  ExplainedModel told;                 ///< as explain.json has it
+  std::vector<Overlay::Value> values;  ///< what it says otherwise than the case as given
+  std::optional<Diagnosis> diagnosis;
+  std::vector<std::string> refused;  ///< numbers that a diagnosis of it accepted and an identification did not confirm
+
+  std::string folder() const { return "model_" + std::to_string(told.number); }
+  std::string diagnosis_folder() const { return "diagnosis_" + std::to_string(told.number); }
+  std::string identification_folder() const { return "identification_" + std::to_string(told.number); }
+};
+
+struct ExplanationPath {
+  std::string case_name, title, case_file;  ///< case_file: relative to the output folder
+  double millimetres = 1;                   ///< in the case's unit of length, for people
+  std::vector<PathModel> models;
+  std::size_t best = 0;      ///< the last one accepted
+  double unexplained = 0.3;  ///< share of the first misfit beyond noise that may be left
+  std::optional<ForceFound> force;
+  std::vector<std::string> failure;     ///< where the model as given fails, as comparison.json says
+  std::vector<std::string> odd_frames;  ///< sentences on frames that lie much farther off the best model than others
+  std::optional<Gain> held_out;         ///< of the best model against the one as given
+  std::vector<ExplainedStep> steps;
+
+  bool was_last_refused() const { return models.size() > best + 1; }
+};
+
+/// The diagnosis of the first model that has one; null: none was made.
+const Diagnosis* first_diagnosis(const ExplanationPath& path);
+
+/// Of the whole path.
+Verdict verdict_of(const ExplanationPath& path);
+
+/// The case with its data corrected of the errors that the best model's diagnosis found, in the output folder; none if
+/// it found none, or none that a case can take off.
+std::optional<std::string> corrected_case(const ExplanationPath& path);
+
+/// What explain.json says of it. At least one model was diagnosed.
+Explanation explanation_of(const ExplanationPath& path);
+
+}  // namespace tether

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/types.hpp"
+#include "diagnosis/results/finding.hpp"
+#include "diagnosis/results/further_data.hpp"
+#include "diagnosis/results/lack_of_fit.hpp"
+#include "diagnosis/results/statement.hpp"
+
+namespace tether {
+
+/// The smallest value of a candidate that these data would show with 80 % probability.
+struct Detectable {
+  static constexpr const char* type_name = "detectable";
+  std::string name, where, parameter;
+  double value = 0;
+  std::string unit;
+  double without = 0, in_scale = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("name", self.name, "of the effect, input or error");
+    field("where", self.where, "its place");
+    field("parameter", self.parameter, "its number that would be seen first");
+    field("value", self.value, "with the effect, in `unit`");
+    field("unit", self.unit, "of the values; 1: none");
+    field("without", self.without, "the model's value");
+    field("in_scale", self.in_scale, "over the size that it may have in a patient");
+  }
+};
+
+/// One attempt to add a candidate.
+struct Attempt {
+  static constexpr const char* type_name = "attempt";
+  std::string name;
+  std::optional<std::string> parameter;
+  std::string where;
+  bool accepted = false;
+  std::optional<Objection> objection;
+  std::string reason;
+  double misfit_before = 0, misfit_after = 0;
+  std::optional<LackOfFitFound> left;
+
+  static void fields(auto& self, auto&& field) {
+    field("name", self.name, "of the effect, input or error");
+    field("parameter", self.parameter, "the only number of an effect that differs; null: all of them");
+    field("where", self.where, "its place");
+    field("accepted", self.accepted, "the data at hand and those held out ask for it");
+    field("objection", self.objection, "why not");
+    field("reason", self.reason, "the same in words");
+    field("misfit_before", self.misfit_before, "[chi-square]");
+    field("misfit_after", self.misfit_after, "[chi-square]");
+    field("left", self.left, "lack of fit with it");
+  }
+};
+
+/// An allowed error that the data ask for.
+struct StrainedError {
+  static constexpr const char* type_name = "strained_error";
+  std::string name;
+  double deviations = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("name", self.name, "of the error");
+    field("deviations", self.deviations, "its size in the deviations that are allowed");
+  }
+};
+
+struct DiagnosisCost {
+  static constexpr const char* type_name = "diagnosis_cost";
+  int runs = 0, sensitivity_runs = 0, runs_made = 0;
+  double cpu_seconds = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("runs", self.runs, "of the model that were used");
+    field("sensitivity_runs", self.sensitivity_runs, "of these, the case as it is and what each number does");
+    field("runs_made", self.runs_made, "of these, those that were not there yet");
+    field("cpu_seconds", self.cpu_seconds, "of the runs that were made [s]");
+  }
+};
+
+/// What a model lacks: diagnosis.json (docs/diagnosis.md).
+struct Diagnosis {
+  static constexpr const char* type_name = "diagnosis";
+  Verdict verdict = Verdict::undecided;
+  Statement statement;
+  std::vector<std::string> sentences;
+  std::string case_name, title;
+  double alpha = 0.05, independent_data = 0, dispersion = 1;
+  bool doubtful = false;
+  std::vector<Finding> effects;
+  MatrixXd look_alike;
+  std::optional<Gain> held_out;
+  std::vector<Detectable> detectable;
+  LackOfFitChange lack_of_fit;
+  std::vector<StrainedError> strained_errors;
+  bool more = false;
+  std::optional<FurtherData> split_by;
+  std::vector<Attempt> path;
+  std::optional<std::string> suggested_case, corrected_case;
+  DiagnosisCost cost;
+
+  static void fields(auto& self, auto&& field) {
+    field("verdict", self.verdict, "what the data say of the model");
+    field("statement", self.statement, "what was found, of which the first sentence is made");
+    field("sentences", self.sentences, "the verdict first, then what a person should know next");
+    field("case", self.case_name, "name of the case");
+    field("title", self.title, "of the case");
+    field("alpha", self.alpha, "probability of a false alarm over all candidates");
+    field("independent_data", self.independent_data, "number of independent training data");
+    field("dispersion", self.dispersion, "misfit left per independent datum; intervals are widened by its root");
+    field("doubtful", self.doubtful, "more is left than noise and errors allowed make by chance");
+    field("effects", self.effects, "accepted ones first, then by their evidence");
+    field("look_alike", self.look_alike, "cosines of what the first of `effects` change, each with each other");
+    field("held_out", self.held_out, "on held-out data, by all that was accepted");
+    field("detectable", self.detectable, "per candidate, in the order of `effects`");
+    field("lack_of_fit", self.lack_of_fit, "of the model as it is, and with what was accepted");
+    field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
+    field("more", self.more, "another effect is wanted, but no more were to be added");
+    field("split_by", self.split_by, "what would tell rivals apart");
+    field("path", self.path, "attempts in their order");
+    field("suggested_case", self.suggested_case, "file beside this one: the case with what was accepted");
+    field("corrected_case", self.corrected_case, "file beside this one: the case with its data corrected");
+    field("cost", self.cost, "of the diagnosis");
+  }
+};
+
+/// The accepted ones that change the model, or those that are errors of data or numerics.
+std::vector<Finding> accepted_of(const Diagnosis& diagnosis, bool of_data);
+
+/// The first sentence: the verdict, and what it is about.
+std::string headline_of(const Diagnosis& diagnosis);
+/// Of an undecided one what stands out and is not confirmed, or why nothing can be said: its headline's second part.
+std::string open_question_of(const Diagnosis& diagnosis);
+/// What does much the same as an accepted effect, a sentence each.
+std::vector<std::string> look_alike_sentences(const Diagnosis& diagnosis);
+/// Whether the diagnosis tells its gain on held-out data, or an explanation tells its own in its place.
+enum class HeldOutGain { told, left_out };
+/// What a person should know beside the headline.
+std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain);
+/// The headline and all remarks.
+std::vector<std::string> sentences_of(const Diagnosis& diagnosis);
+
+}  // namespace tether

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/results/diagnosis.hpp"
+
+namespace tether {
+namespace {
+
+std::string name_of(const Attempt& attempt) {
+  Finding finding;
+  finding.name = attempt.name;
+  finding.parameter = attempt.parameter;
+  finding.where = attempt.where;
+  return name_of(finding);
+}
+
+bool any_accepted(const Diagnosis& diagnosis) {
+  return std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), [](const Finding& f) { return f.accepted; });
+}
+
+std::string where_left(const LackOfFitFound& lack) {
+  const std::string time = lack.worst_time ? fmt::format("at {:.3g} s", *lack.worst_time) : "over the beat";
+  const char* form = lack.worst_form == PatternForm::end_to_end ? " (inlet end, against the outlet end)"
+                     : lack.worst_form == PatternForm::ends     ? " (both ends, against the middle)"
+                                                                : "";
+  return fmt::format("{}{}, {}: the model lies too far {} ({:.1f} sigma)", lack.worst_region, form, time,
+                     lack.worst_z < 0 ? "outward" : "inward", std::abs(lack.worst_z));
+}
+
+std::string where_left(const Diagnosis& diagnosis) {
+  return diagnosis.lack_of_fit.after ? where_left(*diagnosis.lack_of_fit.after) : "no region is known";
+}
+
+std::string refusal_text(const Attempt& attempt) {
+  return fmt::format("{} stands out, but {}", name_of(attempt), attempt.reason);
+}
+
+std::string nothing_missing_sentence(const Diagnosis& diagnosis) {
+  return fmt::format(
+      "NOTHING MISSING: no candidate explains {}, and what is left is within the noise and the errors allowed",
+      diagnosis.path.empty()
+          ? "more than chance"
+          : fmt::format("enough (the best, {}, might be more than chance)", name_of(diagnosis.path.front())));
+}
+
+std::string split_sentence(const FurtherData& best) {
+  if (best.tells)
+    return fmt::format("Measuring {} would tell them apart ({}: expected difference of the misfit {:.0f})",
+                       best.measurement, best.assuming, best.expected_difference);
+  return fmt::format(
+      "No pressure, no flow and no more or better frames would tell them apart; most would {} ({}: expected "
+      "difference of the misfit {:.1f} of {:.0f} that it takes)",
+      best.measurement, best.assuming, best.expected_difference, telling);
+}
+
+std::string held_out_sentence(const Gain& gain) {
+  return fmt::format(
+      "Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with it, {:.2g} times the noise instead of {:.2g}",
+      100 * gain.value, 100 * gain.lower, 100 * gain.upper, gain.after, gain.before);
+}
+
+std::vector<std::string> accepted_texts(const Diagnosis& diagnosis) {
+  std::vector<std::string> all;
+  for (const Finding& finding : diagnosis.effects)
+    if (finding.accepted) all.push_back(text_of(finding));
+  return all;
+}
+
+std::string strained_sentence(const Diagnosis& diagnosis) {
+  std::vector<std::string> all;
+  for (const StrainedError& error : diagnosis.strained_errors)
+    all.push_back(fmt::format("{} ({:.1f} times the deviation that is allowed)", error.name, error.deviations));
+  return fmt::format("Errors that are allowed would have to be large, see to them: {}", fmt::join(all, "; "));
+}
+
+/// Runs of `other` fit worse: where the model is wrong in more than one way, that decides less than the numbers say.
+bool does_much_the_same(const Finding& accepted, const Finding& other) {
+  return !other.accepted && !other.rival && other.confirmed_by_runs && other.group && other.group == accepted.group;
+}
+
+/// Empty if there is none.
+std::string look_alike_sentence(const Diagnosis& diagnosis, const Finding& accepted) {
+  std::vector<std::string> alike;
+  for (const Finding& other : diagnosis.effects)
+    if (does_much_the_same(accepted, other))
+      alike.push_back(fmt::format("{} ({:.0f} less)", name_of(other), accepted.misfit_removed - other.misfit_removed));
+  if (alike.empty()) return "";
+  return fmt::format("There is what does much the same as {}: its runs remove {:.0f} of the misfit, those of {}",
+                     name_of(accepted), accepted.misfit_removed, fmt::join(alike, ", of "));
+}
+
+/// Rivals of a sure verdict are variants of what was found.
+void add_variants(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  for (const Finding& finding : diagnosis.effects)
+    if (finding.rival) all.push_back(fmt::format("These data cannot tell it from its variant {}", text_of(finding)));
+}
+
+void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const Verdict verdict = diagnosis.verdict;
+  const auto& after = diagnosis.lack_of_fit.after;
+  if (verdict == Verdict::missing && after && after->p < diagnosis.alpha / 5)
+    all.push_back(fmt::format("Something smaller is left: {}", where_left(*after)));
+  if (!diagnosis.strained_errors.empty() && !any_accepted(diagnosis)) all.push_back(strained_sentence(diagnosis));
+  if (verdict == Verdict::undecided && diagnosis.doubtful && after)
+    all.push_back(fmt::format("Farthest off: {}", where_left(*after)));
+}
+
+void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  if (any_accepted(diagnosis))
+    all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(accepted_texts(diagnosis), "; and ")));
+  if (!diagnosis.path.empty() && !diagnosis.path.back().accepted) all.push_back(refusal_text(diagnosis.path.back()));
+}
+
+void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::missing) add_variants(all, diagnosis);
+  for (std::string& sentence : look_alike_sentences(diagnosis)) all.push_back(std::move(sentence));
+  if (diagnosis.dispersion > 1.5)
+    all.push_back(
+        fmt::format("The misfit that is left is {:.1f} times what noise makes: intervals are widened by its root, and "
+                    "still optimistic",
+                    diagnosis.dispersion));
+  if (diagnosis.more)
+    all.push_back(
+        "More stands out beside it, which this diagnosis does not look for: refit it first, as tether explain does");
+  if (diagnosis.verdict == Verdict::not_in_catalogue) add_closest(all, diagnosis);
+  add_what_is_left(all, diagnosis);
+}
+
+}  // namespace
+
+std::vector<Finding> accepted_of(const Diagnosis& diagnosis, bool of_data) {
+  std::vector<Finding> all;
+  for (const Finding& finding : diagnosis.effects)
+    if (finding.accepted && changes_model(finding) != of_data) all.push_back(finding);
+  return all;
+}
+
+std::string open_question_of(const Diagnosis& diagnosis) {
+  if (!diagnosis.path.empty()) return refusal_text(diagnosis.path.front());  // the best of them
+  return diagnosis.doubtful ? "no candidate stands out, but the model is off by more than noise and the errors allowed "
+                              "make by chance"
+                            : "these data would not show any candidate at the size that it may have";
+}
+
+std::string headline_of(const Diagnosis& diagnosis) {
+  switch (diagnosis.verdict) {
+    case Verdict::missing:
+    case Verdict::ambiguous:
+      return sentence_of(diagnosis.verdict, diagnosis.statement, diagnosis.doubtful);
+    case Verdict::nothing_missing:
+      return nothing_missing_sentence(diagnosis);
+    case Verdict::not_in_catalogue:
+      return "NOT IN THE CATALOGUE: something is missing that no candidate explains: " + where_left(diagnosis);
+    case Verdict::undecided:
+      break;
+  }
+  return "UNDECIDED: " + open_question_of(diagnosis);
+}
+
+std::vector<std::string> look_alike_sentences(const Diagnosis& diagnosis) {
+  std::vector<std::string> all;
+  for (const Finding& finding : diagnosis.effects)
+    if (finding.accepted)
+      if (std::string alike = look_alike_sentence(diagnosis, finding); !alike.empty()) all.push_back(std::move(alike));
+  return all;
+}
+
+std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain) {
+  std::vector<std::string> all;
+  if (diagnosis.verdict == Verdict::ambiguous && diagnosis.split_by) all.push_back(split_sentence(*diagnosis.split_by));
+  if (!diagnosis.held_out && any_accepted(diagnosis)) all.push_back("Not confirmed: no frames are held out");
+  if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));
+  add_rest(all, diagnosis);
+  return all;
+}
+
+std::vector<std::string> sentences_of(const Diagnosis& diagnosis) {
+  std::vector<std::string> all{headline_of(diagnosis)};
+  for (std::string& remark : remarks_on(diagnosis, HeldOutGain::told)) all.push_back(std::move(remark));
+  return all;
+}
+
+}  // namespace tether

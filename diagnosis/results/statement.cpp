@@ -1,0 +1,34 @@
+#include "diagnosis/results/statement.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tether {
+namespace {
+
+std::string ambiguous_sentence(const Statement& statement) {
+  std::vector<std::string> groups;
+  for (const auto& group : statement.alike) groups.push_back(fmt::format("{}", fmt::join(group, " from ")));
+  std::string text = fmt::format("AMBIGUOUS: these data cannot tell {}", fmt::join(groups, ", nor "));
+  if (!statement.effects.empty()) text += fmt::format("; beside it {}", fmt::join(statement.effects, " and "));
+  if (!statement.wrong_data.empty())
+    text += fmt::format("; THE DATA are off: {}", fmt::join(statement.wrong_data, " and "));
+  return text;
+}
+
+}  // namespace
+
+std::string sentence_of(Verdict verdict, const Statement& statement, bool doubtful) {
+  if (verdict == Verdict::ambiguous) return ambiguous_sentence(statement);
+  const std::string wrong = fmt::format("{}", fmt::join(statement.wrong_data, "; and "));
+  if (!statement.coarse_numerics.empty())
+    return fmt::format("THE NUMERICS are too coarse, no effect is missing: {}",
+                       fmt::join(statement.coarse_numerics, "; and "));
+  if (statement.effects.empty())
+    return fmt::format("THE DATA are off{}: {}",
+                       doubtful ? ", and more than chance is left beside" : ", the model lacks nothing beside", wrong);
+  return fmt::format("MISSING: {}{}{}", fmt::join(statement.effects, "; and "),
+                     wrong.empty() ? "" : "; and THE DATA are off: ", wrong);
+}
+
+}  // namespace tether

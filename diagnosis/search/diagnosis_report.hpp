@@ -1,0 +1,29 @@
+#pragma once
+
+#include "diagnosis/results/diagnosis.hpp"
+#include "diagnosis/search/effect_search.hpp"
+#include "diagnosis/search/further_measurement.hpp"
+
+namespace tether {
+
+/// What a diagnosis found, and what it took.
+struct DiagnosisReport {
+  std::string case_name, title;
+  std::string suggested, corrected;  ///< cases with the effect, with corrected data; empty: none
+  EffectProblem problem;
+  SearchResult found;
+  std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
+  double alpha = 0.05;
+  DiagnosisCost cost;
+};
+
+/// What diagnosis.json says of it: names, units and values of the case in the place of candidates and amplitudes.
+Diagnosis diagnosis_of(const DiagnosisReport& report);
+
+/// Value of the model's number with the effect, and its 95 % interval; for one-sided amplitudes not below the base.
+struct FoundValue {
+  double value, lower, upper;
+};
+FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
+
+}  // namespace tether

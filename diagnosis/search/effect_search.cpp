@@ -1,0 +1,429 @@
+#include "diagnosis/search/effect_search.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "diagnosis/search/refinement.hpp"
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double convincing = 6;    ///< of BIC
+constexpr double sure = 0.95;       ///< probability of a gain on held-out data
+constexpr double hopeless = 12;     ///< of the misfit, behind the best
+constexpr double the_same = 0.99;   ///< cosine
+constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
+
+constexpr double worth_runs = 4;  ///< misfit beyond noise, in the deviations that noise gives it
+constexpr double doubtful = 3;    ///< the same: by chance once in some hundred cases
+constexpr double noteworthy = 2;  ///< of what an error is allowed
+constexpr double strained = 2.5;  ///< the same: a few allowed errors are well seen, each by chance once in eighty cases
+constexpr double unexplainable = 6;      ///< the same: neither noise nor errors allowed do that
+constexpr double mostly = 0.5;           ///< of the information on an effect, beside accepted ones
+constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
+
+class Search {
+ public:
+  Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at)
+      : problem_(problem), settings_(settings), residual_at_(residual_at), plain_(problem), foretold_(problem) {
+    now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
+    result_.independent = problem.independent(problem.training).sum();
+    rival_of_.resize(problem.candidates.size());
+    std::iota(rival_of_.begin(), rival_of_.end(), std::size_t{0});
+  }
+
+  SearchResult run() {
+    const Scores scores = plain_.scores(problem_.changes, problem_.residual);
+    result_.effects = test_all(problem_, scores, settings_.alpha, result_.independent);
+    result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
+    while (add_one()) continue;
+    result_.amplitudes = now_.amplitudes;
+    result_.residual = now_.residual;
+    refit_accepted();
+    judge();
+    set_groups(result_.effects, problem_, scores, result_.independent, rival_of_);
+    std::stable_sort(result_.effects.begin(), result_.effects.end(), [&](const auto& a, const auto& b) {
+      if (a.accepted != b.accepted) return a.accepted;
+      if (a.confirmed != b.confirmed) return a.confirmed;
+      return is_worth_more(a, b);
+    });
+    compare_strongest(scores);
+    return std::move(result_);
+  }
+
+ private:
+  double worth_of(const TestedEffect& effect) const { return worth(problem_, effect, result_.independent); }
+  bool is_worth_more(const TestedEffect& a, const TestedEffect& b) const { return worth_of(a) > worth_of(b); }
+
+  double dispersion(const VectorXd& residual) const {
+    const VectorXd r = refitted(residual)(problem_.training), w = problem_.precision(problem_.training);
+    return std::max(1.0, r.dot(w.cwiseProduct(r)) / result_.independent);
+  }
+
+  /// Accepted, or refused since something was accepted last.
+  bool was_tried(std::size_t candidate) const {
+    bool tried = false;
+    for (const SearchStep& step : result_.path)
+      tried = step.candidate == candidate || (tried && (!step.accepted() || is_accepted(candidate)));
+    return tried || is_refused(candidate);
+  }
+  bool is_refused(std::size_t candidate) const {
+    const auto& own = problem_.candidates[candidate].amplitudes;
+    return std::any_of(own.begin(), own.end(), [&](Index i) {
+      const std::string& name = problem_.amplitudes[static_cast<std::size_t>(i)].name;
+      return std::find(settings_.refused.begin(), settings_.refused.end(), name) != settings_.refused.end();
+    });
+  }
+  /// Of those accepted, what is added to the model: errors of the data are not.
+  int added() const {
+    return static_cast<int>(std::count_if(now_.accepted.begin(), now_.accepted.end(),
+                                          [&](std::size_t c) { return problem_.candidates[c].takes_runs(); }));
+  }
+  bool is_accepted(std::size_t candidate) const {
+    return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
+  }
+
+  std::vector<TestedEffect> untried(const Trained& trained) const {
+    std::vector<TestedEffect> all =
+        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
+    std::erase_if(all, [&](const TestedEffect& e) { return was_tried(e.candidate); });
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return is_worth_more(a, b); });
+    return all;
+  }
+
+  /// What the data ask for beside what was accepted, the strongest first.
+  std::vector<TestedEffect> wanted(const Trained& trained) const {
+    std::vector<TestedEffect> all = untried(trained);
+    std::erase_if(all,
+                  [&](const TestedEffect& e) { return e.q >= level() || (!asks_for_more() && !is_other_effect(e)); });
+    if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
+    return all;
+  }
+
+  /// Where what was accepted leaves nothing but noise: a further error of the data is what the first did not quite
+  /// take.
+  bool is_other_effect(const TestedEffect& effect) const {
+    return is_other(effect) && (now_.accepted.empty() || problem_.candidates[effect.candidate].takes_runs());
+  }
+
+  /// Whether most of what it does is not what the accepted effects do, whose law and amplitude may not be quite right.
+  bool is_other(const TestedEffect& effect) const {
+    const auto alone = std::find_if(result_.effects.begin(), result_.effects.end(),
+                                    [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
+    return effect.retained > mostly * alone->retained;
+  }
+
+  /// Effects that first order cannot judge, since numbers that may be anything were fitted without them, and do for
+  /// small amplitudes what they do: as large as a patient may have them.
+  std::vector<TestedEffect> unsure(const Trained& trained) const {
+    if ((problem_.allowed_deviation.array() < infinite).all()) return {};
+    std::vector<TestedEffect> all = untried(trained);
+    std::erase_if(all, [&](const TestedEffect& e) {
+      return problem_.candidates[e.candidate].kind != Candidate::Kind::effect || e.q < settings_.alpha || !e.testable ||
+             e.retained > hardly_retained;
+    });
+    for (TestedEffect& effect : all) {
+      effect.amplitudes = as_in_patients(problem_, effect);
+      effect.gain = now_misfit();
+    }
+    return all;
+  }
+
+  /// By so many of the deviations that noise gives the misfit.
+  bool is_far_beyond_noise(double deviations) const {
+    return now_misfit() > result_.independent + deviations * std::sqrt(2 * result_.independent);
+  }
+
+  /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
+  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) const {
+    std::vector<Refinement> all;
+    for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, trained, plain_, problem_);
+    const Scores scores = trained.scores(problem_.changes, now_.residual);
+    while (true) {
+      std::vector<Refinement*> open;
+      for (Refinement& one : all)
+        if (!one.done() && one.runs() < settings_.refinements) open.push_back(&one);
+      if (open.empty()) return all;
+      std::stable_sort(open.begin(), open.end(), [](const auto* a, const auto* b) { return a->hope() < b->hope(); });
+      if (open.size() > at_once) open.resize(at_once);
+      run(open);
+      learn_from_look_alikes(all, scores);
+      give_up_hopeless(all);
+    }
+  }
+
+  void run(const std::vector<Refinement*>& open) const {
+    MatrixXd wanted(problem_.changes.cols(), static_cast<Index>(open.size()));
+    for (std::size_t i = 0; i < open.size(); ++i) wanted.col(static_cast<Index>(i)) = open[i]->amplitudes();
+    const MatrixXd residuals = residual_at_(wanted);
+    for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(residuals.col(static_cast<Index>(i)));
+  }
+
+  /// What does the same to first order saturates alike.
+  void learn_from_look_alikes(std::vector<Refinement>& all, const Scores& scores) const {
+    for (Refinement& one : all)
+      for (const Refinement& other : all)
+        if (!one.begun() && other.begun() &&
+            std::abs(cosine(problem_, scores, one.effect(), other.effect())) > the_same)
+          one.expect_at_most(now_misfit() - std::min(other.best(), other.hope()));
+  }
+  double now_misfit() const { return plain_.misfit(now_.residual); }
+
+  static void give_up_hopeless(std::vector<Refinement>& all) {
+    double best = infinite;
+    for (const Refinement& one : all) best = std::min(best, one.best());
+    for (Refinement& one : all)
+      if (one.hope() > best + hopeless) one.give_up();
+  }
+
+  std::vector<int> held_out_blocks() const {
+    std::vector<int> block;
+    for (const Index i : problem_.held_out) block.push_back(problem_.block[static_cast<std::size_t>(i)]);
+    return block;
+  }
+
+  /// With the numbers that may be anything as they fit the training data best.
+  VectorXd refitted(const VectorXd& residual) const {
+    const VectorXd found = plain_.amplitudes(residual);
+    VectorXd fitted = residual;
+    for (Index k = 0; k < found.size(); ++k)
+      if (problem_.allowed_deviation(k) == infinite) fitted -= problem_.allowed.col(k) * found(k);
+    return fitted;
+  }
+
+  std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
+    if (problem_.held_out.size() < 2) return std::nullopt;
+    return gain_of(problem_.precision(problem_.held_out), held_out_blocks(), before(problem_.held_out),
+                   after(problem_.held_out), problem_.independent(problem_.held_out).sum());
+  }
+
+  /// The same, or if that is not sure of what the training data and the allowed errors do not foretell.
+  std::optional<Gain> confirmation(const VectorXd& before, const VectorXd& after) const {
+    const auto plain = held_out_gain(refitted(before), refitted(after));
+    if (!plain || plain->positive >= sure) return plain;
+    return gain_in_misfit(held_out_blocks(), foretold_.misfit(before), foretold_.misfit(after),
+                          problem_.independent(problem_.held_out).sum());
+  }
+
+  /// Probability that noise makes the gain of one of so many candidates as large.
+  double by_chance(const TestedEffect& effect, double dispersion) const {
+    return std::min(effect.q, static_cast<double>(problem_.candidates.size()) *
+                                  chance_of(problem_, effect.candidate, effect.confirmed_gain / dispersion));
+  }
+
+  /// Why the data at hand and those held out do not ask for the effect; none if they do.
+  std::optional<Objection> objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
+    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= level())
+      return Objection::too_weak;
+    const bool confirmable = problem_.candidates[effect.candidate].confirmable;
+    if (confirmable && effect.held_out && effect.held_out->positive < sure) return Objection::not_confirmed;
+    if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return Objection::lack_of_fit_stays;
+    if (effect.at_limit) return Objection::beyond_its_limit;
+    return std::nullopt;
+  }
+
+  /// One step of the search; false when it is over.
+  bool add_one() {
+    const Trained trained(problem_, now_.changes);
+    const std::vector<TestedEffect> strongest = wanted(trained);
+    const bool refit_first = added() > 0 && !asks_for_more();
+    if (refit_first || added() == settings_.most) {
+      result_.more = !strongest.empty();
+      if (result_.more || refit_first) return false;
+    }
+    std::vector<Refinement> all = refined(strongest, trained);
+    if (asks_for_more() && is_far_beyond_noise(worth_runs))
+      for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
+    return settle(all);
+  }
+
+  /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it. False if none is.
+  bool settle(const std::vector<Refinement>& all) {
+    std::vector<const Refinement*> order;
+    for (const Refinement& one : all)
+      if (one.begun()) order.push_back(&one);
+    if (order.empty() && !all.empty() && all.front().runs() > 0) result_.path.push_back(broken(all.front()));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const auto* a, const auto* b) { return is_worth_more(a->effect(), b->effect()); });
+    const AmplitudeState before = now_;
+    const Refinement* chosen = nullptr;
+    for (const Refinement* one : order) {
+      if (!is_rival(*one, *order.front())) break;
+      const SearchStep& step = result_.path.emplace_back(attempt(*one));
+      if (step.accepted()) chosen = one;
+      if (step.accepted() || step.objection == Objection::too_weak) break;
+    }
+    const double spread = dispersion((chosen ? chosen->state() : before).residual);
+    for (const Refinement* one : order) {
+      TestedEffect effect = one->effect();
+      effect.run = one->state().amplitudes;
+      effect.held_out = confirmation(before.residual, one->state().residual);
+      effect.deviations *= std::sqrt(spread);
+      effect.accepted = one == chosen;
+      effect.rival = chosen && one != chosen && !was_refused(effect.candidate) && is_rival(*one, *chosen);
+      if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
+      keep(effect);
+    }
+    if (!chosen) return false;
+    now_ = chosen->state();
+    result_.after = result_.path.back().left;
+    result_.dispersion = spread;
+    return true;
+  }
+
+  /// Whether the data at hand cannot tell it from the better one.
+  bool is_rival(const Refinement& one, const Refinement& better) const {
+    return worth_of(one.effect()) >= worth_of(better.effect()) - convincing * dispersion(better.state().residual);
+  }
+
+  /// The model could not be run with any of its amplitudes.
+  SearchStep broken(const Refinement& one) const {
+    const double misfit = now_misfit();
+    return {one.effect().candidate, Objection::breaks_down, misfit, misfit, result_.after};
+  }
+
+  /// What comes of adding it.
+  SearchStep attempt(const Refinement& one) const {
+    const VectorXd residual = one.state().residual;
+    TestedEffect effect = one.effect();
+    effect.held_out = confirmation(now_.residual, residual);
+    SearchStep step{
+        effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
+    step.objection = objection(effect, dispersion(residual), step.left);
+    return step;
+  }
+
+  bool was_refused(std::size_t candidate) const {
+    return std::any_of(result_.path.begin(), result_.path.end(),
+                       [&](const SearchStep& step) { return step.candidate == candidate && !step.accepted(); });
+  }
+
+  /// What is known of an effect now; `visible` stays what it was without any other.
+  void keep(TestedEffect effect) {
+    TestedEffect& kept = *std::find_if(result_.effects.begin(), result_.effects.end(),
+                                       [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
+    if (kept.accepted) return;
+    effect.visible = kept.visible;
+    effect.testable = kept.testable;
+    effect.rival = !effect.accepted && (effect.rival || kept.rival);
+    kept = std::move(effect);
+  }
+
+  /// Amplitudes and deviations of those accepted first, as they are beside the later ones.
+  void refit_accepted() {
+    if (now_.accepted.size() < 2) return;
+    const MatrixXd covariance = plain_.scores(now_.changes, now_.residual).information.inverse();
+    for (std::size_t k = 0; k < now_.accepted.size(); ++k) {
+      const auto number = static_cast<Index>(k);
+      for (TestedEffect& effect : result_.effects)
+        if (effect.candidate == now_.accepted[k]) {
+          effect.amplitudes = now_.amplitudes(problem_.candidates[effect.candidate].amplitudes);
+          effect.deviations = effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * result_.dispersion);
+        }
+    }
+  }
+
+  double strict() const { return settings_.alpha / 5; }
+  /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
+  bool leaves_something() const { return result_.after.p < strict() || is_far_beyond_noise(unexplainable); }
+  /// Whether more is missing whatever the candidates say, or nothing was found yet.
+  bool asks_for_more() const {
+    return now_.accepted.empty() ? result_.before.excess >= settings_.enough : leaves_something();
+  }
+  /// Of tests. Where what was accepted leaves nothing but noise, another effect must stand out from that.
+  double level() const { return asks_for_more() ? settings_.alpha : strict(); }
+  /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
+  bool leaves_too_much() const {
+    const double removed = plain_.misfit(problem_.residual) - now_misfit();
+    return leaves_something() && result_.after.excess > settings_.enough &&
+           result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
+  }
+
+  /// Allowed errors that somebody may look after, by how much of them the data ask for.
+  std::vector<StrainedError> strained_errors() const {
+    const VectorXd found = plain_.amplitudes(now_.residual).cwiseQuotient(problem_.allowed_deviation);
+    std::vector<StrainedError> all;
+    for (std::size_t k = 0; k < problem_.allowed_names.size(); ++k)
+      if (const double size = std::abs(found(static_cast<Index>(k)));
+          !problem_.allowed_names[k].empty() && size > noteworthy)
+        all.push_back({problem_.allowed_names[k], size});
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.deviations > b.deviations; });
+    return all;
+  }
+
+  /// Whether the data at hand or those held out, given these, are off by more than chance would have it, or an allowed
+  /// error would have to be larger than it is by chance.
+  bool is_doubtful() const {
+    if (!result_.strained.empty() && result_.strained.front().deviations > strained) return true;
+    if (result_.after.p < settings_.alpha || is_far_beyond_noise(doubtful)) return true;
+    if (problem_.held_out.size() < 2) return false;
+    const double count = problem_.independent(problem_.held_out).sum();
+    return foretold_.misfit(now_.residual).sum() > count + doubtful * std::sqrt(2 * count);
+  }
+
+  void judge() {
+    const bool accepted = !now_.accepted.empty();
+    const bool ambiguous = std::any_of(result_.effects.begin(), result_.effects.end(), [&](const auto& e) {
+      return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
+    });
+    result_.strained = strained_errors();
+    result_.doubtful = is_doubtful();
+    if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
+    if (leaves_too_much() && !result_.more)
+      result_.verdict = Verdict::not_in_catalogue;
+    else if (ambiguous)
+      result_.verdict = Verdict::ambiguous;
+    else if (accepted)
+      result_.verdict = Verdict::missing;
+    else if (stands_out() || !sees_anything() || result_.doubtful)
+      result_.verdict = Verdict::undecided;
+    else
+      result_.verdict = Verdict::nothing_missing;
+  }
+
+  /// Whether something had the evidence, but was not confirmed.
+  bool stands_out() const {
+    return std::any_of(result_.path.begin(), result_.path.end(),
+                       [](const SearchStep& step) { return step.objection != Objection::too_weak; });
+  }
+
+  /// Whether any effect would be seen at the size that it may have in a patient.
+  bool sees_anything() const {
+    return std::any_of(result_.effects.begin(), result_.effects.end(), [&](const TestedEffect& effect) {
+      const Candidate& candidate = problem_.candidates[effect.candidate];
+      const double scale = problem_.amplitudes[static_cast<std::size_t>(candidate.amplitudes.front())].scale;
+      return candidate.kind == Candidate::Kind::effect && effect.visible < scale;
+    });
+  }
+
+  void compare_strongest(const Scores& scores) {
+    const auto count = std::min<Index>(settings_.compared, static_cast<Index>(result_.effects.size()));
+    result_.cosines.resize(count, count);
+    for (Index i = 0; i < count; ++i)
+      for (Index j = 0; j < count; ++j)
+        result_.cosines(i, j) = cosine(problem_, scores, result_.effects[static_cast<std::size_t>(i)],
+                                       result_.effects[static_cast<std::size_t>(j)]);
+  }
+
+  const EffectProblem& problem_;
+  const SearchSettings& settings_;
+  const ResidualAt& residual_at_;
+  Trained plain_;
+  Foretold foretold_;
+  AmplitudeState now_;
+  SearchResult result_;
+  std::vector<std::size_t> rival_of_;
+};
+
+}  // namespace
+
+SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
+                            const ResidualAt& residual_at) {
+  return Search(problem, settings, residual_at).run();
+}
+
+}  // namespace tether

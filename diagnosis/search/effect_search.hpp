@@ -1,0 +1,50 @@
+#pragma once
+
+#include "diagnosis/results/diagnosis.hpp"
+#include "diagnosis/search/effect_tests.hpp"
+
+namespace tether {
+
+struct SearchSettings {
+  double alpha = 0.05;                    ///< probability of a false alarm over all candidates
+  double unexplained = 0.1;               ///< if more of what the data ask for remains, something else is missing
+  double enough = 0;                      ///< excess (D.11) below which another effect must stand out at alpha/5
+  int most = 3;                           ///< effects that are added to the model, errors of the data aside
+  int refinements = 5;                    ///< runs at most for an effect's amplitude
+  int confirmed = 8;                      ///< candidates whose amplitude is found with runs, before one is chosen
+  int compared = 12;                      ///< of the strongest, how much each looks like each other is kept
+  std::vector<std::string> refused = {};  ///< numbers of candidates that are not accepted
+};
+
+/// One attempt to add an effect.
+struct SearchStep {
+  std::size_t candidate = 0;
+  std::optional<Objection> objection;  ///< none: it is accepted
+  double misfit_before = 0, misfit_after = 0;
+  LackOfFit left;
+  bool accepted() const { return !objection; }
+};
+
+struct SearchResult {
+  Verdict verdict = Verdict::undecided;
+  std::vector<TestedEffect> effects;  ///< accepted ones first, then by their evidence
+  MatrixXd cosines;                   ///< of the changes that the first of `effects` make, each with each other
+  std::vector<SearchStep> path;
+  LackOfFit before, after;
+  VectorXd amplitudes;     ///< of all accepted effects [q]
+  VectorXd residual;       ///< with them [n]
+  double independent = 0;  ///< number of independent training data
+  bool more = false;       ///< another effect is wanted, but `most` were added
+  double dispersion = 1;   ///< misfit per independent datum that is left, at least 1, numbers that may be anything
+                           ///< refitted: intervals are widened by its root
+  std::optional<Gain> held_out;
+  std::vector<StrainedError> strained;  ///< errors beyond twice what is allowed, the worst first
+  bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
+};
+
+/// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the
+/// data at hand and those held out ask for it, and judges what is left. (D.8-D.13)
+SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
+                            const ResidualAt& residual_at);
+
+}  // namespace tether

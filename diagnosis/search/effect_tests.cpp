@@ -1,0 +1,185 @@
+#include "diagnosis/search/effect_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/comparison/chances.hpp"
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+/// What is seen only at so many times the size that it may have is not tested: it could be named by chance only.
+constexpr double beyond_patients = 5;
+
+std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
+  std::vector<bool> one_sided;
+  for (const Index i : of) one_sided.push_back(problem.amplitudes[static_cast<std::size_t>(i)].one_sided);
+  return one_sided;
+}
+
+/// z of the same probability, for people.
+double as_z(double p) {
+  return p > 1e-300 ? -normal_quantile(std::min(p, 1 - 1e-12)) : 37;
+}
+
+double probability(double gain, const std::vector<bool>& one_sided) {
+  const int n = static_cast<int>(one_sided.size());
+  const bool any = std::any_of(one_sided.begin(), one_sided.end(), [](bool one) { return one; });
+  return any ? one_sided_tail(gain, n) : chi_square_tail(gain, n);  // (D.10)
+}
+
+TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores, double count) {
+  const std::vector<Index>& own = problem.candidates[number].amplitudes;
+  const MatrixXd information = scores.information(own, own);
+  const std::vector<bool> one_sided = sides(problem, own);
+  const Fit fit = best_fit(information, scores.response(own), one_sided);
+  TestedEffect effect;
+  effect.candidate = number;
+  effect.gain = fit.gain;
+  const double spread = std::max(1.0, (scores.misfit - fit.gain) / count);  // noise that is larger than stated
+  effect.p = probability(fit.gain / spread, one_sided);
+  effect.z = fit.gain > 0 ? (own.size() == 1 ? std::sqrt(fit.gain / spread) : as_z(effect.p)) : 0;
+  if (own.size() == 1 && scores.response(own[0]) < 0)
+    effect.z = scores.response(own[0]) / std::sqrt(spread * information(0, 0));
+  effect.amplitudes = fit.amplitudes;
+  effect.deviations = information.diagonal().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const double size = effect.amplitudes(static_cast<Index>(k));
+    if (problem.amplitudes[static_cast<std::size_t>(own[k])].limited(size) != size) effect.at_limit = true;
+  }
+  const double alone = scores.alone(own).sum();
+  effect.retained = alone > 0 ? information.trace() / alone : 0;
+  return effect;
+}
+
+/// (D.12)
+double visible(const EffectProblem& problem, const Scores& scores, Index amplitude, double alpha) {
+  const bool one_sided = problem.amplitudes[static_cast<std::size_t>(amplitude)].one_sided;
+  const double tests = static_cast<double>(problem.candidates.size()) * (one_sided ? 1 : 2);
+  const double information = scores.information(amplitude, amplitude);
+  return information > 0 ? (normal_quantile(1 - alpha / tests) + 0.842) / std::sqrt(information) : infinite;
+}
+
+/// Whether any of its amplitudes is seen at a size that it may have.
+bool is_testable(const EffectProblem& problem, const Scores& scores, std::size_t candidate, double alpha) {
+  const auto& own = problem.candidates[candidate].amplitudes;
+  return std::any_of(own.begin(), own.end(), [&](Index i) {
+    const double scale = problem.amplitudes[static_cast<std::size_t>(i)].scale;
+    return !(visible(problem, scores, i, alpha) > beyond_patients * scale);  // errors of the data have no scale
+  });
+}
+
+}  // namespace
+
+double chance_of(const EffectProblem& problem, std::size_t candidate, double gain) {
+  return probability(gain, sides(problem, problem.candidates[candidate].amplitudes));
+}
+
+VectorXd as_in_patients(const EffectProblem& problem, const TestedEffect& effect) {
+  const auto& own = problem.candidates[effect.candidate].amplitudes;
+  const auto scale = [&](Index k) {
+    return problem.amplitudes[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])].scale;
+  };
+  VectorXd amplitudes = effect.amplitudes;
+  double largest = 0;
+  for (Index k = 0; k < amplitudes.size(); ++k) largest = std::max(largest, std::abs(amplitudes(k)) / scale(k));
+  if (largest > 0) return amplitudes / largest;
+  amplitudes(0) = scale(0);
+  return amplitudes;
+}
+
+double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b) {
+  const auto direction = [&](const TestedEffect& effect) {
+    VectorXd all = VectorXd::Zero(problem.changes.cols());
+    const auto& own = problem.candidates[effect.candidate].amplitudes;
+    if (effect.amplitudes.squaredNorm() > 0)
+      all(own) = effect.amplitudes;
+    else
+      all(own[0]) = 1;
+    return all;
+  };
+  const VectorXd u = direction(a), v = direction(b);
+  const double size = u.dot(scores.information * u) * v.dot(scores.information * v);
+  return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
+}
+
+std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha, double count) {
+  std::vector<TestedEffect> all;
+  std::vector<double> p;
+  for (std::size_t i = 0; i < problem.candidates.size(); ++i) {
+    TestedEffect& effect = all.emplace_back(test(problem, i, scores, count));
+    effect.visible = visible(problem, scores, problem.candidates[i].amplitudes.front(), alpha);
+    effect.testable = is_testable(problem, scores, i, alpha);
+    if (effect.testable) p.push_back(effect.p);
+  }
+  const std::vector<double> q = holm(p);
+  auto next = q.begin();
+  for (TestedEffect& effect : all)
+    if (effect.testable) effect.q = *next++;
+  return all;
+}
+
+double worth(const EffectProblem& problem, const TestedEffect& effect, double count) {
+  const double gain = effect.confirmed ? effect.confirmed_gain : effect.gain;
+  const auto& own = problem.candidates[effect.candidate].amplitudes;
+  double price = static_cast<double>(own.size()) * std::log(count);
+  for (std::size_t k = 0; k < own.size(); ++k)
+    if (const double scale = problem.amplitudes[static_cast<std::size_t>(own[k])].scale; scale > 0)
+      price += std::pow(effect.amplitudes(static_cast<Index>(k)) / (beyond_patients * scale), 2);
+  return gain - price;
+}
+
+LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual) {
+  LackOfFit lack;
+  if (problem.patterns.cols() == 0) return lack;
+  const Scores scores = trained.scores(problem.patterns, residual);
+  double smallest = 1;
+  int seen = 0, moments = 0;
+  for (Index k = 0; k < scores.response.size(); ++k) {
+    if (!(scores.information(k, k) > 1e-9 * scores.alone(k)) || scores.alone(k) == 0) continue;
+    ++seen;
+    const double z = scores.response(k) / std::sqrt(scores.information(k, k));
+    const bool is_moment = !std::isnan(problem.pattern_names[static_cast<std::size_t>(k)].time);
+    if (is_moment) lack.excess += z * z - 1, ++moments;
+    if (const double p = 2 * normal_tail(std::abs(z)); p < smallest) {
+      smallest = p;
+      lack.worst = static_cast<std::size_t>(k);
+      lack.z = z;
+    }
+  }
+  lack.p = std::min(1.0, seen * smallest);
+  lack.excess = std::max(0.0, lack.excess);
+  const double limit = seen > 0 ? -normal_quantile(0.025 / seen) : 0;
+  lack.beyond_noise = std::max({0.0, lack.excess - 1.645 * std::sqrt(2.0 * moments), lack.z * lack.z - limit * limit});
+  return lack;
+}
+
+void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem, const Scores& scores, double count,
+                const std::vector<std::size_t>& rival_of) {
+  std::vector<TestedEffect*> order;
+  for (TestedEffect& effect : effects) order.push_back(&effect);
+  std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
+    if (a->accepted != b->accepted) return a->accepted;
+    return worth(problem, *a, count) > worth(problem, *b, count);
+  });
+  int groups = 0;
+  for (TestedEffect* first : order) {
+    if (first->group >= 0) continue;
+    bool any = false;
+    for (TestedEffect* other : order) {
+      if (other == first || other->group >= 0 || other->accepted) continue;
+      const double c = cosine(problem, scores, *first, *other);
+      if (rival_of[other->candidate] != first->candidate && std::abs(c) <= 0.9) continue;
+      other->group = groups;
+      other->cosine = c;
+      any = true;
+    }
+    if (!any) continue;
+    first->group = groups++;
+    first->cosine = 1;
+  }
+}
+
+}  // namespace tether

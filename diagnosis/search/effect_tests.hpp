@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+
+#include "diagnosis/search/held_out_gain.hpp"
+#include "diagnosis/search/trained.hpp"
+
+namespace tether {
+
+/// What the data say of one candidate.
+struct TestedEffect {
+  std::size_t candidate = 0;
+  double gain = 0;                  ///< of the misfit, by its best amplitudes to first order (D.10)
+  double z = 0, p = 1, q = 1;       ///< q: corrected for the number of candidates
+  VectorXd amplitudes, deviations;  ///< of its own; after confirmation at finite size
+  double retained = 0;              ///< share of its information that errors allowed cannot explain as well
+  bool confirmed = false;           ///< the amplitudes are those of runs
+  double confirmed_gain = 0;        ///< of the misfit, by those runs
+  bool at_limit = false;            ///< one of its amplitudes would have to be larger than it may be
+  VectorXd run;                     ///< amplitudes of all candidates in the best of those runs [q]
+  std::optional<Gain> held_out;
+  bool accepted = false;
+  bool rival = false;    ///< by runs, these data cannot tell it from an accepted one
+  int group = -1;        ///< effects that look alike have the same number
+  double cosine = 0;     ///< with the first of the group
+  bool testable = true;  ///< the data would show it at a size that it may have
+  double visible = 0;    ///< smallest size of its first amplitude that would be seen with 80 % probability (D.12)
+};
+
+/// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10,
+/// D.12)
+std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha, double count);
+
+/// Probability that noise makes a candidate's gain as large. (D.10)
+double chance_of(const EffectProblem& problem, std::size_t candidate, double gain);
+
+/// Amplitudes in proportion to the effect's own, the largest of them as in a patient; of an effect without any its
+/// first.
+VectorXd as_in_patients(const EffectProblem& problem, const TestedEffect& effect);
+
+/// Of the model's changes for two effects, each at its best amplitudes. (D.9)
+double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b);
+
+/// Evidence less what so many amplitudes cost with `count` independent data (BIC), and what their sizes cost if they
+/// are normal numbers with five times the scale that they may have in a patient as deviation. (D.10)
+double worth(const EffectProblem& problem, const TestedEffect& effect, double count);
+
+/// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.11)
+struct LackOfFit {
+  double p = 1;             ///< that noise alone makes the worst pattern
+  double excess = 0;        ///< of the patterns' squares over what noise makes
+  double beyond_noise = 0;  ///< of them, or of the worst alone, over what noise makes in one of twenty cases
+  std::size_t worst = 0;
+  double z = 0;  ///< of the worst
+};
+LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual);
+
+/// Numbers those that look alike, in what they do at their best amplitudes: the cosine of two exceeds 0.9 (D.9). The
+/// accepted ones come first, then by evidence; `rival_of`: of each candidate the accepted one that it rivals, or
+/// itself.
+void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem, const Scores& scores, double count,
+                const std::vector<std::size_t>& rival_of);
+
+}  // namespace tether

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "diagnosis/search/effect_tests.hpp"
+
+namespace tether {
+
+/// A model on the way: amplitudes, the residual that a run with them leaves, and how that changes.
+struct AmplitudeState {
+  VectorXd amplitudes;                ///< of all candidates [q]
+  VectorXd residual;                  ///< [n]
+  MatrixXd changes;                   ///< of -r per unit of each accepted effect's factor, at its amplitude [n x m]
+  std::vector<std::size_t> accepted;  ///< candidates that those columns are of [m]
+};
+
+/// A candidate on its way to the amplitudes with the smallest misfit: those to first order times a factor, while the
+/// effects accepted before are refitted by factors too. Each run tells where to go next. (D.10)
+class Refinement {
+ public:
+  /// trained: with the accepted effects' changes free. plain: without.
+  Refinement(TestedEffect effect, const AmplitudeState& from, const Trained& trained, const Trained& plain,
+             const EffectProblem& problem);
+
+  bool done() const { return done_; }
+  bool begun() const { return last_ > 0; }
+  int runs() const { return runs_; }
+  /// Of the next run.
+  VectorXd amplitudes() const { return at(next_, next_others_); }
+  /// The run at `amplitudes` left this residual; NaN: it failed.
+  void take(const VectorXd& residual);
+  /// The smallest misfit so far, and the one that it may come down to: before any run a fifth more is hoped for than
+  /// first order promises.
+  double best() const { return best_; }
+  double hope() const;
+  void give_up() { done_ = true; }
+  /// What does the same to first order removes so much of the misfit: before any run no more is expected of this one.
+  void expect_at_most(double gain) { expected_ = begun() ? expected_ : std::min(expected_, gain); }
+
+  const TestedEffect& effect() const { return effect_; }
+  /// At the best amplitudes, with this effect as the last of the accepted ones.
+  AmplitudeState state() const;
+
+ private:
+  const std::vector<Eigen::Index>& own(std::size_t candidate) const {
+    return problem_.candidates[candidate].amplitudes;
+  }
+  VectorXd at(double factor, const VectorXd& others) const;
+  /// How far the accepted effects' factors move, in logarithms, if the residual were this.
+  VectorXd others_for(const VectorXd& residual) const;
+  void retreat();
+  double first_step(const VectorXd& change, const VectorXd& now);
+  double later_step(const VectorXd& now);
+
+  TestedEffect effect_;
+  const AmplitudeState& from_;
+  const Trained &trained_, &plain_;
+  const EffectProblem& problem_;
+  VectorXd direction_;             ///< amplitudes at factor 1 [q]
+  VectorXd first_order_;           ///< change of -r to first order at factor 1 [n]
+  VectorXd per_factor_;            ///< change of -r per logarithm of the factor, by the last runs [n]
+  double next_ = 1, last_ = 0;     ///< factors
+  double farthest_ = infinite;     ///< factor beyond which an amplitude is not admissible
+  VectorXd next_others_, others_;  ///< logarithms of the accepted effects' factors, next and last [m]
+  VectorXd residual_;              ///< of the last run
+  double best_factor_ = 0;
+  VectorXd best_others_, best_residual_;
+  double start_ = 0, best_ = 0, expected_ = 0;
+  int runs_ = 0, failures_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace tether

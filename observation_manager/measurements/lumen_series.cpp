@@ -1,0 +1,116 @@
+#include "observation_manager/measurements/lumen_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "observation_manager/measurements/independence.hpp"
+
+namespace tether {
+namespace {
+
+/// The part of the wall that a sample belongs to: a cube of four correlation lengths, within a region.
+std::array<int, 4> patch_of(const Sample& sample, const Noise& noise) {
+  std::array<int, 4> patch{sample.region};
+  for (Eigen::Index i = 0; i < 3; ++i)
+    patch[static_cast<std::size_t>(i) + 1] =
+        static_cast<int>(std::floor(sample.position(i) / (4 * noise.correlation_length)));
+  return patch;
+}
+
+/// Times of the frames of one contour or surface.
+std::vector<double> times_of(const std::vector<Frame>& frames, int series) {
+  std::vector<double> times;
+  for (const Frame& frame : frames)
+    if (frame.series == series) times.push_back(frame.time);
+  return times;
+}
+
+double total_weight(const std::vector<Sample>& samples) {
+  double sum = 0;
+  for (const Sample& sample : samples) sum += sample.weight;
+  return sum;
+}
+
+}  // namespace
+
+Sample between(const Sample& before, const Sample& after, double share) {
+  Sample sample = before.excluded != Exclusion::none ? before : after;
+  sample.distance = (1 - share) * before.distance + share * after.distance;  // (O.3)
+  sample.normal = (1 - share) * before.normal + share * after.normal;
+  return sample;
+}
+
+MeasurementFacts LumenSeries::facts() const {
+  return {kind(), settings().name, settings().noise, dimension::length};
+}
+
+std::vector<MeasuredPart> LumenSeries::parts(const FinishedMotion& run) const {
+  std::vector<MeasuredPart> all;
+  for (const Frame& frame : frames())
+    if (const auto time =
+            time_in_run(frame.time, settings().period, run.motion.start, run.motion.end, settings().time_tolerance))
+      all.push_back({frame, *time});
+  return all;
+}
+
+std::vector<Datum> LumenSeries::data(const FinishedMotion& run, const MeasuredPart& part) const {
+  const Noise& noise = settings().noise;
+  const std::vector<Sample> samples = observe(run.motion.positions(part.time), part.frame);
+  const double alone = independent_part(noise, sample_dimension(), total_weight(samples)),
+               share = independent_share(spacing(times_of(frames(), part.frame.series), settings().period),
+                                         noise.correlation_time);
+  std::vector<Datum> all;
+  all.reserve(samples.size());
+  for (const Sample& sample : samples)
+    all.push_back({.residual = sample.distance,
+                   .is_seen = sample.excluded == Exclusion::none,
+                   .independent = sample.weight / alone * share,
+                   .time = part.time,
+                   .held_out = part.frame.held_out,
+                   .patch = patch_of(sample, noise),
+                   .position = sample.position,
+                   .region = sample.region,
+                   .normal = sample.normal,
+                   .nodes = sample.nodes,
+                   .shares = sample.shares});
+  return all;
+}
+
+CountedRows LumenSeries::rows(const Points& imaged, double start) const {
+  const std::vector<std::string> names = series_names();
+  std::vector<std::vector<double>> times(names.size());
+  double any_time = start;
+  for (const Frame& frame : frames())
+    if (!frame.held_out) {
+      times[static_cast<std::size_t>(frame.series)].push_back(frame.time);
+      if (!std::isnan(frame.time)) any_time = frame.time;
+    }
+  CountedRows rows;
+  rows.groups = names;
+  std::vector<double> observed(names.size(), 0.0);
+  const std::vector<Sample> samples = observe(imaged, any_time);
+  rows.positions.resize(3, static_cast<Eigen::Index>(samples.size()));
+  for (const Sample& sample : samples) {
+    observed[static_cast<std::size_t>(sample.series)] += sample.weight;
+    rows.positions.col(static_cast<Eigen::Index>(rows.series_of.size())) = sample.position;
+    rows.series_of.push_back(static_cast<std::size_t>(sample.series));
+    rows.region.push_back(sample.region);
+  }
+  rows.group_of = rows.series_of;
+  const Noise& noise = settings().noise;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::sort(times[i].begin(), times[i].end());
+    rows.series.push_back(
+        {std::move(times[i]), settings().period, settings().time_tolerance, noise.correlation_time,
+         1 / (std::pow(noise.deviation, 2) * independent_part(noise, sample_dimension(), observed[i]))});
+  }
+  return rows;
+}
+
+std::vector<SeenRow> LumenSeries::see(const ModelMoment& model, double time) const {
+  std::vector<SeenRow> all;
+  for (const Sample& sample : observe(model.lumen, time)) all.push_back({sample.distance, sample.weight});
+  return all;
+}
+
+}  // namespace tether

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "common/config/fields.hpp"
+#include "observation_manager/measurements/registry.hpp"
+
+/// The section `observations` of a case: what was measured, and what is known of its errors.
+namespace tether {
+
+inline constexpr Word millimetre{"mm", "millimetre"}, centimetre{"cm", "centimetre"}, metre{"m", "metre"};
+
+struct NoiseCase {
+  Dimension dimension = dimension::length;  ///< of the values; set by the owner
+  double deviation = 0, correlation_length = 0, correlation_time = 0;
+  void declare(Fields& f);
+};
+
+/// What is known to be wrong with data, and is taken off them before they are used.
+struct CorrectionCase {
+  std::vector<double> displacement, rotation, about;  ///< empty: zero; else three numbers [length], [rad], [length]
+  double outward = 0;                                 ///< [length]
+  void declare(Fields& f);
+  /// What is done to the data, for people: a line each.
+  std::vector<std::string> notes(const std::string& unit) const;
+  /// Points of the data where they should be.
+  Points corrected(Points points) const;
+};
+
+/// What sources of lumen data have in common: where on the wall and when they count, and their errors.
+struct LumenDataCase {
+  double time_shift = 0, inlet_band = 0, outlet_band = 0;
+  std::optional<double> trust_distance;
+  std::vector<std::string> masked_regions;
+  std::vector<double> held_out, left_out;
+  CorrectionCase correction;
+  NoiseCase noise;
+  void declare(Fields& f);
+};
+
+/// What was measured: for each kind its sources.
+class ObservationsCase {
+ public:
+  ObservationsCase();
+  ObservationsCase(const ObservationsCase& other);
+  ObservationsCase(ObservationsCase&&) = default;
+  ObservationsCase& operator=(ObservationsCase) = delete;
+  void declare(Fields& f);
+  bool has_lumen_data() const;
+  const std::vector<std::unique_ptr<KindSection>>& sections() const { return sections_; }
+
+  /// The sources of the kind whose section reads a `Case`: of<SurfacesCase>().
+  template <class Case>
+  Named<Case>& of() {
+    for (const auto& section : sections_)
+      if (auto* found = dynamic_cast<SectionOf<Case>*>(section.get())) return found->sources;
+    throw std::logic_error("a case of no registered kind of measurement");
+  }
+  template <class Case>
+  const Named<Case>& of() const {
+    return const_cast<ObservationsCase*>(this)->of<Case>();
+  }
+
+ private:
+  std::vector<std::unique_ptr<KindSection>> sections_;
+};
+
+}  // namespace tether

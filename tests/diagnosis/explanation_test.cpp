@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/explanation/path.hpp"
+
+namespace tether {
+namespace explanation_test {
+
+enum class Role { accepted, rival };
+
+Finding finding(const std::string& name, CandidateKind kind, Role role, double value) {
+  Finding made;
+  made.name = name;
+  made.where = "spine";
+  made.kind = kind;
+  made.accepted = role == Role::accepted;
+  made.rival = role == Role::rival;
+  made.group = "1";
+  made.amplitude = {"solid.effects." + name + ".factor", "", value, value / 2, value * 2, "1", 0, false};
+  return made;
+}
+
+Finding effect(const std::string& name, Role role, double value) {
+  return finding(name, CandidateKind::effect, role, value);
+}
+
+Diagnosis diagnosis(Verdict verdict, std::vector<Finding> effects) {
+  Diagnosis made;
+  made.verdict = verdict;
+  made.effects = std::move(effects);
+  for (const Finding& found : made.effects)
+    if (found.accepted && found.kind == CandidateKind::data) made.statement.wrong_data.push_back(text_of(found));
+  return made;
+}
+
+PathModel model(int number, std::optional<Diagnosis> diagnosed, std::vector<Finding> added) {
+  PathModel made;
+  made.told.number = number;
+  made.diagnosis = std::move(diagnosed);
+  made.told.added = std::move(added);
+  return made;
+}
+
+PathModel refused(int number, const std::string& name) {
+  PathModel made = model(number, std::nullopt, {});
+  made.told.name = name;
+  made.told.accepted = false;
+  made.told.objection = Objection::not_confirmed;
+  return made;
+}
+
+std::vector<std::string> said_of(const ExplanationPath& path) {
+  return explanation_of(path).sentences;
+}
+
+TEST(Explanation, SaysWhatWasIdentifiedOfWhatCannotBeToldApart) {
+  ExplanationPath path;
+  path.models = {
+      model(0, diagnosis(Verdict::ambiguous, {effect("contact", Role::accepted, 1), effect("spring", Role::rival, 3)}),
+            {}),
+      model(1, std::nullopt, {effect("contact", Role::accepted, 7)})};
+  path.best = 1;
+  EXPECT_EQ(verdict_of(path), Verdict::ambiguous);
+  EXPECT_EQ(said_of(path).front(),
+            "AMBIGUOUS: these data cannot tell contact at spine, factor 7 (3.5 .. 14) from spring at spine, factor "
+            "about 3");
+  path.models.push_back(model(2, std::nullopt, {effect("loose_ring", Role::accepted, 5)}));
+  path.best = 2;
+  EXPECT_TRUE(said_of(path).front().ends_with("; beside it loose_ring at spine, factor 5 (2.5 .. 10)"));
+}
+
+/// What a later diagnosis could not tell apart, and was not confirmed, takes nothing from what was found before.
+TEST(Explanation, KeepsWhatIsSureIfTheNextIsNotConfirmed) {
+  ExplanationPath path;
+  path.models = {
+      model(0, diagnosis(Verdict::missing, {effect("contact", Role::accepted, 1)}), {}),
+      model(1, diagnosis(Verdict::ambiguous, {effect("spring", Role::accepted, 2), effect("ring", Role::rival, 3)}),
+            {effect("contact", Role::accepted, 7)}),
+      refused(2, "with spring at spine")};
+  path.best = 1;
+  EXPECT_EQ(verdict_of(path), Verdict::missing);
+  EXPECT_EQ(said_of(path).front(), "MISSING: contact at spine, factor 7 (3.5 .. 14)");
+  EXPECT_EQ(said_of(path).back(), "Tried and not kept: with spring at spine: held-out data do not confirm it");
+}
+
+TEST(Explanation, IsUndecidedIfNothingWasConfirmed) {
+  ExplanationPath path;
+  path.models = {
+      model(0, diagnosis(Verdict::ambiguous, {effect("contact", Role::accepted, 1), effect("spring", Role::rival, 3)}),
+            {}),
+      refused(1, "with contact at spine")};
+  EXPECT_EQ(verdict_of(path), Verdict::undecided);
+  EXPECT_EQ(said_of(path).front(), "UNDECIDED: with contact at spine stands out, but held-out data do not confirm it");
+}
+
+/// What is sure is not mixed with what is not, and what stood out last is not lost.
+TEST(Explanation, TellsWhatIsSureBesideWhatIsNot) {
+  Finding frame = finding("misplaced_frame", CandidateKind::data, Role::accepted, 2);
+  frame.group.reset();
+  frame.where = "ct, 0.3 s";
+  frame.frame = 4;
+  Finding contact = effect("contact", Role::accepted, 1), tissue = effect("tissue", Role::rival, 2);
+  contact.misfit_removed = 9;
+  tissue.rival = false;
+  tissue.confirmed_by_runs = true;
+  tissue.misfit_removed = 1;
+  Diagnosis last = diagnosis(Verdict::undecided, {});
+  last.path.push_back(
+      {"loose_ring", {}, "", false, Objection::not_confirmed, reason_of(Objection::not_confirmed), 0, 0, {}});
+  ExplanationPath path;
+  path.models = {
+      model(0, diagnosis(Verdict::ambiguous, {frame, contact, effect("spring", Role::rival, 3), tissue}), {}),
+      model(1, last, {effect("contact", Role::accepted, 7)})};
+  path.best = 1;
+  const std::vector<std::string> said = said_of(path);
+  EXPECT_EQ(
+      said[0],
+      "AMBIGUOUS: these data cannot tell contact at spine, factor 7 (3.5 .. 14) from spring at spine, factor about "
+      "3; THE DATA are off: misplaced_frame at ct, 0.3 s, factor 2 (1 .. 4)");
+  const auto holds = [&](const std::string& sentence) {
+    return std::find(said.begin(), said.end(), sentence) != said.end();
+  };
+  EXPECT_TRUE(holds("Beside what was found: loose_ring stands out, but held-out data do not confirm it"));
+  EXPECT_TRUE(
+      holds("There is what does much the same as contact at spine: its runs remove 9 of the misfit, those of "
+            "tissue at spine (8 less)"))
+      << "of a diagnosis before the last";
+  EXPECT_TRUE(holds("Wrong, and left out where values were found: misplaced_frame at ct, 0.3 s"));
+}
+
+TEST(Explanation, CallsAnErrorOfTheDataNoEffect) {
+  ExplanationPath path;
+  path.models = {
+      model(0, diagnosis(Verdict::missing, {finding("misplaced_frame", CandidateKind::data, Role::accepted, 2)}), {})};
+  EXPECT_EQ(verdict_of(path), Verdict::missing);
+  EXPECT_EQ(said_of(path).front(),
+            "THE DATA are off, the model lacks nothing beside: misplaced_frame at spine, factor 2 (1 .. 4)");
+  path.models[0].diagnosis->corrected_case = "corrected.yaml";
+  EXPECT_EQ(explanation_of(path).corrected_case, "diagnosis_0/corrected.yaml");
+  EXPECT_TRUE(said_of(path)[1].ends_with("tether explain diagnosis_0/corrected.yaml")) << said_of(path)[1];
+  path.models = {model(0, diagnosis(Verdict::missing, {effect("contact", Role::accepted, 2)}), {}),
+                 model(1, std::nullopt, {effect("contact", Role::accepted, 7)})};
+  path.best = 1;
+  EXPECT_EQ(said_of(path).front(), "MISSING: contact at spine, factor 7 (3.5 .. 14)");
+}
+
+}  // namespace explanation_test
+}  // namespace tether

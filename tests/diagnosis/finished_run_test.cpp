@@ -1,0 +1,91 @@
+#include "diagnosis/comparison/finished_run.hpp"
+
+#include "common/config/output_folder.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* common = "name: tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
+
+/// A case with a curve, and an output folder that looks like its finished run of two steps.
+class FinishedRunTest : public ::testing::Test {
+ protected:
+  FinishedRunTest() {
+    fs::create_directories(output);
+    for (const char* name : {"lumen.motion", "timeseries.csv"}) std::ofstream(output / name);
+    std::ofstream(output / case_as_run) << with_solid;
+    folder.file("flow.csv", "t, q\n");
+    fs::last_write_time(folder / "flow.csv", fs::file_time_type::clock::now() - std::chrono::hours(1));
+    std::ofstream(output / "summary.json") << R"({"steps": 2})";
+  }
+  std::string why_not(const std::string& text, int steps = 2) const {
+    return why_not_run(output, CaseFile(folder.file("case.yaml", text)), steps).value_or("it can");
+  }
+  std::string said(const std::string& text) const { return "the run in " + output.string() + text; }
+
+  const std::string with_solid = std::string(common) + "fluid: {flow: flow.csv}\nsolid: {young: 1, regions: [1, 2]}\n";
+  TemporaryFolder folder;
+  fs::path output = folder / "out";
+};
+
+TEST_F(FinishedRunTest, IsTheCaseApartFromWhatDoesNotChangeARun) {
+  EXPECT_EQ(why_not(with_solid), "it can");
+  EXPECT_EQ(why_not("# moved by a line\n" + with_solid + "title: A tube\nobservations: {contours: {}}\noutput: {}\n"),
+            "it can");
+  EXPECT_EQ(why_not(with_solid, 1), "it can") << "longer than asked for";
+}
+
+TEST_F(FinishedRunTest, IsNotThatOfAnotherCase) {
+  EXPECT_EQ(why_not(std::string(common) + "fluid: {flow: flow.csv}\nsolid: {young: 2, regions: [1, 2]}\n"),
+            said(" had another 'solid'"));
+  EXPECT_EQ(why_not(std::string(common) + "fluid: {flow: flow.csv}\nsolid: {young: 1, regions: [2, 1]}\n"),
+            said(" had another 'solid'"));
+  EXPECT_EQ(why_not(std::string(common) + "fluid: {flow: flow.csv}\n"), said(" had another 'solid'"));
+  EXPECT_EQ(why_not(with_solid + "observer: {gain: 3}\n"), said(" had another 'observer'"));
+}
+
+TEST_F(FinishedRunTest, DependsOnMeasurementsIfAnObserverFollowsThem) {
+  const std::string observed = with_solid + "observer: {gain: 3}\nobservations: {contours: {}}\n";
+  std::ofstream(output / case_as_run) << observed;
+  EXPECT_EQ(why_not(observed), "it can");
+  EXPECT_EQ(why_not(with_solid + "observer: {gain: 3}\n"), said(" had another 'observations'"));
+}
+
+TEST_F(FinishedRunTest, IsNotOlderThanAFileOfTheCase) {
+  fs::last_write_time(folder / "flow.csv", fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  EXPECT_EQ(why_not(with_solid), "flow.csv is newer than the run in " + output.string());
+}
+
+/// The mark holds the merged case, so a change of the base is one of the case; a twin's data change nothing.
+TEST_F(FinishedRunTest, OfACaseThatBuildsOnAnother) {
+  fs::create_directories(folder / "base");
+  std::ofstream(folder / "base/flow.csv") << "t, q\n";
+  fs::last_write_time(folder / "base/flow.csv", fs::file_time_type::clock::now() - std::chrono::hours(1));
+  folder.file("base/case.yaml", with_solid);
+  const std::string over = "base: base/case.yaml\nname: other\nsolid: {young: 3}\n";
+  CommandLine command;
+  command.output = output;
+  command.overwrite = true;
+  claim_output(command, CaseFile(folder.file("case.yaml", over)));
+  std::ofstream(output / "summary.json") << R"({"steps": 2})";
+  EXPECT_EQ(why_not(over), "it can");
+  EXPECT_EQ(why_not(over + "twin: {truth: x}\n"), "it can");
+  folder.file("base/case.yaml", with_solid + "coupling: {tolerance: 1}\n");
+  EXPECT_EQ(why_not(over), said(" had another 'coupling'"));
+  folder.file("base/case.yaml", with_solid);
+  EXPECT_EQ(why_not("base: base/case.yaml\nname: other\nsolid: {young: 4}\n"), said(" had another 'solid'"));
+  fs::last_write_time(folder / "base/flow.csv", fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  EXPECT_EQ(why_not(over), "base/flow.csv is newer than the run in " + output.string());
+}
+
+TEST_F(FinishedRunTest, IsFinished) {
+  EXPECT_EQ(why_not(with_solid, 3), said(" ended after 2 of 3 steps"));
+  fs::remove(output / "summary.json");
+  EXPECT_EQ(why_not(with_solid), output.string() + " holds no finished run");
+}
+
+}  // namespace
+}  // namespace tether

@@ -1,0 +1,110 @@
+/// Every result is read as it was written, and what is not as its schema says is told by file and field.
+#include <gtest/gtest.h>
+
+#include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
+#include "diagnosis/results/comparison.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/missing_force.hpp"
+#include "identification_master/results/estimate.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace tether {
+namespace results_test {
+
+Finding contact() {
+  Finding finding;
+  finding.name = "contact";
+  finding.where = "spine";
+  finding.accepted = true;
+  finding.z = 9.5;
+  finding.amplitude = {"solid.effects.contact.stiffness", "of \"tissue\"", 1e6, 0.5e6, 2e6, "g/(cm2 s2)", 0, false};
+  finding.parameters = {finding.amplitude};
+  finding.group = "1";
+  finding.cosine = 1;
+  finding.held_out_gain = Gain{0.5, 0.4, 0.6, 2, 1, 0.99};
+  return finding;
+}
+
+Diagnosis diagnosis() {
+  Diagnosis d;
+  d.verdict = Verdict::ambiguous;
+  d.statement.alike = {{"a", "b"}};
+  d.sentences = {"AMBIGUOUS: ..."};
+  d.case_name = "tube";
+  d.effects = {contact()};
+  d.look_alike = MatrixXd::Identity(2, 2);
+  d.detectable = {{"contact", "spine", "stiffness", 3, "1", 0, 0.2}};
+  d.lack_of_fit.before = LackOfFitFound{0.01, 5, 3, "spine", PatternForm::end_to_end, 0.25, -4};
+  d.strained_errors = {{"bias", 2.5}};
+  d.split_by = FurtherData{{"pressure", "2 mmHg", 14, true}, {{"flow", "", 3, false}}};
+  d.path = {{"contact", "stiffness", "spine", false, Objection::too_weak, "", 9, 8, {}}};
+  d.suggested_case = "suggested.yaml";
+  d.cost = {12, 8, 3, 4.5};
+  return d;
+}
+
+/// A second text is the same as the first if all that the first says was read.
+template <class Result>
+void expect_round_trip(const Result& result) {
+  const std::string text = json_of(result);
+  EXPECT_EQ(json_of(record_of<Result>(text, "file")), text);
+}
+
+TEST(Results, AreReadAsTheyWereWritten) {
+  expect_round_trip(diagnosis());
+  Explanation explanation;
+  explanation.verdict = Verdict::missing;
+  explanation.effects = {contact()};
+  explanation.models.emplace_back();
+  explanation.models[0].objection = Objection::misfit_stays;
+  explanation.models[0].held_out = Misfit{0.1, 2};
+  explanation.models[0].added = {contact()};
+  explanation.steps = {{"a step", "folder", 1, 2, "key"}};
+  expect_round_trip(explanation);
+  ComparisonResult comparison;
+  comparison.sources.emplace_back();
+  comparison.sources[0].registration = RegistrationTold{{1, 2, 3}, {0, 0, 0.1}, {4, 5, 6}, 0.2, 0.1, true};
+  comparison.sources[0].training.judgement.visible_offset = {{"spine", 0.1}};
+  comparison.sources[0].moments.push_back({0.1, true, {{"ct", 3, {}}}, {GroupTold{}}});
+  comparison.traces.emplace_back();
+  comparison.velocities.emplace_back();
+  comparison.velocities[0].moments.emplace_back();
+  expect_round_trip(comparison);
+  expect_round_trip(ForceFound{
+      {{"spine", "force_spine", "Pa", {0, 1}, {2, 3}, {1, 2}, {3, 4}, {{{"un", 1, 2, {"vn"}}}, 0.5, true, "1*un"}}},
+      {"spine: ..."},
+      "suggested.yaml"});
+  Estimate estimate;
+  estimate.parameters = {
+      {"wall", {{"solid.material.young", 1e6}}, "Pa", "log2", {1, 2, 3, 4, 5}, {2, 1, 3, 0.5, 0.1}, Bound::upper, 0.8}};
+  estimate.covariance_of_theta = MatrixXd::Constant(1, 1, 0.01);
+  expect_round_trip(estimate);
+}
+
+TEST(Results, ReadWhatTheyHold) {
+  const Diagnosis read = record_of<Diagnosis>(json_of(diagnosis()), "file");
+  EXPECT_EQ(read.verdict, Verdict::ambiguous);
+  EXPECT_EQ(read.path[0].objection, Objection::too_weak);
+  EXPECT_EQ(read.lack_of_fit.before->worst_form, PatternForm::end_to_end);
+  EXPECT_FALSE(read.lack_of_fit.after);
+  EXPECT_EQ(read.look_alike, MatrixXd(MatrixXd::Identity(2, 2)));
+  EXPECT_EQ(read.split_by->others[0].measurement, "flow");
+}
+
+TEST(Results, TellFileAndFieldOfWhatIsWrong) {
+  const auto message = [](const std::string& text) {
+    return message_of([&] { record_of<Diagnosis>(text, "d.json"); });
+  };
+  EXPECT_EQ(message("{"), "d.json: is no JSON");
+  EXPECT_EQ(message("{}"), "d.json: verdict: is missing");
+  EXPECT_TRUE(
+      message(R"({"verdict": "perhaps"})").starts_with("d.json: verdict: \"perhaps\": must be one of missing, "));
+  std::string text = json_of(diagnosis());
+  const std::string number = "\"z\": 9.5";
+  text.replace(text.find(number), number.size(), "\"z\": \"high\"");
+  EXPECT_EQ(message(text), "d.json: effects[0].z: \"high\": must be a number or null");
+}
+
+}  // namespace results_test
+}  // namespace tether

@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.hpp"
+#include "common/config/case_file.hpp"
+#include "common/config/echo.hpp"
+#include "common/mesh/surface.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "vessel/check.hpp"
+#include "vessel/mesh_case.hpp"
+#include "vessel/sweep.hpp"
+
+namespace tether {
+namespace load_mesh_test {
+
+const std::string head = "name: x\nunits: cgs\ntime: {step: 1e-3, end: 1}\n";
+
+MeshCase read_case(const TemporaryFolder& folder, const std::string& text) {
+  CaseFile file(folder.file("case.yaml", head + text));
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  file.finish();
+  return mesh;
+}
+VesselMesh load(const std::string& text, WallElement element = WallElement::prism) {
+  const TemporaryFolder folder;
+  return load_mesh(read_case(folder, text), UnitSystem::cgs(), element);
+}
+void expect_part(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(MeshCase, SweptTubeWithRegions) {
+  const VesselMesh tube = load(R"(mesh:
+  source: swept
+  swept:
+    radius: 20 mm
+    length: 10
+    wall_thickness: 0.2
+    regions:
+      spine:    {angle: [150, 210]}
+      vicinity: {angle: [105, 255]}
+      opposite: {}
+)");
+  EXPECT_EQ(tube.fluid.points.cols(), 2037);
+  EXPECT_EQ(tube.wall.prisms.size(), 24u * 20u * 4u);
+  ASSERT_EQ(tube.wall.outside.size(), 3u);
+  EXPECT_EQ(tube.wall.outside[2].name, "opposite");
+  EXPECT_EQ(tube.wall.outside[0].triangles.size(), 160u);
+  EXPECT_NEAR(mean_lumen_diameter(tube.fluid), 4, 0.06);
+  EXPECT_EQ(load("mesh: {swept: {radius: 2, length: 10, wall_thickness: 0.2}}", WallElement::p1).wall.tetrahedra.size(),
+            24u * 20u * 12u);
+}
+
+TEST(MeshCase, EffectiveCaseReadsBackToTheSameMesh) {
+  const TemporaryFolder folder;
+  const MeshCase first = read_case(folder,
+                                   "mesh: {swept: {radius: 2, length: 5, around: 16, wall_thickness: 0.2, regions: {a: "
+                                   "{position: [0, 0.5]}, b: {}}}}");
+  Echo echo;
+  MeshCase copy = first;
+  echo.group("mesh", copy, {});
+  const VesselMesh again = load_mesh(read_case(folder, echo.yaml()), UnitSystem::cgs(), WallElement::prism);
+  const VesselMesh mesh = load_mesh(first, UnitSystem::cgs(), WallElement::prism);
+  EXPECT_EQ(again.wall.points, mesh.wall.points);
+  EXPECT_EQ(again.wall.outside[0].triangles, mesh.wall.outside[0].triangles);
+}
+
+TEST(MeshCase, ContoursInMillimetres) {
+  const TemporaryFolder folder;
+  std::string csv = "section, point, x, y, z\n";
+  for (int section = 0; section < 3; ++section)
+    for (int i = 0; i < 16; ++i) {
+      const double a = 2 * std::numbers::pi * i / 16;
+      csv += fmt::format("s{},{},{},{},{}\n", section, i, 10 * std::cos(a), 10 * std::sin(a), 20 * section);
+    }
+  folder.file("contours.csv", csv);
+  const std::string text =
+      "mesh: {swept: {contours: {file: contours.csv, unit: mm}, extend: {inlet: 20 mm, outlet: 1}, wall_thickness: "
+      "0.15, around: 16, along: 14}}";
+  const VesselMesh vessel = load_mesh(read_case(folder, text), UnitSystem::cgs(), WallElement::prism);
+  EXPECT_NEAR(vessel.fluid.points.row(2).minCoeff(), -2, 1e-12);
+  EXPECT_NEAR(vessel.fluid.points.row(2).maxCoeff(), 5, 1e-12);
+  EXPECT_NEAR(mean_lumen_diameter(vessel.fluid), 2, 0.05);
+  folder.file("contours.csv", csv + "s0,0,0,0,0\n");
+  expect_part(message_of([&] { load_mesh(read_case(folder, text), UnitSystem::cgs(), WallElement::prism); }),
+              "contours.csv:50: section s0 occurs in two places");
+}
+
+const std::string peer = std::filesystem::absolute("data/peer_tube").string();
+
+std::string peer_case(const std::string& rest) {
+  return "mesh:\n  source: files\n  files:\n    fluid: " + peer + "/fluid/mesh.vtu\n    interface: {file: " + peer +
+         "/fluid/faces/interface.vtp}\n    inlets: {inlet: {file: " + peer +
+         "/fluid/faces/inlet.vtp}}\n    outlets: {outlet: {file: " + peer + "/fluid/faces/outlet.vtp}}\n" + rest;
+}
+
+TEST(MeshCase, FilesWithTheirWall) {
+  const std::string wall = "    wall: " + peer + "/solid/mesh.vtu\n    wall_interface: {file: " + peer +
+                           "/solid/faces/interface.vtp}\n    outside: {all: {file: " + peer +
+                           "/solid/faces/outside.vtp}}\n    rings: {inlet_ring: {file: " + peer +
+                           "/solid/faces/inlet.vtp}, outlet_ring: {file: " + peer + "/solid/faces/outlet.vtp}}\n";
+  EXPECT_EQ(load(peer_case(wall)).wall.prisms.size(), 1920u);
+  EXPECT_EQ(load(peer_case(wall), WallElement::p1).wall.tetrahedra.size(), 5760u);
+}
+
+TEST(MeshCase, FilesWithAGrownWall) {
+  const VesselMesh tube =
+      load(peer_case("    grown_wall: {thickness: 0.2, layers: 3, regions: {spine: {angle: [150, 210]}, rest: {}}}\n"));
+  EXPECT_EQ(tube.wall.prisms.size(), 2880u);
+  EXPECT_EQ(tube.wall.outside[0].triangles.size(), 160u);
+}
+
+TEST(MeshCase, SimVascularFolders) {
+  const TemporaryFolder folder;
+  for (const std::string part : {"fluid", "solid"}) {
+    std::filesystem::create_directories(folder / part);
+    std::filesystem::copy(peer + "/" + part + "/faces", folder / (part + "/mesh-surfaces"));
+    std::filesystem::copy(peer + "/" + part + "/mesh.vtu", folder / (part + "/mesh-complete.mesh.vtu"));
+  }
+  const auto text = [](const std::string& outlet) {
+    return "mesh: {source: mesh_complete, mesh_complete: {fluid: fluid, interface: interface, inlets: {in: {face: "
+           "inlet}}, outlets: {out: {face: " +
+           outlet +
+           "}}, wall: solid, wall_interface: interface, outside: {all: {face: outside}}, rings: {a: {face: inlet}, b: "
+           "{face: outlet}}}}";
+  };
+  const VesselMesh tube = load_mesh(read_case(folder, text("outlet")), UnitSystem::cgs(), WallElement::prism);
+  EXPECT_EQ(tube.fluid.outlets[0].name, "out");
+  EXPECT_EQ(tube.wall.prisms.size(), 1920u);
+  expect_part(message_of([&] { load_mesh(read_case(folder, text("outflow")), UnitSystem::cgs(), WallElement::prism); }),
+              "outflow.vtp: does not exist; faces there: ");
+}
+
+TEST(MeshCase, MistakesAreNamedWithTheirLine) {
+  expect_part(message_of([] { load("mesh: {swept: {radius: 2, wall_thickness: 0.2}}"); }),
+              "give either radius and length, or contours");
+  expect_part(message_of([] { load("mesh:\n  swept:\n    radius: 2\n    length: 5\n    wall_thickness: -0.2"); }),
+              "case.yaml:8: mesh.swept.wall_thickness: -0.2 cm: must be positive");
+  expect_part(message_of([] { load("mesh: {swept: {radius: 2, length: 9, wall_thickness: 0.2, around: 25}}"); }),
+              "must be even");
+  expect_part(message_of([] { load("mesh: {swept: {radius: 200, length: 900, wall_thickness: 20}}"); }),
+              "must be 0.3 to 120 mm in units: cgs");
+  expect_part(message_of([] { load("mesh: {swept: {radius: 2, length: 9, wall_thickness: 0.2}, files: {fluid: x}}"); }),
+              "mesh.files");
+  expect_part(message_of([] { load(peer_case("")); }), "give either the wall's mesh or grown_wall");
+  expect_part(message_of([] { load(peer_case("    grown_wall: {thickness: 0.2}\n    inlet: {}\n")); }), "inlets");
+}
+
+}  // namespace load_mesh_test
+}  // namespace tether

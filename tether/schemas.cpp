@@ -1,0 +1,53 @@
+#include "tether/schemas.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
+#include "diagnosis/results/compared_wall.hpp"
+#include "diagnosis/results/comparison.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/missing_force.hpp"
+#include "identification_master/results/estimate.hpp"
+#include "twin/score.hpp"
+
+namespace tether {
+namespace {
+
+template <class Result>
+std::string schema() {
+  return schema_of<Result>(Result::type_name);
+}
+
+}  // namespace
+
+const std::vector<ResultSchema>& result_schemas() {
+  static const std::vector<ResultSchema> all{
+      {"comparison.json", schema<ComparisonResult>},
+      {"wall.json", schema<ComparedWall>},
+      {"diagnosis.json", schema<Diagnosis>},
+      {"explain.json", schema<Explanation>},
+      {"steps.json", schema<StepsMade>},
+      {"force.json", schema<ForceFound>},
+      {"estimate.json", schema<Estimate>},
+      {"score.json", schema<Score>},
+  };
+  return all;
+}
+
+int print_schema(int argc, char** argv) {
+  const std::string file = argc > 0 ? argv[0] : "";
+  for (const ResultSchema& one : result_schemas())
+    if (file.empty())
+      std::cout << one.file << "\n";
+    else if (file == one.file)
+      std::cout << one.text();
+  const bool known = std::any_of(result_schemas().begin(), result_schemas().end(),
+                                 [&](const ResultSchema& one) { return file == one.file; });
+  if (file.empty() || known) return exit_done;
+  std::cerr << "tether schema: there is none of " << file << "; tether schema lists all\n";
+  return exit_input_wrong;
+}
+
+}  // namespace tether

@@ -1,0 +1,22 @@
+"""Tether for Python: read results, and couple a code of one's own.
+
+    import tether
+    found = tether.load("out/hidden_effect_blind_explain")
+    found.verdict                       # "missing"
+    found.effects[0].name               # "visco_elastic"; a table: found.effects.frame() (pandas)
+    found.distances("spine", 3)         # at the nodes of a region, at the source's fourth moment (numpy)
+
+Results are as docs/schema has them (tether.results). A code is coupled by tether.serve (tether.coupling).
+"""
+
+from tether.results import Result, load
+
+
+def serve(role, make, communicator=None):
+    """Serves a fluid or solid written in Python; see tether.coupling."""
+    from tether import coupling
+
+    return coupling.serve(role, make, communicator)
+
+
+__all__ = ["Result", "load", "serve"]

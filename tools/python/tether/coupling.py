@@ -1,0 +1,217 @@
+"""Couple a Python code to Tether as its fluid or solid (docs/protocol.md).
+
+Write a class with a method for each request that your code answers, and serve it:
+
+    class Spring:
+        program = "my solid 1"
+        points, triangles = ...    # of the interface: (n, 3) floats, (m, 3) ints; normals out of the fluid
+        def begin_step(self, step, time, dt, predicted): ...
+        def evaluate(self, load): return displacement, velocity
+        def end_step(self, accepted): ...
+
+    sys.exit(tether.serve("solid", Spring))
+
+Arrays of vectors have the shape (nodes, 3). What the class can do is announced by the methods it has:
+
+    role     request                     method                                     returns
+    both     SetParameters               set_parameters({name: value})              with a list `parameters`
+             GetState, SetState          get_state(), set_state(values)             one vector; `state_size`
+             BeginStep                   begin_step(step, time, dt, predicted)
+             EndStep                     end_step(accepted)                         values of the list `observables`
+             Write                       write(step, time)
+    fluid    FluidEvaluate               evaluate(displacement, velocity)           forces
+             FluidTangent                tangent(velocity_change)                   change of forces
+             GetVelocity                 velocity(points)                           velocities there, NaN outside
+    solid    SolidEvaluate               evaluate(load)                             displacement, velocity
+             SolidTangent                tangent(load_change)                       changes of both
+             SolidResidual               residual(correction, load)                 residual, displacement, velocity
+             SolidProduct                product(direction)                         vector; `unknowns`
+             SolidPrecondition           precondition(residual)                     vector
+
+`parameters`: dicts with name, value and optionally meaning, unit, transform, absent, lower, upper, prior_deviation, scale.
+`observables`: pairs (name, unit). An exception that a method raises is reported by the master. MPI: the library
+starts it, or give the mpi4py communicator of your processes, of which only rank 0 is asked.
+"""
+
+import ctypes
+import math
+import os
+import pathlib
+
+import numpy
+
+_double = ctypes.POINTER(ctypes.c_double)
+_int = ctypes.POINTER(ctypes.c_int64)
+
+
+def _fields(text):
+    kinds = dict(s=ctypes.c_char_p, d=ctypes.c_double, i=ctypes.c_int, l=ctypes.c_int64, D=_double, L=_int)
+    return [(word[2:], kinds[word[0]]) for word in text.split()]
+
+
+class _Parameter(ctypes.Structure):
+    _fields_ = _fields("s_name s_meaning s_unit s_transform d_value d_absent d_lower d_upper d_prior_deviation d_scale")
+
+
+class _Observable(ctypes.Structure):
+    _fields_ = _fields("s_name s_unit")
+
+
+class _Description(ctypes.Structure):
+    _fields_ = (
+        _fields("s_program i_has_tangent i_has_operators i_has_state i_has_velocity l_state_size l_unknowns")
+        + _fields("l_parameter_count l_observable_count")
+        + [("parameters", ctypes.POINTER(_Parameter)), ("observables", ctypes.POINTER(_Observable))]
+        + _fields("l_node_count l_triangle_count D_points L_triangles l_region_count")
+        + [("region_names", ctypes.POINTER(ctypes.c_char_p))]
+        + _fields("L_regions s_effective_case")
+    )
+
+
+class _Array(ctypes.Structure):
+    _fields_ = _fields("D_data l_size")
+
+    def numpy(self):
+        return numpy.ctypeslib.as_array(self.data, (self.size,)).copy() if self.size else numpy.zeros(0)
+
+
+class _Request(ctypes.Structure):
+    _fields_ = (
+        _fields("i_kind i_accepted l_step d_time d_dt")
+        + [("names", ctypes.POINTER(ctypes.c_char_p))]
+        + [(name, _Array) for name in ("values", "displacement", "velocity", "load")]
+    )
+
+
+def _load_library():
+    name = "libtether_client.so"
+    above = pathlib.Path(__file__).resolve().parents[3]  # the sources, or lib of a place of installation
+    beside = [str(path) for path in (above / "build" / "lib" / name, above / name) if path.exists()]
+    library = ctypes.CDLL(os.environ.get("TETHER_CLIENT") or (beside[0] if beside else name))
+    library.tether_connect.restype = ctypes.c_void_p
+    library.tether_connect.argtypes = [ctypes.c_char_p, ctypes.c_int]
+    library.tether_output.restype = library.tether_error.restype = ctypes.c_char_p
+    for call in "is_leader output introduce refuse next reply fail end".split():
+        getattr(library, "tether_" + call).argtypes = [ctypes.c_void_p]
+    library.tether_introduce.argtypes += [ctypes.POINTER(_Description)]
+    library.tether_next.argtypes += [ctypes.POINTER(_Request)]
+    library.tether_reply.argtypes += [ctypes.POINTER(_Array), ctypes.c_int]
+    library.tether_refuse.argtypes += [ctypes.c_char_p]
+    library.tether_fail.argtypes += [ctypes.c_char_p]
+    return library
+
+
+def _doubles(values):
+    return numpy.ascontiguousarray(values, dtype=numpy.float64).ravel()
+
+
+def _vectors(array):
+    return array.numpy().reshape(-1, 3)
+
+
+def _parameter(entry):
+    text = [str(entry.get(key, "")).encode() for key in ("name", "meaning", "unit")]
+    numbers = [entry["value"], entry.get("absent", math.nan), entry.get("lower", -math.inf),
+               entry.get("upper", math.inf), entry.get("prior_deviation", math.nan),
+               entry.get("scale", math.nan)]
+    return _Parameter(*text, entry.get("transform", "linear").encode(), *map(float, numbers))
+
+
+class _Introduction:
+    """The C description of a code, and the arrays that it points to."""
+
+    def __init__(self, code):
+        can = lambda *names: int(all(hasattr(code, name) for name in names))
+        self.points = _doubles(code.points)
+        self.triangles = numpy.ascontiguousarray(code.triangles, dtype=numpy.int64).ravel()
+        parameters = [_parameter(entry) for entry in getattr(code, "parameters", [])]
+        observables = [_Observable(name.encode(), unit.encode()) for name, unit in getattr(code, "observables", [])]
+        self.description = _Description(
+            program=str(code.program).encode(), has_tangent=can("tangent"),
+            has_operators=can("residual", "product", "precondition"), has_state=can("get_state", "set_state"),
+            has_velocity=can("velocity"),
+            state_size=getattr(code, "state_size", 0), unknowns=getattr(code, "unknowns", 0),
+            parameter_count=len(parameters), parameters=(_Parameter * len(parameters))(*parameters),
+            observable_count=len(observables), observables=(_Observable * len(observables))(*observables),
+            node_count=len(self.points) // 3, points=self.points.ctypes.data_as(_double),
+            triangle_count=len(self.triangles) // 3, triangles=self.triangles.ctypes.data_as(_int))
+
+
+def _several(result):
+    return list(result) if isinstance(result, tuple) else [result]
+
+
+def _answer(code, r):
+    """The arrays of the reply to request `r`."""
+    if r.kind == 2:
+        code.set_parameters({r.names[i].decode(): value for i, value in enumerate(r.values.numpy())})
+        return []
+    if r.kind == 4:
+        code.set_state(r.values.numpy())
+        return []
+    if r.kind == 5:
+        code.begin_step(r.step, r.time, r.dt, _vectors(r.displacement))
+        return []
+    if r.kind == 6:
+        reported = code.end_step(bool(r.accepted))
+        return [[] if reported is None else reported]
+    if r.kind == 7:
+        if hasattr(code, "write"):
+            code.write(r.step, r.time)
+        return []
+    calls = {
+        3: lambda: code.get_state(),
+        9: lambda: code.evaluate(_vectors(r.displacement), _vectors(r.velocity)),
+        10: lambda: code.tangent(_vectors(r.velocity)),
+        11: lambda: code.evaluate(_vectors(r.load)),
+        12: lambda: code.tangent(_vectors(r.load)),
+        13: lambda: code.residual(r.values.numpy(), _vectors(r.load)),
+        14: lambda: code.product(r.values.numpy()),
+        15: lambda: code.precondition(r.values.numpy()),
+        21: lambda: code.velocity(_vectors(r.values)),
+    }
+    return _several(calls[r.kind]())
+
+
+def _converse(library, partner, code):
+    """Answers requests until the job is over."""
+    request = _Request()
+    while library.tether_next(partner, ctypes.byref(request)) == 1:
+        try:
+            arrays = [_doubles(values) for values in _answer(code, request)]
+        except Exception as error:
+            library.tether_fail(partner, f"{type(error).__name__}: {error}".encode())
+            continue
+        views = (_Array * len(arrays))(*[_Array(a.ctypes.data_as(_double), a.size) for a in arrays])
+        if library.tether_reply(partner, views, len(arrays)) != 0:
+            library.tether_fail(partner, library.tether_error())
+
+
+def _handle(communicator):
+    """What tether_connect takes for an mpi4py communicator or None."""
+    if communicator is None:
+        return -1
+    return -2 if communicator.Get_name() == "MPI_COMM_WORLD" else communicator.py2f()
+
+
+def serve(role, make, communicator=None):
+    """Connects as `role` ("fluid" or "solid"), calls make() for the code and lets it answer until the job is over.
+
+    make: a class or function without arguments; it finds the case file in sys.argv. communicator: mpi4py
+    communicator of this code's processes, all of which call serve; COMM_WORLD means those of this program, also on
+    an mpirun line that has others. Returns the exit code.
+    """
+    library = _load_library()
+    partner = library.tether_connect(role.encode(), _handle(communicator))
+    if not partner:
+        raise RuntimeError(library.tether_error().decode())
+    if library.tether_is_leader(partner):
+        try:
+            code = make()
+            introduction = _Introduction(code)
+        except Exception as error:
+            library.tether_refuse(partner, f"{type(error).__name__}: {error}".encode())
+        else:
+            library.tether_introduce(partner, ctypes.byref(introduction.description))
+            _converse(library, partner, code)
+    return library.tether_end(partner)

@@ -1,0 +1,70 @@
+#include "vessel/gmsh_source.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+
+void GmshSource::fail(const std::string& what) const {
+  const auto end = content_.begin() + static_cast<std::ptrdiff_t>(std::min(position_, content_.size()));
+  if (binary_) throw input_error("{}: byte {}: {}", name_, position_, what);
+  throw input_error("{}:{}: {}", name_, 1 + std::count(content_.begin(), end, '\n'), what);
+}
+
+void GmshSource::require(std::size_t bytes) const {
+  if (position_ + bytes > content_.size()) fail("the file ends too early");
+}
+
+void GmshSource::skip_blanks() {
+  while (position_ < content_.size() && std::isspace(static_cast<unsigned char>(content_[position_]))) ++position_;
+}
+
+bool GmshSource::at_end() {
+  skip_blanks();
+  return position_ == content_.size();
+}
+
+std::string_view GmshSource::word() {
+  skip_blanks();
+  require(1);
+  const std::size_t start = position_;
+  while (position_ < content_.size() && !std::isspace(static_cast<unsigned char>(content_[position_]))) ++position_;
+  return std::string_view(content_).substr(start, position_ - start);
+}
+
+std::string GmshSource::quoted() {
+  const std::size_t open = content_.find('"', position_),
+                    close = open == std::string::npos ? open : content_.find('"', open + 1);
+  if (close == std::string::npos) fail("a name in quotes was expected");
+  position_ = close + 1;
+  return content_.substr(open + 1, close - open - 1);
+}
+
+double GmshSource::text_number() {
+  const std::string text(word());
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() + text.size()) fail(fmt::format("\"{}\" found where a number was expected", text));
+  return value;
+}
+
+void GmshSource::end_line() {
+  const std::size_t end = content_.find('\n', position_);
+  position_ = end == std::string::npos ? content_.size() : end + 1;
+}
+
+void GmshSource::skip_to(std::string_view word) {
+  const std::size_t found = content_.find(word, position_);
+  if (found == std::string::npos) fail(fmt::format("{} is missing", word));
+  position_ = found + word.size();
+}
+
+void GmshSource::expect(std::string_view expected) {
+  if (const std::string_view found = word(); found != expected)
+    fail(fmt::format("{} was expected, {} found", expected, found.substr(0, 40)));
+}
+
+}  // namespace tether
