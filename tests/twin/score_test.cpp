@@ -67,7 +67,8 @@ TEST(Score, OfAnotherVerdict) {
 TEST(Score, OfEffectsThatLookAlike) {
   Answer alike = spine;
   alike.verdict = Verdict::ambiguous;
-  EXPECT_TRUE(score_of(diagnosis("ambiguous", false, true, R"("visco_elastic at spine")"), alike).verdict_right) << "its group is accepted";
+  EXPECT_TRUE(score_of(diagnosis("ambiguous", false, true, R"("visco_elastic at spine")"), alike).verdict_right)
+      << "its group is accepted";
   EXPECT_FALSE(score_of(diagnosis("ambiguous", false, true), alike).verdict_right);
 }
 
