@@ -75,8 +75,11 @@ void wait_for(pid_t child, const std::string& mark, double limit, JobResult& res
 
 bool empties(const std::string& mark, bool with_cleaners) {
   const auto start = Clock::now();
-  while (!marked_processes(mark, with_cleaners).empty() && seconds_since(start) < patience) nap(0.05);
-  return marked_processes(mark, with_cleaners).empty();
+  while (!marked_processes(mark, with_cleaners).empty()) {
+    if (seconds_since(start) > patience) return false;
+    nap(0.05);
+  }
+  return true;
 }
 
 /// What is left all the same is ended here, so that no test leaves a process.
