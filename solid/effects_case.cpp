@@ -40,12 +40,13 @@ const Patch* find_patch(const std::vector<Patch>& patches, const std::string& na
   return found == patches.end() ? nullptr : &*found;
 }
 
-/// Triangles of a region, of a ring, or of the whole outer wall.
-std::vector<Triangle> triangles_of(const std::string& region, const WallMesh& mesh) {
+/// A region, a ring, or the whole outer wall.
+Patch patch_of(const std::string& region, const WallMesh& mesh) {
   for (const auto* patches : {&mesh.outside, &mesh.rings})
-    if (const Patch* patch = find_patch(*patches, region)) return patch->triangles;
-  std::vector<Triangle> all;
-  for (const Patch& patch : mesh.outside) all.insert(all.end(), patch.triangles.begin(), patch.triangles.end());
+    if (const Patch* patch = find_patch(*patches, region)) return *patch;
+  Patch all;
+  for (const Patch& patch : mesh.outside)
+    all.triangles.insert(all.triangles.end(), patch.triangles.begin(), patch.triangles.end());
   return all;
 }
 
@@ -178,7 +179,9 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
   for (const auto& [name, block] : effects) {
     const std::string path = "solid.effects." + name;
     const auto add = [&, &name = name, &block = block](Configured<Support> effect) {
-      supports.emplace_back(Patch{name, triangles_of(block.region, mesh)}, std::move(effect), TissueMotion{}, path);
+      Patch patch = patch_of(block.region, mesh);
+      patch.name = name;
+      supports.emplace_back(std::move(patch), std::move(effect), TissueMotion{}, path);
     };
     if (is_of(surface_effects(), block.effect.type))
       add(Configured<Support>(surface_effects(), block.effect.type, block.effect.values));
@@ -189,7 +192,7 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
       Configured<MotionLaw> motion(motions(), block.effect.type, block.effect.values);
       tie(std::make_shared<MovingTissue>("solid.effects." + name, std::move(motion),
                                          block.motion ? block.motion->load(file.units()) : TissueMotion{}),
-          triangles_of(block.region, mesh), supports);
+          patch_of(block.region, mesh).triangles, supports);
     }
 }
 

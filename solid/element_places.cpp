@@ -1,6 +1,7 @@
 #include "solid/element_places.hpp"
 
 #include <Eigen/Geometry>
+#include <map>
 
 #include "common/mesh/locator.hpp"
 #include "solid/vessel_direction.hpp"
@@ -19,34 +20,58 @@ Vec3 centre_of(const Points& x, const std::array<int, nodes>& cell) {
   return sum / static_cast<double>(nodes);
 }
 
+/// What the regions have of each triangle that a border cuts.
+std::map<Triangle, std::vector<double>> shares_of_cut(const WallMesh& mesh) {
+  std::map<Triangle, std::vector<double>> shares;
+  for (std::size_t region = 0; region < mesh.outside.size(); ++region)
+    for (const TrianglePart& part : mesh.outside[region].parts) {
+      if (part.share() == 1) continue;
+      std::vector<double>& of = shares[part.of];
+      of.resize(mesh.outside.size());
+      of[region] += part.share();
+    }
+  return shares;
+}
+
 /// The triangles of the outer wall, and where they are.
-struct OuterWall {
-  explicit OuterWall(const WallMesh& mesh, const VectorXd& along) {
+class OuterWall {
+ public:
+  OuterWall(const WallMesh& mesh, const VectorXd& along) {
     std::vector<Vec3> centres;
+    const auto cut = shares_of_cut(mesh);
     for (std::size_t region = 0; region < mesh.outside.size(); ++region)
       for (const Triangle& t : mesh.outside[region].triangles) {
         Mat3 x;
         x << mesh.points.col(t[0]), mesh.points.col(t[1]), mesh.points.col(t[2]);
         const Vec3 outward = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).normalized();
         const Vec3 axial = along.size() == 0 ? Vec3::Zero() : direction_on(x, {along[t[0]], along[t[1]], along[t[2]]});
-        places.push_back({static_cast<int>(region), outward, axial});
+        std::size_t number = region;
+        if (const auto shared = cut.find(t); shared != cut.end()) {
+          number = mesh.outside.size() + mixtures_.size();
+          mixtures_.push_back(shared->second);
+        }
+        places_.push_back({static_cast<int>(number), outward, axial});
         centres.push_back(x.rowwise().mean());
       }
-    locator.emplace(points_of(centres));
+    locator_.emplace(points_of(centres));
   }
-  const ElementPlace& near(const Vec3& x) const { return places[static_cast<std::size_t>(locator->nearest(x).node)]; }
+  const ElementPlace& near(const Vec3& x) const { return places_[static_cast<std::size_t>(locator_->nearest(x).node)]; }
+  const std::vector<std::vector<double>>& mixtures() const { return mixtures_; }
 
-  std::vector<ElementPlace> places;
-  std::optional<PointLocator> locator;
+ private:
+  std::vector<ElementPlace> places_;
+  std::vector<std::vector<double>> mixtures_;
+  std::optional<PointLocator> locator_;
 };
 
 }  // namespace
 
-std::vector<ElementPlace> element_places(const WallMesh& mesh, const VectorXd& along) {
+ElementPlaces element_places(const WallMesh& mesh, const VectorXd& along) {
   const OuterWall outside(mesh, along);
-  std::vector<ElementPlace> result;
-  for (const Prism& cell : mesh.prisms) result.push_back(outside.near(centre_of(mesh.points, cell)));
-  for (const Tetrahedron& cell : mesh.tetrahedra) result.push_back(outside.near(centre_of(mesh.points, cell)));
+  ElementPlaces result{{}, outside.mixtures()};
+  for (const Prism& cell : mesh.prisms) result.of_elements.push_back(outside.near(centre_of(mesh.points, cell)));
+  for (const Tetrahedron& cell : mesh.tetrahedra)
+    result.of_elements.push_back(outside.near(centre_of(mesh.points, cell)));
   return result;
 }
 

@@ -30,7 +30,8 @@ struct MovingTissue {
   TissueMotion measured;  ///< of laws that ask for it
 };
 
-/// A support on one region of the outer wall or on an end ring (S.4): int traction N_a dA, three points a triangle.
+/// A support on one region of the outer wall or on an end ring (S.4): int traction N_a dA, three points a triangle or a
+/// part of one.
 class SurfaceSupport {
  public:
   /// `path`: of its parameters; empty: that of the region's or ring's own support.
@@ -60,11 +61,14 @@ class SurfaceSupport {
 
  private:
   struct Face {
+    Triangle nodes;
+    Mat3 shapes;   ///< of the nodes, one a row, at the points of quadrature, one a column
+    double share;  ///< of the triangle's area
     double area;
     Vec3 normal, axial;
     Mat3 corners;  ///< imaged
   };
-  SupportTraction at(const SupportStep& step, const Vec3& rest, std::size_t triangle, int edge) const;
+  SupportTraction at(const SupportStep& step, const Vec3& rest, const Face& face, int point) const;
   Vec3 rest_at(double time) const;
 
   Patch patch_;
@@ -73,7 +77,8 @@ class SurfaceSupport {
   std::string path_;
   std::vector<std::shared_ptr<MovingTissue>> tissues_;
   std::shared_ptr<const VectorXd> along_;
-  std::vector<Face> faces_;
+  std::vector<Face> faces_;  ///< of the patch's parts
+  bool placed_ = false;
   ScatterMap scatter_;
 };
 

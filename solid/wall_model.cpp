@@ -42,7 +42,9 @@ WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& 
 void WallModel::place_effects() {
   const bool oriented = std::any_of(effects_.begin(), effects_.end(),
                                     [](const LocalEffect& local) { return local.effect->uses_axial(); });
-  elements_->set_places(element_places(mesh_, oriented ? place_along_vessel(mesh_) : VectorXd()));
+  ElementPlaces places = element_places(mesh_, oriented ? place_along_vessel(mesh_) : VectorXd());
+  elements_->set_places(std::move(places.of_elements));
+  mixtures_ = std::move(places.mixtures);
   update_effects();
 }
 
@@ -50,6 +52,8 @@ void WallModel::update_effects() {
   std::vector<WallLocal> regions(mesh_.outside.size());
   for (const LocalEffect& local : effects_)
     for (const int region : local.regions) local.effect->apply(regions[static_cast<std::size_t>(region)]);
+  const std::vector<WallLocal> pure = regions;
+  for (const std::vector<double>& shares : mixtures_) regions.push_back(mixture(pure, shares));
   const bool tense = std::any_of(regions.begin(), regions.end(), [](const WallLocal& l) { return l.tension != 0; });
   elements_->set_local(std::move(regions));
   tension_held_ = tense ? elements_->tension_force(mesh_.points) : VectorXd();

@@ -70,6 +70,7 @@ class WallModel {
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
   std::vector<LocalEffect> effects_;
+  std::vector<std::vector<double>> mixtures_;  ///< of regions, of elements that several share: what each has
   VectorXd
       tension_held_;  ///< by the surroundings, so that tension along the vessel leaves the image at rest; empty if none
   VectorXd held_;     ///< force of the surroundings beside the supports, a dead load; empty if none

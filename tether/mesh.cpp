@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -67,6 +68,14 @@ std::string report_text(const VesselMesh& vessel, const UnitSystem& units) {
                      units.to_mm(r.wall_thickness));
 }
 
+std::string areas_text(const WallMesh& wall, const UnitSystem& units) {
+  std::string text;
+  for (const Patch& region : wall.outside)
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", region.name,
+                        area_of(wall.points, region) * std::pow(units.to_mm(1) / 10, 2));
+  return "  outer wall [cm2]: " + text + "\n";
+}
+
 }  // namespace
 
 int write_meshes(const CommandLine& command) {
@@ -80,7 +89,8 @@ int write_meshes(const CommandLine& command) {
   fluid_faces.write(folder / "fluid_faces.vtu", vessel.fluid.points);
   wall_faces.write(folder / "wall_faces.vtu", vessel.wall.points);
   if (command.quiet) return exit_done;
-  std::cout << report_text(vessel, file.units()) << "In " << folder.string() << ", for ParaView:\n"
+  std::cout << report_text(vessel, file.units()) << areas_text(vessel.wall, file.units()) << "In " << folder.string()
+            << ", for ParaView:\n"
             << "  fluid.vtu, wall.vtu\n"
             << "  fluid_faces.vtu   colour by face: " << fluid_faces.legend() << "\n"
             << "  wall_faces.vtu    colour by face: " << wall_faces.legend() << "\n";

@@ -1,7 +1,6 @@
 #include "vessel/sweep.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "common/base/error.hpp"
 #include "common/mesh/topology.hpp"
@@ -99,21 +98,13 @@ FluidMesh fill(const Disc& disc, const std::vector<CrossSection>& sections) {
   return fluid;
 }
 
-/// Angle and position of a triangle of the outer wall, from the cross-sections its nodes stand in.
-WallPlace place_on_vessel(const Triangle& triangle, const Disc& disc, int along) {
+/// Angle and position of a node of the wall, from the cross-section it stands in.
+WallPlace place_on_vessel(int node, const Disc& disc, int along) {
   const int around = disc.rim().count, interface_nodes = around * (along + 1);
-  double x = 0, y = 0, position = 0;
-  for (const int node : triangle) {
-    const int on_interface = node % interface_nodes, in_ring = on_interface % around;
-    const int level = on_interface / around, half = around / 2;
-    const int place = 2 * (in_ring % half) + in_ring / half - level % 2;  // undoes Disc::Ring::node and flipping
-    const double angle = 2 * std::numbers::pi * place / around;
-    x += std::cos(angle);
-    y += std::sin(angle);
-    position += static_cast<double>(level) / along / 3;
-  }
-  const double degrees = std::atan2(y, x) * 180 / std::numbers::pi;
-  return {degrees < 0 ? degrees + 360 : degrees, position};
+  const int on_interface = node % interface_nodes, in_ring = on_interface % around;
+  const int level = on_interface / around, half = around / 2;
+  const int place = 2 * (in_ring % half) + in_ring / half - level % 2;  // undoes Disc::Ring::node and flipping
+  return {360.0 * ((place + around) % around) / around, static_cast<double>(level) / along};
 }
 
 }  // namespace
@@ -124,9 +115,8 @@ VesselMesh sweep(const SweepSettings& settings) {
   vessel.fluid = fill(disc, cross_sections(settings));
   vessel.wall = extrude_wall(vessel.fluid, {settings.wall_thickness, settings.layers});
   if (!settings.regions.empty())
-    vessel.wall.outside =
-        divide_by_regions(vessel.wall.outside.front().triangles, settings.regions,
-                          [&](const Triangle& t) { return place_on_vessel(t, disc, settings.along); });
+    vessel.wall.outside = divide_by_regions(vessel.wall.outside.front().triangles, settings.regions,
+                                            [&](int node) { return place_on_vessel(node, disc, settings.along); });
   return vessel;
 }
 

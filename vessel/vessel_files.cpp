@@ -140,8 +140,8 @@ WallMesh grown_wall(const VesselFiles& files, const FluidMesh& fluid) {
   const Vec3 start = centroid(fluid.points, fluid.inlets.at(0).triangles),
              end = centroid(fluid.points, fluid.outlets.at(0).triangles);
   const Frame frame = make_frame(start, end - start, files.angle_origin);
-  wall.outside = divide_by_regions(wall.outside.front().triangles, files.regions, [&](const Triangle& t) {
-    return place_about_line(wall.points(Eigen::all, t).rowwise().mean(), frame, (end - start).norm());
+  wall.outside = divide_by_regions(wall.outside.front().triangles, files.regions, [&](int node) {
+    return place_about_line(wall.points.col(node), frame, (end - start).norm());
   });
   return wall;
 }

@@ -1,18 +1,10 @@
 #pragma once
 
-#include <map>
-#include <string>
 #include <vector>
 
-#include "common/base/types.hpp"
+#include "common/mesh/patch.hpp"
 
 namespace tether {
-
-/// A named piece of a boundary. Triangles index the volume mesh's nodes and are oriented OUT of that volume.
-struct Patch {
-  std::string name;
-  std::vector<Triangle> triangles;
-};
 
 /// The lumen: P1 tetrahedra with positive volume. Its boundary is the disjoint union of interface, inlets and outlets.
 struct FluidMesh {

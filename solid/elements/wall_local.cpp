@@ -10,4 +10,20 @@ FibreResponse fibre_response(const Fibres& fibres, double strain) {
   return {energy, k * strain * growth, k * (1 + 2 * c * square) * growth};
 }
 
+WallLocal mixture(const std::vector<WallLocal>& parts, const std::vector<double>& shares) {
+  WallLocal mixed;
+  mixed.stiffness = mixed.thickness = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) mixed.thickness += shares[i] * parts[i].thickness;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double of_matter = shares[i] * parts[i].thickness / mixed.thickness;
+    mixed.stiffness += of_matter * parts[i].stiffness;
+    mixed.tension += shares[i] * parts[i].tension;
+    for (Fibres fibres : parts[i].fibres) {
+      fibres.stiffness *= of_matter;
+      if (shares[i] > 0) mixed.fibres.push_back(fibres);
+    }
+  }
+  return mixed;
+}
+
 }  // namespace tether

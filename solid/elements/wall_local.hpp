@@ -28,9 +28,12 @@ struct WallLocal {
   bool is_plain() const { return stiffness == 1 && thickness == 1 && tension == 0 && fibres.empty(); }
 };
 
+/// What is alike on average: of each of these so large a share; the shares add up to 1.
+WallLocal mixture(const std::vector<WallLocal>& parts, const std::vector<double>& shares);
+
 /// Where an element of the wall is.
 struct ElementPlace {
-  int region;    ///< of the outer wall
+  int region;    ///< of the outer wall, or beyond these a mixture of them
   Vec3 outward;  ///< unit normal of the outer wall there
   Vec3 axial;    ///< unit, along the vessel, tangential (S.15); zero if not known
 };

@@ -190,6 +190,52 @@ TEST(SurfaceSupport, AnIrregularDisplacementIsIntegratedExactly) {
   EXPECT_NEAR(force.dot(y.reshaped()), -stiffness / 3, 1e-14);
 }
 
+/// The part x < 0.3 of the unit square's two triangles: borders cut both.
+Patch left_of(const Patch& square, double border, const WallMesh& wall) {
+  Patch part{square.name, square.triangles};
+  for (const Triangle& t : square.triangles) {
+    const Vec3 x = wall.points(0, t).transpose();
+    const bool only_one_left = (x.array() < 0.5).count() == 1;
+    Eigen::Index alone = 0;
+    only_one_left ? x.minCoeff(&alone) : x.maxCoeff(&alone);
+    const Eigen::Index next = (alone + 1) % 3, last = (alone + 2) % 3;
+    const auto at_border = [&](Eigen::Index a, Eigen::Index b) -> Vec3 {
+      const double share = (border - x[a]) / (x[b] - x[a]);
+      return (1 - share) * Vec3::Unit(a) + share * Vec3::Unit(b);
+    };
+    const Vec3 p = at_border(alone, next), q = at_border(alone, last);
+    TrianglePart tip{t}, first{t}, second{t};
+    tip.corners << Vec3::Unit(alone), p, q;
+    first.corners << p, Vec3::Unit(next), Vec3::Unit(last);
+    second.corners << p, Vec3::Unit(last), q;
+    if (x[alone] < border) part.parts.push_back(tip);
+    if (x[alone] > border) part.parts.insert(part.parts.end(), {first, second});
+  }
+  return part;
+}
+
+TEST(SurfaceSupport, APatchWhoseBorderCutsTrianglesIsIntegratedExactly) {
+  const WallMesh wall = plate({1, 1, 0.5}, {1, 1}, 1);
+  constexpr double border = 0.3;
+  SurfaceSupport support = support_on(left_of(wall.outside[0], border, wall));
+  SparseMatrix tangent = make_wall_elements(wall, wall.points)->zero_matrix();
+  support.attach(tangent);
+  support.place(wall.points);
+  const Points u = Points::Zero(3, wall.points.cols());
+  Points y = u;
+  y.row(0) = wall.points.row(0).array();  // y_x = x: int x . x dA up to the border is border^3 / 3
+  VectorXd force = VectorXd::Zero(wall.points.size());
+  constexpr double advance = 0.5;
+  support.add({y, u, 0, advance}, force, &tangent);
+  EXPECT_NEAR(force.dot(y.reshaped()), -stiffness * std::pow(border, 3) / 3, 1e-14);
+  EXPECT_NEAR(support.resultant({y, u, 0, 0})[0], -stiffness * border * border / 2, 1e-14);
+  const double slope = y.reshaped().dot(tangent * y.reshaped());
+  EXPECT_NEAR(slope, (advance * stiffness + damping) * std::pow(border, 3) / 3, 1e-14);
+  SparseMatrix K = make_wall_elements(wall, wall.points)->zero_matrix();
+  support.add_stiffness(K);
+  EXPECT_NEAR(y.reshaped().dot(K * y.reshaped()), stiffness * std::pow(border, 3) / 3, 1e-14);
+}
+
 /// A tube inflated to twice its outer radius, ends at rest: reference area against current area is a factor of two.
 TEST(SurfaceSupport, AreaIsThatOfTheImageUnlessTheCaseSaysCurrent) {
   const WallMesh wall = circular_tube(1.8, 4, 0.2, 24, 4).wall;

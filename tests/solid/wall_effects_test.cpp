@@ -10,6 +10,7 @@
 #include "solid/wall_effects/registry.hpp"
 #include "tests/solid/strains.hpp"
 #include "tests/solid/tube.hpp"
+#include "vessel/sweep.hpp"
 
 namespace tether {
 namespace wall_effects_test {
@@ -29,7 +30,7 @@ WallLocal local_of(const std::string& type, const std::map<std::string, double>&
 /// The elements of a wall, all of it different in this way.
 std::unique_ptr<WallElements> elements_with(const WallMesh& wall, const WallLocal& local) {
   auto elements = make_wall_elements(wall, wall.points);
-  elements->set_places(element_places(wall, place_along_vessel(wall)));
+  elements->set_places(element_places(wall, place_along_vessel(wall)).of_elements);
   elements->set_local(std::vector<WallLocal>(wall.outside.size(), local));
   return elements;
 }
@@ -134,7 +135,7 @@ TEST(StiffnessFactor, ActsInItsRegionOnly) {
   });
   wall.outside.push_back(right);
   auto elements = make_wall_elements(wall, wall.points);
-  elements->set_places(element_places(wall, {}));
+  elements->set_places(element_places(wall, {}).of_elements);
   elements->set_local({WallLocal{}, local_of("stiffness_factor", {{"factor", 3}})});
   Random random(6);
   const Points x = wall.points + 0.05 * random.matrix(3, wall.points.cols());
@@ -145,6 +146,24 @@ TEST(StiffnessFactor, ActsInItsRegionOnly) {
     if (std::abs(place - 4) < 0.5) continue;
     EXPECT_LE((mixed.segment<3>(3 * node) - (place > 4 ? 3 : 1) * plain.segment<3>(3 * node)).norm(), 1e-12) << node;
   }
+}
+
+/// Of a uniform stretch the energy is volume times density of energy: a region counts by its share, not by elements.
+TEST(StiffnessFactor, OfARegionThatCutsElementsCountsByItsShare) {
+  SweepSettings settings = circular_tube_settings(2, 4, 0.2, 16, 5, 2);
+  settings.regions = {{"slice", 0, 360, 0.13, 0.55}, {"rest"}};
+  const WallMesh wall = sweep(settings).wall;
+  auto elements = make_wall_elements(wall, wall.points);
+  ElementPlaces places = element_places(wall, {});
+  elements->set_places(places.of_elements);
+  const std::vector<WallLocal> regions{local_of("stiffness_factor", {{"factor", 3}}),
+                                       local_of("thickness_factor", {{"factor", 2}})};
+  std::vector<WallLocal> locals = regions;
+  for (const auto& shares : places.mixtures) locals.push_back(mixture(regions, shares));
+  elements->set_local(locals);
+  const Points x = Eigen::Vector3d(1.02, 1.02, 0.97).asDiagonal() * wall.points;
+  const double plain = make_wall_elements(wall, wall.points)->energy(x, *rubber());
+  EXPECT_NEAR(elements->energy(x, *rubber()) / plain, 0.42 * 3 + 0.58 * 2, 1e-9);
 }
 
 TEST(ThicknessFactor, ScalesElasticityViscosityAndMassTogether) {

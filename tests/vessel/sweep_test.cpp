@@ -105,6 +105,49 @@ TEST(SweepRegions, follow_angle_and_position_and_first_match_wins) {
   EXPECT_GT(centroid(tube.wall.points, tube.wall.outside[1].triangles)[2], 7);
 }
 
+/// Borders cut triangles: a region's share of the wall is that of its angles and positions, on any mesh.
+TEST(SweepRegions, areas_do_not_depend_on_the_mesh) {
+  for (const auto& [around, along] : {std::pair{10, 7}, {16, 13}, {22, 9}, {38, 31}}) {
+    SweepSettings settings = circular_tube_settings(2, 10, 0.2, around, along);
+    settings.regions = {
+        {"spine", 150, 217}, {"around_zero", 335, 30, 0.5, 1}, {"vicinity", 105, 250, 0.1, 0.83}, {"opposite"}};
+    const VesselMesh tube = sweep(settings);
+    expect_valid(tube.wall);
+    std::vector<double> shares;
+    double whole = 0;
+    for (const Patch& region : tube.wall.outside) {
+      shares.push_back(area_of(tube.wall.points, region));
+      whole += shares.back();
+    }
+    EXPECT_NEAR(whole, around * 2 * 2.2 * std::sin(pi / around) * 10, 1e-10);
+    const double of_spine = 67. / 360, around_zero = 0.5 * 55 / 360, vicinity = 0.73 * (145 - 67) / 360;
+    EXPECT_NEAR(shares[0] / whole, of_spine, 1e-10);
+    EXPECT_NEAR(shares[1] / whole, around_zero, 1e-10);
+    EXPECT_NEAR(shares[2] / whole, vicinity, 1e-10);
+    EXPECT_NEAR(shares[3] / whole, 1 - of_spine - around_zero - vicinity, 1e-10);
+  }
+}
+
+/// First moments, too: the parts lie where the region is.
+TEST(SweepRegions, parts_lie_within_their_region) {
+  SweepSettings settings = circular_tube_settings(2, 10, 0.2, 18, 7);
+  settings.regions = {{"slice", 0, 360, 0.21, 0.47}, {"rest"}};
+  const WallMesh wall = sweep(settings).wall;
+  double lowest = 10, highest = 0;
+  for (const TrianglePart& part : parts_of(wall.outside[0])) {
+    const Eigen::RowVector3d z = wall.points(2, part.of) * part.corners;
+    lowest = std::min(lowest, z.minCoeff()), highest = std::max(highest, z.maxCoeff());
+  }
+  EXPECT_NEAR(lowest, 2.1, 1e-8);
+  EXPECT_NEAR(highest, 4.7, 1e-8);
+}
+
+TEST(SweepRegions, borders_along_edges_cut_nothing) {
+  SweepSettings settings = circular_tube_settings(2, 10, 0.2, 24, 20);
+  settings.regions = {{"spine", 150, 210}, {"around_zero", 330, 30, 0.5, 1}, {"opposite"}};
+  for (const Patch& region : sweep(settings).wall.outside) EXPECT_TRUE(region.parts.empty()) << region.name;
+}
+
 TEST(SweepRegions, angles_are_right_handed_about_the_flow) {
   SweepSettings settings = circular_tube_settings(2, 10, 0.2, 24, 20);
   settings.regions = {{"quarter", 60, 120}, {"rest"}};
