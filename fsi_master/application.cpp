@@ -11,6 +11,7 @@
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupled_codes.hpp"
 #include "fsi_master/group_server.hpp"
@@ -148,10 +149,11 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
                  codes.coupling().name(),
                  costs(crew, processes),
                  merged_json({own_sections(master), fluid_case, solid_case}),
+                 master.file.common().observer.largest_gain(),
                  notices};
   for (std::size_t i = 0; i < before.size(); ++i)
     facts.processes[i].loop_cpu_seconds = facts.processes[i].usage.cpu_seconds - before[i].usage.cpu_seconds;
-  write_summary(simulation, facts);
+  write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }
 
 /// The master's own life.

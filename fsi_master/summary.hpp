@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fsi_master/results/run_summary.hpp"
 #include "fsi_master/simulation.hpp"
 
 namespace tether {
@@ -20,12 +21,12 @@ struct RunFacts {
   std::string case_name, title, case_file, method;
   std::vector<ProcessCost> processes;
   std::string effective_case;  ///< JSON
+  double observer_gain = 0;    ///< the largest of any region [1/s]
   std::vector<std::string> notices;
 };
 
-/// summary.json: what was run, how it went and what it cost, in the case's units and in mmHg and mm.
-/// Throws RunError if it cannot be written.
-void write_summary(const Simulation& simulation, const RunFacts& facts);
+/// What was run, how it went and what it cost, in the case's units and in mmHg and mm.
+RunSummary summary_of(const Simulation& simulation, const RunFacts& facts);
 
 /// The objects of several JSON texts as one; a text that is no object is left out.
 std::string merged_json(const std::vector<std::string>& texts);

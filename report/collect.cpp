@@ -10,6 +10,7 @@
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "report/estimate_table.hpp"
 #include "report/provenance.hpp"
@@ -32,16 +33,6 @@ Json read_result(const fs::path& path) {
   return fs::is_regular_file(path) ? Json::parse(json_of(read_record<Result>(path))) : Json();
 }
 
-/// Null if there is no such file.
-Json read_json(const fs::path& path) {
-  if (!fs::is_regular_file(path)) return nullptr;
-  try {
-    return Json::parse(text_of(path));
-  } catch (const Json::exception& error) {
-    throw input_error("{}: {}", path.string(), error.what());
-  }
-}
-
 /// Without the groups of single contours: the page shows regions.
 void drop_contours(Json& groups) {
   Json kept = Json::array();
@@ -62,14 +53,10 @@ Json regions_only(Json comparison) {
   return comparison;
 }
 
-/// What a reader asks of a run: when, how long, with what.
-Json facts_of(const Json& summary) {
-  if (summary.is_null()) return summary;
-  Json facts = Json::object();
-  for (const char* key : {"case_file", "steps", "dt", "time", "wall_seconds", "cpu_seconds", "peak_memory_mb",
-                          "unknowns", "versions", "notices", "coupling_method"})
-    if (summary.contains(key)) facts[key] = summary[key];
-  return facts;
+/// What a reader asks of a run: all but the whole case.
+Json facts_of(Json summary) {
+  if (!summary.is_null()) summary.erase("effective_case");
+  return summary;
 }
 
 /// A folder with a compared run, as the page shows it.
@@ -236,7 +223,7 @@ class Collector {
   static void add_facts(Json& json, const fs::path& folder, const std::string& label) {
     if (const std::string text = text_of(folder / case_as_run); !text.empty())
       json["cases"].push_back({{"label", label}, {"text", text}});
-    if (const Json facts = facts_of(read_json(folder / "summary.json")); !facts.is_null())
+    if (const Json facts = facts_of(read_result<RunSummary>(folder / "summary.json")); !facts.is_null())
       json["runs"].push_back({{"label", label}, {"finished", date_of(folder / "summary.json")}, {"summary", facts}});
   }
 

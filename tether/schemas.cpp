@@ -9,6 +9,7 @@
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "twin/score.hpp"
 
@@ -24,13 +25,10 @@ std::string schema() {
 
 const std::vector<ResultSchema>& result_schemas() {
   static const std::vector<ResultSchema> all{
-      {"comparison.json", schema<ComparisonResult>},
-      {"wall.json", schema<ComparedWall>},
-      {"diagnosis.json", schema<Diagnosis>},
-      {"explain.json", schema<Explanation>},
-      {"steps.json", schema<StepsMade>},
-      {"force.json", schema<ForceFound>},
-      {"estimate.json", schema<Estimate>},
+      {"summary.json", schema<RunSummary>},  {"comparison.json", schema<ComparisonResult>},
+      {"wall.json", schema<ComparedWall>},   {"diagnosis.json", schema<Diagnosis>},
+      {"explain.json", schema<Explanation>}, {"steps.json", schema<StepsMade>},
+      {"force.json", schema<ForceFound>},    {"estimate.json", schema<Estimate>},
       {"score.json", schema<Score>},
   };
   return all;

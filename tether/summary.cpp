@@ -2,63 +2,46 @@
 
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
+#include "fsi_master/results/run_summary.hpp"
 
 namespace tether {
 namespace {
 
-using Json = nlohmann::json;
-
-std::string cost(const Json& s) {
+std::string cost(const RunSummary& s) {
   return fmt::format("  {} steps in {:.1f} s: {:.3f} s a step; CPU {:.1f} s, memory {:.0f} MB over all processes\n",
-                     s.at("steps").get<int>(), s.at("wall_seconds").get<double>(),
-                     s.at("seconds_per_step").get<double>(), s.at("cpu_seconds").at("total").get<double>(),
-                     s.at("peak_memory_mb").at("total").get<double>());
+                     s.steps, s.wall_seconds, s.seconds_per_step, s.cpu_seconds.at("total"),
+                     s.peak_memory_mb.at("total"));
 }
 
-std::string pressure(const Json& s) {
-  const Json& p = s.at("pressure");
-  if (p.is_null()) return "";
-  const double image = p.value("relative_to_mmHg", 0.0);
+std::string pressure(const std::optional<PressureRange>& p) {
+  if (!p) return "";
+  const double image = p->relative_to_mmhg;
   return fmt::format(
-      "  pressure       {:.1f} .. {:.1f} mmHg{}\n", image + p.at("min_mmHg").get<double>(),
-      image + p.at("max_mmHg").get<double>(),
+      "  pressure       {:.1f} .. {:.1f} mmHg{}\n", image + p->min_mmhg, image + p->max_mmhg,
       image == 0 ? "" : fmt::format(" ({:.1f} in the image, to which other figures are relative)", image));
 }
 
-std::string observer(const Json& s) {
-  if (!s.contains("observer")) return "";
+std::string observer(const std::optional<ObserverWork>& observer) {
+  if (!observer) return "";
   return fmt::format(
       "  observer       moved the lumen by at most {:.2g} mm a step: this run follows the data, and is no evidence for "
-      "the "
-      "model\n",
-      s.at("observer").at("largest_correction_mm").get<double>());
+      "the model\n",
+      observer->largest_correction_mm);
 }
 
-std::string coupling(const Json& s) {
-  const Json& c = s.at("coupling_iterations");
-  return fmt::format("  coupling       {:.2f} evaluations a step, at most {:.0f} ({})\n", c.at("mean").get<double>(),
-                     c.at("max").get<double>(), s.at("coupling_method").get<std::string>());
+std::string coupling(const RunSummary& s) {
+  return fmt::format("  coupling       {:.2f} evaluations a step, at most {:.0f} ({})\n", s.coupling_iterations.mean,
+                     s.coupling_iterations.max, s.coupling_method);
 }
 
 }  // namespace
 
 std::string summary_text(const std::filesystem::path& output) {
-  const auto path = output / "summary.json";
-  std::ifstream file(path);
-  try {
-    const Json s = Json::parse(file);
-    return cost(s) + pressure(s) +
-           fmt::format("  displacement   at most {:.3g} mm\n", s.at("max_displacement_mm").get<double>()) +
-           coupling(s) + observer(s) +
-           fmt::format("  mass balance   off by at most {:.1e} {}\n", s.at("mass_balance_error_max").get<double>(),
-                       s.at("units").at("flow").get<std::string>());
-  } catch (const Json::exception& error) {
-    throw run_error("{}: is not a run's summary: {}", path.string(), error.what());
-  }
+  const auto s = read_record<RunSummary>(output / "summary.json");
+  return cost(s) + pressure(s.pressure) + fmt::format("  displacement   at most {:.3g} mm\n", s.max_displacement_mm) +
+         coupling(s) + observer(s.observer) +
+         fmt::format("  mass balance   off by at most {:.1e} {}\n", s.mass_balance_error_max, s.units.flow);
 }
 
 std::string where_to_look(const std::filesystem::path& output, const std::vector<std::string>& plots) {

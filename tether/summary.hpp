@@ -6,8 +6,8 @@
 
 namespace tether {
 
-/// What OUTPUT/summary.json says, for a person: duration, cost, pressures, displacement, coupling. Throws RunError if
-/// it cannot be read.
+/// What OUTPUT/summary.json says, for a person: duration, cost, pressures, displacement, coupling. Throws InputError
+/// if it is no summary.
 std::string summary_text(const std::filesystem::path& output);
 
 /// What the output folder holds and how to look at it.

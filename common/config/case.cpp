@@ -88,8 +88,10 @@ void ObserverCase::declare(Fields& f) {
   f.groups("regions", regions, "regions of the wall with a gain of their own");
 }
 
-bool ObserverCase::is_on() const {
-  return gain > 0 || std::any_of(regions.begin(), regions.end(), [](const auto& r) { return r.second.gain > 0; });
+double ObserverCase::largest_gain() const {
+  double largest = gain;
+  for (const auto& [name, region] : regions) largest = std::max(largest, region.gain);
+  return largest;
 }
 
 void OutputCase::declare(Fields& f) {

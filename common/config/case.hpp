@@ -33,7 +33,8 @@ struct ObserverCase {
   std::string form = "split";
   Named<Region> regions;
   void declare(Fields& f);
-  bool is_on() const;
+  double largest_gain() const;  ///< of any region
+  bool is_on() const { return largest_gain() > 0; }
 };
 
 /// What a run writes, beside the tables that it always writes.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -17,7 +18,7 @@
 ///   };
 ///
 /// A field is a number (not finite: null), a text, an enumeration with words, another record, an Eigen matrix (its
-/// rows), a Vec3, or a std::optional (empty: null), std::vector or std::map<std::string, ...> of these.
+/// rows), a Vec3, a JsonTree, or a std::optional (empty: null), std::vector or std::map<std::string, ...> of these.
 namespace tether {
 
 /// How files name a value of an enumeration, and what that means.
@@ -57,6 +58,11 @@ constexpr std::optional<E> from_word(std::string_view text) {
     if (text == word.word) return word.value;
   return std::nullopt;
 }
+
+/// A part of a file that is anything: an object as JSON text.
+struct JsonTree {
+  std::string text = "{}";
+};
 
 template <class T>
 concept Record = requires {

@@ -49,6 +49,7 @@ struct Write {
     for (const auto& [name, value] : values) json[name] = of(value);
     return json;
   }
+  static Json of(const JsonTree& tree) { return Json::parse(tree.text); }
   static Json of(const Vec3& vector) { return of(std::vector<double>(vector.begin(), vector.end())); }
   static Json of(const MatrixXd& matrix) {
     Json rows = Json::array();
@@ -100,6 +101,10 @@ struct Read {
     if (!json.is_object()) throw place.wrong(json, "an object");
     values.clear();
     for (const auto& [name, item] : json.items()) into(values[name], item, place.at(name));
+  }
+  static void into(JsonTree& tree, const Json& json, const Place& place) {
+    if (!json.is_object()) throw place.wrong(json, "an object");
+    tree.text = json.dump();
   }
   static void into(Vec3& vector, const Json& json, const Place& place) {
     std::vector<double> values;
@@ -192,6 +197,7 @@ class Schema {
   Json of(const std::map<std::string, T>*) {
     return {{"type", "object"}, {"additionalProperties", of(static_cast<const T*>(nullptr))}};
   }
+  Json of(const JsonTree*) { return {{"type", "object"}}; }
   Json of(const Vec3*) { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}}; }
   Json of(const MatrixXd*) { return of(static_cast<const std::vector<std::vector<double>>*>(nullptr)); }
 

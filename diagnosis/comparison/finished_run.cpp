@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "fsi_master/results/run_summary.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 /// Sections that do not change what a run computes; measurements do if an observer pulls the wall toward them.
 constexpr std::array without_effect{"title", "twin", "observations", "identification", "diagnosis", "output"};
@@ -69,20 +69,8 @@ fs::file_time_type newest(const YamlNode& node, const fs::path& folder, fs::file
   return moment;
 }
 
-Json summary_of(const fs::path& output) {
-  std::ifstream file(output / "summary.json");
-  try {
-    return Json::parse(file);
-  } catch (const Json::exception& error) {
-    throw input_error("{}: is not a run's summary: {}", (output / "summary.json").string(), error.what());
-  }
-}
-
-/// Of a state observer, in any region.
-double largest_gain(const Json& observer) {
-  double gain = observer.value("gain", 0.0);
-  for (const Json& region : observer.value("regions", Json::object())) gain = std::max(gain, region.value("gain", 0.0));
-  return gain;
+RunSummary summary_in(const fs::path& output) {
+  return read_record<RunSummary>(output / "summary.json");
 }
 
 }  // namespace
@@ -98,7 +86,7 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
     if (const std::string newer = newer_file(entry.value, file.path().parent_path(), written);
         has_effect(entry.key, now) && !newer.empty())
       return fmt::format("{} is newer than the run in {}", newer, output.string());
-  if (const int made = summary_of(output).value("steps", 0); made < steps)
+  if (const std::int64_t made = summary_in(output).steps; made < steps)
     return fmt::format("the run in {} ended after {} of {} steps", output.string(), made, steps);
   return std::nullopt;
 }
@@ -116,9 +104,9 @@ std::optional<std::string> why_no_velocity(const fs::path& output, const Points&
 
 FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion") {
   if (fs::exists(output / "blood.velocity")) velocity.emplace(output / "blood.velocity");
-  const Json summary = summary_of(output);
-  steps = summary.value("steps", 0);
-  observer_gain = largest_gain(summary.value("/effective_case/observer"_json_pointer, Json::object()));
+  const RunSummary summary = summary_in(output);
+  steps = static_cast<int>(summary.steps);
+  if (summary.observer) observer_gain = summary.observer->gain;
 }
 
 RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen) {

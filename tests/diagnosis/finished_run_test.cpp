@@ -1,6 +1,8 @@
 #include "diagnosis/comparison/finished_run.hpp"
 
 #include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {
@@ -9,6 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* common = "name: tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
+
+RunSummary summary_of_two_steps() {
+  RunSummary summary;
+  summary.steps = 2;
+  return summary;
+}
 
 /// A case with a curve, and an output folder that looks like its finished run of two steps.
 class FinishedRunTest : public ::testing::Test {
@@ -19,7 +27,7 @@ class FinishedRunTest : public ::testing::Test {
     std::ofstream(output / case_as_run) << with_solid;
     folder.file("flow.csv", "t, q\n");
     fs::last_write_time(folder / "flow.csv", fs::file_time_type::clock::now() - std::chrono::hours(1));
-    std::ofstream(output / "summary.json") << R"({"steps": 2})";
+    write_record(output / "summary.json", summary_of_two_steps());
   }
   std::string why_not(const std::string& text, int steps = 2) const {
     return why_not_run(output, CaseFile(folder.file("case.yaml", text)), steps).value_or("it can");
@@ -70,7 +78,7 @@ TEST_F(FinishedRunTest, OfACaseThatBuildsOnAnother) {
   command.output = output;
   command.overwrite = true;
   claim_output(command, CaseFile(folder.file("case.yaml", over)));
-  std::ofstream(output / "summary.json") << R"({"steps": 2})";
+  write_record(output / "summary.json", summary_of_two_steps());
   EXPECT_EQ(why_not(over), "it can");
   EXPECT_EQ(why_not(over + "twin: {truth: x}\n"), "it can");
   folder.file("base/case.yaml", with_solid + "coupling: {tolerance: 1}\n");

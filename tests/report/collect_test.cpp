@@ -10,6 +10,7 @@
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "tests/io/temporary_folder.hpp"
 
@@ -145,7 +146,9 @@ TEST_F(Collect, AnExplanation) {
   const std::string explain = json_of(made);
   write("explain.json", explain);
   write("model_0/comparison.json", comparison);
-  write("model_0/summary.json", R"({"steps": 8, "cpu_seconds": {"total": 2.5}, "effective_case": {"fluid": 1}})");
+  RunSummary summary;
+  summary.steps = 8;
+  write("model_0/summary.json", json_of(summary));
   write("model_1/comparison.json", comparison);
   write("diagnosis_0/diagnosis.json", diagnosis);
   write("identification_1/estimate.json", estimate);

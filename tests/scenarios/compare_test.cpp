@@ -11,6 +11,8 @@
 #include "common/base/child_process.hpp"
 #include "common/base/csv.hpp"
 #include "common/io/lumen_motion.hpp"
+#include "common/io/record_file.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
@@ -220,9 +222,9 @@ TEST_F(Compare, HoldsASectionAgainstItsTraces) {
 }
 
 TEST_F(Compare, SaysThatAPulledRunIsNoEvidence) {
-  Json summary = Json::parse(content_of(output / "summary.json"));
-  summary["effective_case"]["observer"] = {{"gain", 0.0}, {"regions", {{"spine", {{"gain", 3.0}}}}}};
-  std::ofstream(output / "summary.json") << summary;
+  auto summary = read_record<RunSummary>(output / "summary.json");
+  summary.observer = ObserverWork{.gain = 3};
+  write_record(output / "summary.json", summary);
   const ChildEnd end = compare();
   ASSERT_EQ(end.exit_code, 0) << end.errors;
   EXPECT_TRUE(end.output.starts_with("NO EVIDENCE: this run was pulled toward the data (observer.gain 3 1/s)"))

@@ -5,11 +5,28 @@
 #include <fstream>
 
 #include "common/base/child_process.hpp"
+#include "common/io/record_file.hpp"
+#include "fsi_master/results/run_summary.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
+
+RunSummary summary_of_two_steps() {
+  RunSummary s;
+  s.steps = 2;
+  s.wall_seconds = 1.25, s.seconds_per_step = 0.625;
+  s.cpu_seconds["total"] = 2.5, s.peak_memory_mb["total"] = 99.6;
+  s.pressure.emplace();
+  s.pressure->min_mmhg = 0.75, s.pressure->max_mmhg = 1.5;
+  s.max_displacement_mm = 2;
+  s.coupling_method = "iqn_ils";
+  s.coupling_iterations = {2.5, 3};
+  s.mass_balance_error_max = 1e-13;
+  s.units.flow = "cm3/s";
+  return s;
+}
 
 constexpr const char* finished_run = R"sh(
 case "$*" in
@@ -23,12 +40,7 @@ time [s],fluid.outlet.flow [cm3/s],fluid.outlet.pressure [g/(cm s2)],point.middl
 0.1,1,1000,0.1,2
 0.2,2,2000,0.2,3
 end
-cat >results/summary.json <<end
-{"steps": 2, "wall_seconds": 1.25, "seconds_per_step": 0.625, "cpu_seconds": {"total": 2.5},
- "peak_memory_mb": {"total": 99.6}, "pressure": {"min_mmHg": 0.75, "max_mmHg": 1.5}, "max_displacement_mm": 2.0,
- "coupling_method": "iqn_ils", "coupling_iterations": {"mean": 2.5, "max": 3}, "mass_balance_error_max": 1e-13,
- "units": {"flow": "cm3/s"}}
-end
+cp summary_of_two_steps.json results/summary.json
 )sh";
 
 /// A folder with the front-end, a case, and the programs that a test makes up.
@@ -41,6 +53,7 @@ class FrontEnd : public ::testing::Test {
     fs::create_directories(folder_);
     fs::copy_file(TETHER_PROGRAM, folder_ / "tether");
     std::ofstream(folder_ / "case.yaml") << "name: tube\ntitle: A tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
+    write_record(folder_ / "summary_of_two_steps.json", summary_of_two_steps());
     for (const char* name : {"fluid", "solid", "fsi_master", "observation_manager", "identification_master"})
       program(name, finished_run);
   }

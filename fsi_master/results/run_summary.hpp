@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/io/record.hpp"
+
+namespace tether {
+
+/// The symbols of a case's units.
+struct UnitsUsed {
+  static constexpr const char* type_name = "units_used";
+  std::string system, length, pressure, flow;
+
+  static void fields(auto& self, auto&& field) {
+    field("system", self.system, "cgs, si or mm_s");
+    field("length", self.length, "its symbol");
+    field("pressure", self.pressure, "its symbol");
+    field("flow", self.flow, "its symbol");
+  }
+};
+
+struct TimeSpan {
+  static constexpr const char* type_name = "time_span";
+  double start = 0, end = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("start", self.start, "[s]");
+    field("end", self.end, "[s]");
+  }
+};
+
+struct MeanAndMax {
+  static constexpr const char* type_name = "mean_and_max";
+  double mean = 0, max = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("mean", self.mean, "over the steps");
+    field("max", self.max, "of any step");
+  }
+};
+
+struct PressureRange {
+  static constexpr const char* type_name = "pressure_range";
+  double min = 0, max = 0;
+  std::string unit;
+  double min_mmhg = 0, max_mmhg = 0, relative_to_mmhg = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("min", self.min, "[unit]");
+    field("max", self.max, "[unit]");
+    field("unit", self.unit, "symbol");
+    field("min_mmHg", self.min_mmhg, "[mmHg]");
+    field("max_mmHg", self.max_mmhg, "[mmHg]");
+    field("relative_to_mmHg", self.relative_to_mmhg, "the pressure in the image, at which these are zero [mmHg]");
+  }
+};
+
+struct FollowedPoint {
+  static constexpr const char* type_name = "followed_point";
+  int interface_node = 0;
+  double distance_to_node = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("interface_node", self.interface_node, "that stands for the point");
+    field("distance_to_node", self.distance_to_node, "[length]");
+  }
+};
+
+/// What a state observer did: the run follows the data, and is no evidence for the model.
+struct ObserverWork {
+  static constexpr const char* type_name = "observer_work";
+  double gain = 0;
+  std::int64_t corrections = 0, weakened = 0;
+  double largest_correction = 0, largest_correction_mm = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("gain", self.gain, "the largest of any region [1/s]");
+    field("corrections", self.corrections, "steps that were corrected");
+    field("weakened", self.weakened, "corrections halved until the blood's mesh could follow");
+    field("largest_correction", self.largest_correction, "of a step, of a node of the lumen [length]");
+    field("largest_correction_mm", self.largest_correction_mm, "the same [mm]");
+  }
+};
+
+/// summary.json: what was run, how it went and what it cost.
+struct RunSummary {
+  static constexpr const char* type_name = "run_summary";
+  std::string case_name, title, case_file;
+  UnitsUsed units;
+  std::int64_t steps = 0;
+  std::optional<std::int64_t> resumed_at_step;
+  double dt = 0;
+  TimeSpan time;
+  double wall_seconds = 0, seconds_per_step = 0, cpu_seconds_per_step = 0;
+  std::map<std::string, double> cpu_seconds, loop_cpu_seconds, peak_memory_mb;
+  std::map<std::string, std::int64_t> unknowns;
+  std::string coupling_method;
+  MeanAndMax coupling_iterations, krylov_iterations;
+  std::int64_t repeated_steps = 0;
+  double mass_balance_error_max = 0;
+  std::optional<PressureRange> pressure;
+  double max_displacement = 0, max_displacement_mm = 0;
+  std::map<std::string, FollowedPoint> points;
+  std::optional<ObserverWork> observer;
+  std::vector<std::string> notices;
+  std::map<std::string, std::string> versions;
+  JsonTree effective_case;
+
+  static void fields(auto& self, auto&& field) {
+    field("case", self.case_name, "its name");
+    field("title", self.title, "of the case");
+    field("case_file", self.case_file, "path");
+    field("units", self.units, "of all figures that say no other");
+    field("steps", self.steps, "of the whole run");
+    field("resumed_at_step", self.resumed_at_step, "null: it was not");
+    field("dt", self.dt, "step [s]");
+    field("time", self.time, "simulated");
+    field("wall_seconds", self.wall_seconds, "of the steps");
+    field("seconds_per_step", self.seconds_per_step, "wall clock");
+    field("cpu_seconds_per_step", self.cpu_seconds_per_step, "of all processes");
+    field("cpu_seconds", self.cpu_seconds, "of each process, and their total");
+    field("loop_cpu_seconds", self.loop_cpu_seconds, "between the first and the last step");
+    field("peak_memory_mb", self.peak_memory_mb, "[MB]");
+    field("unknowns", self.unknowns, "of each code");
+    field("coupling_method", self.coupling_method, "in words");
+    field("coupling_iterations", self.coupling_iterations, "evaluations of both codes a step");
+    field("krylov_iterations", self.krylov_iterations, "a step");
+    field("repeated_steps", self.repeated_steps, "done in halves");
+    field("mass_balance_error_max", self.mass_balance_error_max, "[flow]");
+    field("pressure", self.pressure, "of the blood's observables; null: it has none");
+    field("max_displacement", self.max_displacement, "of the lumen [length]");
+    field("max_displacement_mm", self.max_displacement_mm, "the same [mm]");
+    field("points", self.points, "followed ones, by name");
+    field("observer", self.observer, "null: none");
+    field("notices", self.notices, "of the programs");
+    field("versions", self.versions, "of the programs");
+    field("effective_case", self.effective_case, "the case with all defaults");
+  }
+};
+
+}  // namespace tether
