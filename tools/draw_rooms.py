@@ -12,7 +12,7 @@ from rooms import read_rooms
 WIDE, TALL, GAP, ROW, SHIFT = 232, 30, 16, 84, 60
 STYLE = """text{font:12px sans-serif;fill:#1a2027;text-anchor:middle}rect{fill:#fff;stroke:#6b7785}
 .program rect{fill:#e3f0ef;stroke:#0b6b70}path{fill:none;stroke:#9aa5b1}.ground{fill:#f3f4f6;stroke:none}"""
-PROGRAMS = {"fluid", "solid", "fsi_master", "identification_master", "observation_manager", "tether", "pictures", "common/protocol/conform"}
+PROGRAMS = {"fluid", "solid", "fsi_master", "identification_master", "observation_manager", "tether", "pictures", "tether/conform"}
 
 
 def needed(rooms):

@@ -1,4 +1,4 @@
-#include "common/protocol/conform/excitation.hpp"
+#include "tether/conform/excitation.hpp"
 
 #include <algorithm>
 #include <array>

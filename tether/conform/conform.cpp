@@ -1,6 +1,6 @@
-#include "common/protocol/conform/conform.hpp"
+#include "tether/conform/conform.hpp"
 
-#include "common/protocol/conform/examiner.hpp"
+#include "tether/conform/examiner.hpp"
 
 namespace tether::protocol {
 

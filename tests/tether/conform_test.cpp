@@ -1,4 +1,4 @@
-#include "common/protocol/conform/conform.hpp"
+#include "tether/conform/conform.hpp"
 
 #include <gtest/gtest.h>
 

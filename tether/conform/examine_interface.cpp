@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "common/protocol/conform/examiner.hpp"
+#include "tether/conform/examiner.hpp"
 
 namespace tether::protocol {
 

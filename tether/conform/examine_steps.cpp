@@ -1,5 +1,5 @@
 /// What the partner computes in a step, and its derivatives.
-#include "common/protocol/conform/examiner.hpp"
+#include "tether/conform/examiner.hpp"
 
 namespace tether::protocol {
 

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "common/protocol/conform/conform.hpp"
+#include "tether/conform/conform.hpp"
 #include "common/protocol/run.hpp"
 
 using namespace tether;

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <thread>
 
-#include "common/protocol/conform/examiner.hpp"
+#include "tether/conform/examiner.hpp"
 #include "common/protocol/watch.hpp"
 
 namespace tether::protocol {

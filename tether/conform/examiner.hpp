@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
-#include "common/protocol/conform/conform.hpp"
-#include "common/protocol/conform/excitation.hpp"
+#include "tether/conform/conform.hpp"
+#include "tether/conform/excitation.hpp"
 
 namespace tether::protocol {
 
