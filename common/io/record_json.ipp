@@ -81,7 +81,7 @@ struct Read {
     else if constexpr (std::is_same_v<T, bool>)
       json.is_boolean() ? json.get_to(value) : throw place.wrong(json, "true or false");
     else if constexpr (std::is_integral_v<T>)
-      json.is_number_integer() ? json.get_to(value) : throw place.wrong(json, "a whole number");
+      value = whole<T>(json, place);
     else
       value = number(json, place);
   }
@@ -149,6 +149,14 @@ struct Read {
     std::string all;
     for (const WordOf<E>& word : words_of<E>) all += (all.empty() ? "one of " : ", ") + std::string(word.word);
     throw place.wrong(json, all);
+  }
+  /// 2.0 is one, too, as in a schema.
+  template <class T>
+  static T whole(const Json& json, const Place& place) {
+    if (json.is_number_integer()) return json.get<T>();
+    if (!json.is_number_float() || std::trunc(json.get<double>()) != json.get<double>())
+      throw place.wrong(json, "a whole number");
+    return static_cast<T>(json.get<double>());
   }
   static double number(const Json& json, const Place& place) {
     if (json.is_null()) return std::numeric_limits<double>::quiet_NaN();

@@ -92,6 +92,19 @@ TEST(Results, ReadWhatTheyHold) {
   EXPECT_EQ(read.split_by->others[0].measurement, "flow");
 }
 
+/// As a schema has it: 2.0 is a whole number, 2.5 is none.
+TEST(Results, WholeNumbersMayHaveAPoint) {
+  Diagnosis given = diagnosis();
+  given.cost.runs = 17;
+  const std::string text = json_of(given), whole = "\"runs\": 17";
+  const auto with = [&](const std::string& other) {
+    return std::string(text).replace(text.find(whole), whole.size(), "\"runs\": " + other);
+  };
+  EXPECT_EQ(record_of<Diagnosis>(with("17.0"), "d.json").cost.runs, 17);
+  EXPECT_EQ(message_of([&] { record_of<Diagnosis>(with("17.5"), "d.json"); }),
+            "d.json: cost.runs: 17.5: must be a whole number");
+}
+
 TEST(Results, TellFileAndFieldOfWhatIsWrong) {
   const auto message = [](const std::string& text) {
     return message_of([&] { record_of<Diagnosis>(text, "d.json"); });

@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tether/conform/conform.hpp"
 #include "common/protocol/run.hpp"
+#include "tether/conform/conform.hpp"
 
 using namespace tether;
 using namespace tether::protocol;

@@ -2,8 +2,8 @@
 #include <chrono>
 #include <thread>
 
-#include "tether/conform/examiner.hpp"
 #include "common/protocol/watch.hpp"
+#include "tether/conform/examiner.hpp"
 
 namespace tether::protocol {
 
