@@ -29,13 +29,30 @@ ChildEnd tether(const std::vector<std::string>& words) {
   return capture({line, {}});
 }
 
+/// Notes every field that the page's scripts ask of the report and that no result has: writers write all fields of
+/// their schemas, what does not exist as null. Objects by a unit's symbol have none for other units.
+constexpr const char* note_unknown_fields = R"js(<script>
+const unknownFields = new Set(), watchedObjects = new WeakMap(), parse = JSON.parse;
+function watched(value, path) {
+  if (value === null || typeof value !== "object") return value;
+  if (!watchedObjects.has(value)) watchedObjects.set(value, new Proxy(value, { get(target, key) {
+    if (typeof key === "string" && !Array.isArray(target) && !(key in target) && key !== "toJSON" && !path.endsWith(".clinical")) unknownFields.add(`${path}.${key}`);
+    return watched(target[key], Array.isArray(target) ? path : `${path}.${String(key)}`);
+  } }));
+  return watchedObjects.get(value);
+}
+JSON.parse = (text, ...more) => watched(parse(text, ...more), "report");
+</script>)js";
+
 /// What a script finds out about a page that it is added to: it leaves a value in `found`.
 Json found_in(const fs::path& page, const std::string& script) {
   std::string text = content_of(page);
+  text.insert(text.find("<head>") + 6, note_unknown_fields);
   const std::string end = "</body>";
   text.insert(text.rfind(end),
               "<script>addEventListener('load', () => afterDrawing(() => { let found = {}; " + script +
-                  " const out = document.createElement('pre'); out.id = 'found'; out.textContent = "
+                  " found.unknown = [...unknownFields]; const out = document.createElement('pre'); out.id = 'found'; "
+                  "out.textContent = "
                   "JSON.stringify(found).replace(/[<>&]/g, (c) => '\\\\u00' + "
                   "c.charCodeAt(0).toString(16)); document.body.append(out); }));"
                   "function afterDrawing(act, tries = 40) { requestAnimationFrame(() => "
@@ -57,7 +74,9 @@ Json found_in(const fs::path& page, const std::string& script) {
     return {};
   }
   const auto first = at + open.size();
-  return Json::parse(browser.output.substr(first, browser.output.find("</pre>", first) - first));
+  Json found = Json::parse(browser.output.substr(first, browser.output.find("</pre>", first) - first));
+  EXPECT_EQ(found["unknown"], Json::array()) << "fields that no result has";
+  return found;
 }
 
 constexpr const char* model = R"(base: {}/configs/tube/case.yaml

@@ -85,10 +85,11 @@ function dataNotes(report) {
   );
 }
 
+/** Of an explanation, a diagnosis or an estimate; the second does not tell how long it took. */
 function costTexts(cost) {
   return [
     isNumber(cost.cpu_seconds) ? `${duration(cost.cpu_seconds)} of CPU` : null,
-    isNumber(cost.wall_seconds) ? `${duration(cost.wall_seconds)} of waiting` : null,
+    "wall_seconds" in cost && isNumber(cost.wall_seconds) ? `${duration(cost.wall_seconds)} of waiting` : null,
   ];
 }
 
