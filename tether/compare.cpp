@@ -1,5 +1,3 @@
-#include <iostream>
-
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
@@ -79,23 +77,22 @@ std::string where_figures_are(const fs::path& output, const std::vector<std::str
 
 }  // namespace
 
-int compare(const CommandLine& command) {
+Made<ComparisonResult> compare(const CommandLine& command) {
   check_case(command);
   const MeasuredCase measured(command.case_file);
   const fs::path output = output_of(command, measured.file);
-  if (const int code = provide_run(command, measured.file, output, measured.data.points()); code != exit_done)
-    return code;
+  provide_run(command, measured.file, output, measured.data.points());
   const FinishedRun run(output);
   const RunMotion motion = motion_of(run, measured.surface);
   const Comparison comparison = comparison_of(measured, run, motion, output);
-  write_record(output / "comparison.json", result_of(comparison));
+  ComparisonResult result = result_of(comparison);
+  write_record(output / "comparison.json", result);
   write_record(output / "wall.json",
                compared_wall(comparison.sources, measured.data, measured.surface, motion, measured.file.units()));
   write_csv(output / "comparison.csv", comparison);
   write_blood_csv(output / "comparison_blood.csv", comparison);
   const auto pictures = draw({comparison, measured.data, measured.surface, motion, output});
-  if (!command.quiet) std::cout << text_of(comparison) << where_figures_are(output, pictures);
-  return exit_done;
+  return {std::move(result), text_of(comparison) + where_figures_are(output, pictures)};
 }
 
 }  // namespace tether

@@ -1,7 +1,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -217,16 +216,16 @@ std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis
 
 }  // namespace
 
-int diagnose(const CommandLine& command) {
+Made<Diagnosis> diagnose(const CommandLine& command) {
   say_when_interrupted();
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  const Diagnosis diagnosis = diagnosis_of(Job(given, command, output).run());
+  Diagnosis diagnosis = diagnosis_of(Job(given, command, output).run());
   write_record(output / "diagnosis.json", diagnosis);
   const auto pictures = draw_ranking(diagnosis, output);
-  if (!command.quiet) std::cout << text_of(diagnosis) << where_evidence_is(output, diagnosis, pictures);
-  return exit_done;
+  std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);
+  return {std::move(diagnosis), std::move(told)};
 }
 
 }  // namespace tether

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -19,11 +17,16 @@ namespace fs = std::filesystem;
 class Verbs : public ExplanationWork {
  public:
   explicit Verbs(const CommandLine& command) : command_(command) {}
-  int compare(const ExplanationTask& task) override { return tether::compare(command_for(task)); }
-  int diagnose(const ExplanationTask& task) override { return tether::diagnose(command_for(task)); }
-  int identify(const ExplanationTask& task) override { return tether::identify(command_for(task)); }
+  void compare(const ExplanationTask& task) override { make<ComparisonResult>(tether::compare, task); }
+  void diagnose(const ExplanationTask& task) override { make<Diagnosis>(tether::diagnose, task); }
+  void identify(const ExplanationTask& task) override { make<Estimate>(tether::identify, task); }
 
  private:
+  template <class Result>
+  void make(VerbWith<Result> verb, const ExplanationTask& task) const {
+    const CommandLine command = command_for(task);
+    print(verb(command), command);
+  }
   CommandLine command_for(const ExplanationTask& task) const {
     CommandLine command = command_;
     command.case_file = task.case_file;
@@ -60,7 +63,7 @@ std::string text_of(const Explanation& explanation, double millimetres, const fs
 
 }  // namespace
 
-int explain(const CommandLine& command) {
+Made<Explanation> explain(const CommandLine& command) {
   say_when_interrupted();
   check_case(command);
   const DiagnosedCase given(command.case_file);
@@ -69,13 +72,12 @@ int explain(const CommandLine& command) {
   const fs::path output = fs::absolute(claim_output(own, given.file));
   Verbs verbs(own);
   const ExplanationPath path = explain(given, output, verbs, own.quiet);
-  const Explanation explanation = explanation_of(path);
+  Explanation explanation = explanation_of(path);
   write_record(output / "explain.json", explanation);
   const fs::path page = write_report(output);
-  if (!command.quiet)
-    std::cout << text_of(explanation, path.millimetres, own.output)
-              << "  report.html        all of it, to look at and to mail: " << page.string() << "\n";
-  return exit_done;
+  std::string told = text_of(explanation, path.millimetres, own.output) +
+                     "  report.html        all of it, to look at and to mail: " + page.string() + "\n";
+  return {std::move(explanation), std::move(told)};
 }
 
 }  // namespace tether

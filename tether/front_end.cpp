@@ -12,8 +12,17 @@
 namespace tether {
 namespace {
 
+namespace fs = std::filesystem;
+
 int describe(const CommandLine&) {
   std::cout << case_reference("text");
+  return exit_done;
+}
+
+/// A verb, and what it tells.
+template <class Result, VerbWith<Result> verb>
+int told(const CommandLine& command) {
+  print(verb(command), command);
   return exit_done;
 }
 
@@ -24,14 +33,17 @@ struct Verb {
 };
 
 constexpr std::array verbs{
-    Verb{"simulate", "run a case: progress, results, plots and a summary", simulate},
-    Verb{"compare", "compare a run with the measurements; simulates first if need be", compare},
-    Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path", explain, true, true},
-    Verb{"diagnose", "find which effect the model lacks, from the measurements", diagnose, true, true},
-    Verb{"twin", "make data with a hidden effect from another run, and a case to try on them", make_twin},
-    Verb{"score", "hold a diagnosis of such data against the sealed answer", score},
-    Verb{"identify", "find parameters of the model from the measurements", identify, true, true},
-    Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR", report},
+    Verb{"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>},
+    Verb{"compare", "compare a run with the measurements; simulates first if need be", told<ComparisonResult, compare>},
+    Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
+         told<Explanation, explain>, true, true},
+    Verb{"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, true, true},
+    Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
+         told<fs::path, make_twin>},
+    Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
+    Verb{"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true},
+    Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR",
+         told<fs::path, report>},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
     Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false},

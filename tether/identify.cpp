@@ -1,5 +1,3 @@
-#include <iostream>
-
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -101,17 +99,16 @@ std::string text_of(const Estimate& estimate, const fs::path& output, const std:
 
 }  // namespace
 
-int identify(const CommandLine& command) {
+Made<Estimate> identify(const CommandLine& command) {
   check_case(command);
   check_identification(command);
   const CaseFile file(command.case_file);
   const fs::path output = claim_output(command, file);
-  if (const int code = run_in_foreground(parallel_run("identification_master", command)); code != exit_done)
-    return report_failure(code, "identification_master", "identify", command);
-  const auto estimate = read_record<Estimate>(output / "estimate.json");
+  run_to_end("identification_master", "identify", command);
+  auto estimate = read_record<Estimate>(output / "estimate.json");
   const auto pictures = draw(output, estimate);
-  if (!command.quiet) std::cout << text_of(estimate, output, pictures);
-  return exit_done;
+  std::string told = text_of(estimate, output, pictures);
+  return {std::move(estimate), std::move(told)};
 }
 
 }  // namespace tether

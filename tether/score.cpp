@@ -1,7 +1,5 @@
 #include "twin/score.hpp"
 
-#include <iostream>
-
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -28,15 +26,15 @@ fs::path last_results(const fs::path& results) {
 
 }  // namespace
 
-int score(const CommandLine& command) {
+Made<Score> score(const CommandLine& command) {
   const fs::path given = command.case_file, case_file = fs::is_directory(given) ? given / "case.yaml" : given;
   const Answer answer = unsealed(sealed_answer(fs::absolute(case_file).parent_path()));
   const fs::path folder = output_of(command, CaseFile(case_file)),
                  results = command.output.empty() ? last_results(folder) : folder;
-  const Score result = score_of(read_claim(diagnosis_in(results)), answer);
+  Score result = score_of(read_claim(diagnosis_in(results)), answer);
   write_record(results / "score.json", result);
-  if (!command.quiet) std::cout << text_of(result);
-  return exit_done;
+  std::string told = text_of(result);
+  return {std::move(result), std::move(told)};
 }
 
 }  // namespace tether

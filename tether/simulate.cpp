@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/comparison/finished_run.hpp"
 #include "diagnosis/evidence/candidates.hpp"
@@ -50,29 +51,29 @@ int validate(const CommandLine& command) {
   return exit_done;
 }
 
-int simulate(const CommandLine& command) {
+Made<RunSummary> simulate(const CommandLine& command) {
   check_case(command);
   const CaseFile file(command.case_file);
   const auto output = claim_output(command, file);
   if (!command.quiet) announce(file, command.steps.value_or(file.common().time.steps()), output);
   CommandLine one = command;
   one.processes = 0;  // how many runs at once is no matter of one
-  if (const int code = run_in_foreground(parallel_run("fsi_master", one)); code != exit_done)
-    return report_failure(code, "fsi_master", "simulate", command);
+  run_to_end("fsi_master", "simulate", one);
   auto plots = draw_plots(output, file.units(), file.common().image.pressure);
   const auto pictures = draw_pictures(output, file.units());
   plots.insert(plots.begin(), pictures.begin(), pictures.end());
-  if (!command.quiet) std::cout << summary_text(output) << where_to_look(output, plots);
-  return exit_done;
+  auto summary = read_record<RunSummary>(output / "summary.json");
+  std::string told = text_of(summary) + where_to_look(output, plots);
+  return {std::move(summary), std::move(told)};
 }
 
-int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
-                const Points& measured_at) {
+void provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
+                 const Points& measured_at) {
   auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
   if (!why) why = why_no_velocity(output, measured_at);
-  if (!why) return exit_done;
+  if (!why) return;
   if (!command.quiet) std::cout << *why << ": simulating first\n" << std::flush;
-  return simulate(command);
+  print(simulate(command), command);
 }
 
 }  // namespace tether

@@ -2,8 +2,7 @@
 
 #include <fmt/ranges.h>
 
-#include "common/io/record_file.hpp"
-#include "fsi_master/results/run_summary.hpp"
+#include <filesystem>
 
 namespace tether {
 namespace {
@@ -37,8 +36,7 @@ std::string coupling(const RunSummary& s) {
 
 }  // namespace
 
-std::string summary_text(const std::filesystem::path& output) {
-  const auto s = read_record<RunSummary>(output / "summary.json");
+std::string text_of(const RunSummary& s) {
   return cost(s) + pressure(s.pressure) + fmt::format("  displacement   at most {:.3g} mm\n", s.max_displacement_mm) +
          coupling(s) + observer(s.observer) +
          fmt::format("  mass balance   off by at most {:.1e} {}\n", s.mass_balance_error_max, s.units.flow);

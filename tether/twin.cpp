@@ -1,5 +1,4 @@
 #include <fstream>
-#include <iostream>
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
@@ -154,14 +153,14 @@ std::string where_frames_are(const fs::path& folder, const TwinFrames& made, con
 
 }  // namespace
 
-int make_twin(const CommandLine& command) {
+Made<std::filesystem::path> make_twin(const CommandLine& command) {
   check_case(command);
   const CaseWithTwin given(command.case_file);
   const fs::path folder = claim_folder(command, given.file);
   CommandLine run = command;
   run.case_file = given.twin.truth;
   run.output = folder / "sealed" / "run";
-  if (const int code = provide_run(run, CaseFile(run.case_file), run.output); code != exit_done) return code;
+  provide_run(run, CaseFile(run.case_file), run.output);
   const Truth truth(run.case_file, run.output);
   check(given, truth);
   const TwinFrames made = write_data(folder, given, truth);
@@ -169,8 +168,7 @@ int make_twin(const CommandLine& command) {
   Answer answer = answer_of(given.twin);
   answer.image_error = made.image_error;
   seal(sealed_answer(folder), answer);
-  if (!command.quiet) std::cout << where_frames_are(folder, made, given.file.units());
-  return exit_done;
+  return {folder / "case.yaml", where_frames_are(folder, made, given.file.units())};
 }
 
 void check_twin(const CommandLine& command) {

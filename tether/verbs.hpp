@@ -1,48 +1,73 @@
 #pragma once
 
+#include <iostream>
+#include <string>
+
 #include "common/config/case_file.hpp"
 #include "common/config/command_line.hpp"
+#include "diagnosis/results/comparison.hpp"
+#include "diagnosis/results/explanation.hpp"
+#include "fsi_master/results/run_summary.hpp"
+#include "identification_master/results/estimate.hpp"
+#include "twin/score.hpp"
 
 namespace tether {
 
-/// Checks the case, runs it, draws plots and says where to look. Returns the run's exit code.
-int simulate(const CommandLine& command);
+/// What a verb made: its result, which is also in the folder, and what a person is told of it.
+template <class Result>
+struct Made {
+  Result result;
+  std::string told;
+};
 
-/// Simulates the command's case, which is `file`, unless the output folder holds that run, with the blood's velocity at
-/// `measured_at`. Returns the exit code.
-int provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
-                const Points& measured_at = Points(3, 0));
+template <class Result>
+using VerbWith = Made<Result> (*)(const CommandLine&);
+
+/// Unless the command is to be quiet.
+template <class Result>
+void print(const Made<Result>& made, const CommandLine& command) {
+  if (!command.quiet) std::cout << made.told << std::flush;
+}
+
+// Each verb is a function. All throw InputError, RunError, or ToldFailure of a program that they started.
+
+/// Checks the case, runs it, draws plots and says where to look.
+Made<RunSummary> simulate(const CommandLine& command);
+
+/// Simulates the command's case, which is `file`, and prints what came of it, unless the output folder holds that run,
+/// with the blood's velocity at `measured_at`.
+void provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
+                 const Points& measured_at = Points(3, 0));
 
 /// Sets a finished run of the case against its measurements: comparison.json and .csv, drawings, a summary. Simulates
-/// first if there is no such run. Returns the run's exit code.
-int compare(const CommandLine& command);
+/// first if there is no such run.
+Made<ComparisonResult> compare(const CommandLine& command);
 
-/// Makes data from a run that has what the case lacks, and a case that is to be compared with them (docs/twin.md).
-/// Simulates that run first if need be. Returns its exit code.
-int make_twin(const CommandLine& command);
+/// Makes data from a run that has what the case lacks, and a case that is to be compared with them (docs/twin.md),
+/// which is the result. Simulates that run first if need be.
+Made<std::filesystem::path> make_twin(const CommandLine& command);
 /// Throws InputError if the case has a section `twin` that is wrong.
 void check_twin(const CommandLine& command);
 /// The section `twin` for the reference of the case file.
 std::string describe_twin(const std::string& format);
 
 /// Holds the diagnosis of a twin's case, or of that in a twin's folder, against the sealed answer: score.json.
-int score(const CommandLine& command);
+Made<Score> score(const CommandLine& command);
 
 /// Tests every effect of the catalogue against what the measurements say of the case, and confirms the strongest with
-/// runs: diagnosis.json, a suggested case, a plot, a verdict (docs/diagnosis.md). Returns the runs' exit code.
-int diagnose(const CommandLine& command);
+/// runs: diagnosis.json, a suggested case, a plot, a verdict (docs/diagnosis.md).
+Made<Diagnosis> diagnose(const CommandLine& command);
 
 /// Finds the parameters that the case names from its measurements: estimate.json and .csv, a plot, the identified case.
-/// Returns the run's exit code.
-int identify(const CommandLine& command);
+Made<Estimate> identify(const CommandLine& command);
 
 /// Writes report.html, a page to look at and to mail, into the folder of results that the command names
-/// (docs/report.md).
-int report(const CommandLine& command);
+/// (docs/report.md); its path is the result.
+Made<std::filesystem::path> report(const CommandLine& command);
+
 /// Walks the whole path by itself: compares, finds what the model lacks, adds it, identifies it, compares on held-out
-/// data, and again until there is a verdict: explain.json (docs/explain.md). What was done before is kept. Returns the
-/// exit code.
-int explain(const CommandLine& command);
+/// data, and again until there is a verdict: explain.json (docs/explain.md). What was done before is kept.
+Made<Explanation> explain(const CommandLine& command);
 
 /// Checks the case with every program that reads it. Throws InputError with all that they find.
 void check_case(const CommandLine& command);

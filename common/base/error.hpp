@@ -18,6 +18,12 @@ struct RunError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A program that this one started failed, and told the user why: all that is left is its exit code.
+struct ToldFailure : std::runtime_error {
+  explicit ToldFailure(int code) : std::runtime_error("failed (see above)"), exit_code(code) {}
+  int exit_code;
+};
+
 /// A state that the program's own logic excludes. Thrown by TETHER_ASSERT.
 struct InternalError : std::logic_error {
   using std::logic_error::logic_error;

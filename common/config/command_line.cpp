@@ -98,6 +98,8 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   } catch (const InputError& error) {
     std::cerr << error.what() << std::endl;
     return exit_input_wrong;
+  } catch (const ToldFailure& failure) {
+    return failure.exit_code;
   } catch (const std::exception& error) {
     std::cerr << program << ": " << error.what() << std::endl;
     return exit_run_failed;

@@ -96,4 +96,9 @@ int report_failure(int code, const std::string& master, const char* verb, const 
   return code == exit_input_wrong ? code : exit_run_failed;
 }
 
+void run_to_end(const std::string& master, const char* verb, const CommandLine& command) {
+  if (const int code = run_in_foreground(parallel_run(master, command)); code != exit_done)
+    throw ToldFailure(report_failure(code, master, verb, command));
+}
+
 }  // namespace tether

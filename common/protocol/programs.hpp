@@ -21,4 +21,7 @@ Command parallel_run(const std::string& master, const CommandLine& command);
 /// code.
 int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command);
 
+/// Runs a master to its end. Throws ToldFailure as `report_failure` says.
+void run_to_end(const std::string& master, const char* verb, const CommandLine& command);
+
 }  // namespace tether

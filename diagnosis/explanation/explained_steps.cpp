@@ -61,7 +61,7 @@ ExplainedSteps::ExplainedSteps(fs::path output, fs::file_time_type data, bool qu
 }
 
 void ExplainedSteps::make(const std::string& title, const fs::path& case_file, const std::string& folder,
-                          const std::string& result, const std::function<int(bool)>& act) {
+                          const std::string& result, const std::function<void(bool)>& act) {
   const std::string key = key_of(case_file);
   const fs::path made = output_ / folder / result;
   const auto kept = std::find_if(before_.begin(), before_.end(), [&](const ExplainedStep& step) {
@@ -78,7 +78,11 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
   const std::string mark = title + " " + key;
   const bool was_begun = first_line(output_ / begun_step) == mark;
   std::ofstream(output_ / begun_step) << mark << std::endl;
-  if (act(was_begun) != exit_done) throw run_error("{}: failed (see above); the same command goes on from here", title);
+  try {
+    act(was_begun);
+  } catch (const ToldFailure& failure) {
+    throw run_error("{}: {}; the same command goes on from here", title, failure.what());
+  }
   done_.push_back({title, folder, seconds_since(start), cpu_seconds_of_all() - cpu, key});
   save();
 }

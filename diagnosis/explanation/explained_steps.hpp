@@ -18,7 +18,7 @@ class ExplainedSteps {
   /// Runs a verb on a case, which leaves `result` in OUTPUT/folder. `act` is told whether this very step was begun
   /// before and did not end. Throws RunError if it fails.
   void make(const std::string& title, const std::filesystem::path& case_file, const std::string& folder,
-            const std::string& result, const std::function<int(bool was_begun)>& act);
+            const std::string& result, const std::function<void(bool was_begun)>& act);
 
   const std::vector<ExplainedStep>& all() const { return done_; }
 

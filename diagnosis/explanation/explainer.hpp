@@ -11,13 +11,13 @@ struct ExplanationTask {
   bool resume = false;  ///< from the checkpoint that is there
 };
 
-/// What an explanation has others do. Each leaves its results in the task's folder and returns an exit code.
+/// What an explanation has others do. Each leaves its results in the task's folder; throws ToldFailure, RunError.
 class ExplanationWork {
  public:
   virtual ~ExplanationWork() = default;
-  virtual int compare(const ExplanationTask& task) = 0;   ///< comparison.json, after a run
-  virtual int diagnose(const ExplanationTask& task) = 0;  ///< diagnosis.json, suggested.yaml
-  virtual int identify(const ExplanationTask& task) = 0;  ///< estimate.json, identified.yaml
+  virtual void compare(const ExplanationTask& task) = 0;   ///< comparison.json, after a run
+  virtual void diagnose(const ExplanationTask& task) = 0;  ///< diagnosis.json, suggested.yaml
+  virtual void identify(const ExplanationTask& task) = 0;  ///< estimate.json, identified.yaml
 };
 
 /// Walks the whole path: compares, finds what the model lacks, adds it, identifies it, compares on held-out data, and

@@ -181,7 +181,7 @@ const Mistake mistakes[] = {
     {"NoSuchProgram", In::the_case, "solid:\n", "coupling: {programs: {solid: my_solver}}\nsolid:\n",
      "case.yaml:21: coupling.programs.solid: my_solver does not exist"},
     {"OuterWallWithoutRegion", In::the_case, ", rest: {}", "",
-     "mesh.regions: no region holds the outer wall at angle 20.1 degrees, position 0.06: end the list with a region "
+     "mesh.regions: no region holds the outer wall at angle 20.0 degrees, position 0.06: end the list with a region "
      "without limits"},
     {"VesselOf20Metres", In::the_case, "radius: 2\n    length: 6\n    wall_thickness: 0.2",
      "radius: 2000\n    length: 6000\n    wall_thickness: 200",
