@@ -58,7 +58,7 @@ template <class Settings>
 void check_faces_exist(const std::map<std::string, Settings>& named, const std::vector<EndFace>& faces,
                        const char* kind) {
   for (const auto& [name, unused] : named)
-    if (std::none_of(faces.begin(), faces.end(), [&](const EndFace& face) { return face.name == name; }))
+    if (std::none_of(faces.begin(), faces.end(), [&name = name](const EndFace& face) { return face.name == name; }))
       throw input_error("the fluid mesh has no {} \"{}\"", kind, name);
 }
 

@@ -190,8 +190,8 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
   for (const auto& [name, block] : effects)
     if (is_of(motions(), block.effect.type)) {
       Configured<MotionLaw> motion(motions(), block.effect.type, block.effect.values);
-      tie(std::make_shared<MovingTissue>("solid.effects." + name, std::move(motion),
-                                         block.motion ? block.motion->load(file.units()) : TissueMotion{}),
+      TissueMotion measured = block.motion ? block.motion->load(file.units()) : TissueMotion{};
+      tie(std::make_shared<MovingTissue>(MovingTissue{"solid.effects." + name, std::move(motion), std::move(measured)}),
           patch_of(block.region, mesh).triangles, supports);
     }
 }

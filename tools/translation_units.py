@@ -1,14 +1,16 @@
-"""Lists the translation units of a compilation database that compile given sources: what has changed since a commit, or all.
+"""Lists the translation units of a compilation database that compile given sources.
 
-Usage: translation_units.py compile_commands.json [COMMIT | --all]. Without COMMIT: since the branch left main. A changed header counts
-with the source beside it of the same name."""
+Usage: translation_units.py compile_commands.json [SOURCE... | --all]. Without sources: those of the rooms (tools/rooms.txt); --all: those
+of tests and benchmarks too."""
 
 import json
 import pathlib
 import re
-import subprocess
 import sys
 
+from rooms import read_rooms, room_of
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 INCLUDED = re.compile(r'#include "(/[^"]+)"')
 
 
@@ -19,30 +21,25 @@ def sources_of(unit):
     return set(INCLUDED.findall(pathlib.Path(unit).read_text()))
 
 
-def git(*words):
-    return subprocess.run(["git", *words], capture_output=True, text=True, check=True).stdout.splitlines()
-
-
-def start_of_branch():
-    """Where it left main; the last commit in a clone without main."""
-    names = git("branch", "--all", "--list", "main", "origin/main", "--format=%(refname:short)")
-    return git("merge-base", "HEAD", names[0])[0] if names else "HEAD"
-
-
-def changed_since(commit):
-    """Absolute paths of sources, those of changed headers beside them too."""
-    names = git("diff", "--name-only", "--diff-filter=d", commit or start_of_branch()) + git("ls-files", "--others", "--exclude-standard")
-    return {str(pathlib.Path(name).resolve().with_suffix(".cpp")) for name in names if name.endswith((".cpp", ".hpp"))}
-
-
-def units(database, wanted):
-    """Sorted; wanted: sources, or None for all."""
+def units(database, is_wanted):
+    """Sorted; is_wanted: of a source's absolute path."""
     all_units = {entry["file"] for entry in database if entry["file"].endswith((".cpp", ".cxx"))}
-    return sorted(unit for unit in all_units if wanted is None or sources_of(unit) & wanted)
+    return sorted(unit for unit in all_units if any(map(is_wanted, sources_of(unit))))
 
 
-def main(database, choice=None):
-    wanted = None if choice == "--all" else changed_since(choice)
+def is_of_room(source, rooms, root=ROOT):
+    path = pathlib.Path(source)
+    return path.is_relative_to(root) and room_of(path.relative_to(root).as_posix(), rooms) is not None
+
+
+def main(database, *names):
+    if names == ("--all",):
+        wanted = lambda source: True  # noqa: E731
+    elif names:
+        wanted = {str(pathlib.Path(name).resolve()) for name in names}.__contains__
+    else:
+        rooms = read_rooms(ROOT)
+        wanted = lambda source: is_of_room(source, rooms)  # noqa: E731
     print("\n".join(units(json.loads(pathlib.Path(database).read_text()), wanted)))
 
 

@@ -52,7 +52,8 @@ std::optional<Registration> registration_of(const std::vector<Sample>& samples, 
     response += s.weight * s.distance * row;
   }
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(information);
-  const Vec6 values = eigen.eigenvalues(), along = eigen.eigenvectors().transpose() * response;
+  const Vec6& values = eigen.eigenvalues();
+  const Vec6 along = eigen.eigenvectors().transpose() * response;
   Vec6 motion = Vec6::Zero();
   double explained = 0;
   for (Eigen::Index k = 0; k < 6; ++k) {

@@ -18,7 +18,7 @@ VectorXd solve(const MatrixXd& information, const VectorXd& response, const std:
   const MatrixXd some = information(kept, kept);
   const VectorXd scale = some.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * some * scale.asDiagonal());
-  const VectorXd values = eigen.eigenvalues();
+  const VectorXd& values = eigen.eigenvalues();
   const VectorXd inverse = (values.array() > 1e-10 * values.maxCoeff()).select(values.cwiseInverse(), 0);
   const VectorXd right = eigen.eigenvectors().transpose() * (scale.asDiagonal() * VectorXd(response(kept)));
   all(kept) = scale.asDiagonal() * (eigen.eigenvectors() * (inverse.asDiagonal() * right));
