@@ -8,6 +8,7 @@
 #include "diagnosis/explanation/explainer.hpp"
 #include "diagnosis/explanation/interruption.hpp"
 #include "report/report.hpp"
+#include "tether/diagnosed.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -20,7 +21,9 @@ class Verbs : public ExplanationWork {
  public:
   explicit Verbs(const CommandLine& command) : command_(command) {}
   int compare(const ExplanationTask& task) override { return tether::compare(command_for(task)); }
-  int diagnose(const ExplanationTask& task) override { return tether::diagnose(command_for(task)); }
+  int diagnose(const ExplanationTask& task, const DiagnosisSettings& settings) override {
+    return diagnose_further(command_for(task), settings);
+  }
   int identify(const ExplanationTask& task) override { return tether::identify(command_for(task)); }
 
  private:

@@ -10,6 +10,7 @@
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
 #include "identification_master/results/estimate.hpp"
+#include "identification_master/results/made_run.hpp"
 #include "twin/score.hpp"
 
 namespace tether {
@@ -31,6 +32,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"steps.json", schema<StepsMade>},
       {"force.json", schema<ForceFound>},
       {"estimate.json", schema<Estimate>},
+      {"run.json", schema<MadeRun>},
       {"score.json", schema<Score>},
   };
   return all;
