@@ -18,7 +18,6 @@
 #include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
 #include "observation_manager/measurements/flow_observations.hpp"
-#include "observation_manager/measurements/registry.hpp"
 
 namespace tether {
 namespace {
@@ -169,22 +168,13 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   for (Partner& partner : partners) partner.stop("the run is done");
 }
 
-/// Whether a group's runs are set against measurements while they are made; those of a diagnosis are afterwards.
-bool observes(const CaseFile& file) {
-  const std::string runs = file.given("diagnosis.runs");
-  const auto kinds = measurement_kinds();
-  return (runs.empty() || runs == "none") && std::any_of(kinds.begin(), kinds.end(), [&](const MeasurementKind* kind) {
-           return kind->on_lumen && file.has("observations." + kind->name);
-         });
-}
-
 /// Its life as a group of an identification_master.
 GroupServer serve_as_group(const CommandLine& command, const protocol::Welcome& welcome, protocol::Session& session) {
   auto master = std::make_unique<MasterCase>(command.case_file);
   RunPlan plan = plan_of(*master, command);
   plan.quiet = true;
   plan.write_every = plan.checkpoint_every = std::numeric_limits<int>::max();
-  const std::span<Partner> partners = session.launch(programs_of(*master, observes(master->file)), welcome.output);
+  const std::span<Partner> partners = session.launch(programs_of(*master, master->measures_lumen), welcome.output);
   for (Partner& partner : partners) partner.hello();
   return GroupServer(std::move(master), std::move(plan), partners);
 }

@@ -22,10 +22,12 @@ struct MasterCase {
     file.read("observations", observations);
     file.finish();
     flow = load_flow_observations(observations, file);
+    measures_lumen = observations.has_lumen_data();
   }
   CaseFile file;
   CouplingCase coupling;
   FlowObservations flow;  ///< to record the velocity where it was measured
+  bool measures_lumen = false;
 };
 
 /// The partners of one coupled vessel as processes: fluid, solid, and measurements if there are any.

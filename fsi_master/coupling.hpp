@@ -8,6 +8,8 @@
 
 namespace tether {
 
+class RunGuide;
+
 /// How hard and how long the coupling loop of one step works.
 struct CouplingOptions {
   double tolerance = 1e-6;  ///< of the residual measure (C.3)
@@ -37,6 +39,9 @@ class Coupling {
   /// What the method remembers from earlier steps: part of a checkpoint.
   virtual std::vector<double> memory() const { return {}; }
   virtual void set_memory(const std::vector<double>&) {}
+  /// From now on steps begin as those of another run, or are kept for others; none: no more. A method that knows no
+  /// changes of velocities goes its own way.
+  virtual void follow(RunGuide*) {}
 };
 
 /// `method`: "newton_krylov", "iqn_ils", or "automatic": Newton-Krylov when both codes announce tangents.

@@ -21,14 +21,26 @@ void Extrapolation::forget() {
   uses_both_ = false;
 }
 
-VectorXd Extrapolation::begin(double dt) {
-  const bool goes_on = std::exchange(ended_, false) && dt == dt_;
-  dt_ = dt;
+void Extrapolation::follow(RunGuide* guide) {
+  guide_ = guide;
+  forget();
+}
+
+VectorXd Extrapolation::begin(const StepStart& start) {
+  const bool was_guided = guided_.size() > 0;
+  guided_ = guide_ ? guide_->change_in(start) : VectorXd();
+  const bool is_guided = guided_.size() > 0;
+  const bool goes_on = std::exchange(ended_, false) && start.dt == dt_ && is_guided == was_guided;
+  dt_ = start.dt;
+  start_ = start;
   if (!goes_on) forget();
-  return uses_both_ ? by_both() : by_share();
+  if (!is_guided) return foreseen();
+  return change_.size() > 0 ? VectorXd(guided_ + foreseen()) : guided_;
 }
 
 void Extrapolation::end(VectorXd change) {
+  if (guide_) guide_->keep(start_, change);
+  if (guided_.size() > 0) change = change.size() > 0 ? VectorXd(change - guided_) : VectorXd(-guided_);
   const double squared = change_.size() == change.size() ? change_.squaredNorm() : 0.0;
   if (squared > 0 && before_.size() == change.size()) {
     uses_both_ = (change - by_both()).squaredNorm() < (change - by_share()).squaredNorm();

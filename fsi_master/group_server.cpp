@@ -1,19 +1,17 @@
 #include "fsi_master/group_server.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
+#include "fsi_master/run_guide.hpp"
 #include "fsi_master/summary.hpp"
 
 namespace tether {
 namespace {
 
 using protocol::Partner;
-
-constexpr const char* failed_run = "failure.txt";  ///< why a run of a group ended before its end
 
 /// A partner's parameter or observable among those of both: "solid.density".
 std::string full_name(const Partner& partner, const std::string& name) {
@@ -44,6 +42,13 @@ void adopt(const protocol::SetParameters& some, protocol::SetParameters& all) {
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
   all.insert(all.end(), more.begin(), more.end());
+}
+
+/// None if the run is asked for without one.
+std::unique_ptr<RunGuide> guide_of(const protocol::Simulate& m, double dt) {
+  if (m.guide.empty()) return nullptr;
+  const auto role = m.guide == m.output ? RunGuide::Role::guide : RunGuide::Role::follower;
+  return std::make_unique<RunGuide>(m.guide, role, dt);
 }
 
 /// Where runs record the velocity: others, of the same codes, do not show what was measured.
@@ -176,7 +181,7 @@ void GroupServer::observe(double time, protocol::Advanced& reply) {
   reply.weights = std::move(seen.weights);
 }
 
-protocol::Ready GroupServer::operator()(const protocol::Simulate& m) {
+protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   loop_->restore(initial_);
   (*this)(protocol::SetParameters{m.names, m.values});
   RunPlan plan = plan_;
@@ -184,14 +189,19 @@ protocol::Ready GroupServer::operator()(const protocol::Simulate& m) {
   plan.write_series = false;  // the codes of all groups have one folder
   plan.last_step = m.steps;
   std::filesystem::create_directories(plan.output);
-  std::filesystem::remove(plan.output / failed_run);
+  const auto guide = guide_of(m, plan.dt);
+  codes_->coupling().follow(guide.get());
+  Simulation simulation(plan, codes_->crew(), master_->coupling.halvings);
+  protocol::Simulated reply;
   try {
-    Simulation(plan, codes_->crew(), master_->coupling.halvings).run();
+    simulation.run();
   } catch (const StepFailure& failure) {  // these values are too much for the model; others may not be
-    std::ofstream(plan.output / failed_run) << failure.what() << std::endl;
+    reply.failure = failure.what();
   }
+  reply.evaluations = static_cast<std::int64_t>(simulation.statistics().evaluations.sum);
+  codes_->coupling().follow(nullptr);
   loop_->restore(initial_);
-  return {};
+  return reply;
 }
 
 protocol::Ready GroupServer::operator()(const protocol::Write& m) {

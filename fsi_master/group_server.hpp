@@ -23,7 +23,7 @@ class GroupServer {
   protocol::Ready operator()(const protocol::SetParameters& m);
   protocol::State operator()(const protocol::GetState&);
   protocol::Advanced operator()(const protocol::Advance& m);
-  protocol::Ready operator()(const protocol::Simulate& m);
+  protocol::Simulated operator()(const protocol::Simulate& m);
   protocol::Ready operator()(const protocol::Write& m);
   protocol::Ready operator()(const protocol::Stop&) { return {}; }
   /// Of all processes of the group; memory is the sum of their peaks.

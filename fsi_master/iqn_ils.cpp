@@ -16,7 +16,7 @@ CouplingResult IqnIls::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd x = start.velocity, r_old, solved_old;
-  if (const VectorXd change = extrapolation_.begin(start.dt); change.size() > 0) x += change;
+  if (const VectorXd change = extrapolation_.begin(start); change.size() > 0) x += change;
   if (start.dt != dt_) columns_.forget();  // the derivative of S depends on the step
   dt_ = start.dt;
   columns_.begin_step();

@@ -10,7 +10,7 @@ NewtonKrylov::NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const Coupl
 CouplingResult NewtonKrylov::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   SolidPartner::Iterate solid;
-  VectorXd V = start.velocity, dV = extrapolation_.begin(start.dt), change = dV;
+  VectorXd V = start.velocity, dV = extrapolation_.begin(start), change = dV;
   size_ = V.size();
   if (dV.size() > 0) V += dV.head(size_);
   while (convergence.may_continue()) {

@@ -15,6 +15,7 @@ class NewtonKrylov : public Coupling {
   CouplingResult solve_step(const StepStart& start) override;
   std::vector<double> memory() const override;
   void set_memory(const std::vector<double>& values) override;
+  void follow(RunGuide* guide) override { extrapolation_.follow(guide); }
 
  private:
   struct Correction {

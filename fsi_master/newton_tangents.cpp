@@ -11,7 +11,7 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd V = start.velocity;
-  if (const VectorXd change = extrapolation_.begin(start.dt); change.size() > 0) V += change;
+  if (const VectorXd change = extrapolation_.begin(start); change.size() > 0) V += change;
   while (convergence.may_continue()) {
     solid = solid_.motion(fluid_.load(start.motion(V)).get()).get();  // (C.2)
     const VectorXd residual = solid.velocity - V;

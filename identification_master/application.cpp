@@ -1,9 +1,8 @@
 #include "identification_master/application.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 
 #include "common/base/checked_file.hpp"
@@ -14,14 +13,15 @@
 #include "common/config/output_folder.hpp"
 #include "common/protocol/run.hpp"
 #include "common/protocol/signals.hpp"
+#include "common/protocol/socket_channel.hpp"
 #include "identification_master/checkpoint.hpp"
-#include "identification_master/diagnosis_runs.hpp"
 #include "identification_master/estimate_files.hpp"
-#include "identification_master/group_memory.hpp"
 #include "identification_master/group_pool.hpp"
+#include "identification_master/groups.hpp"
 #include "identification_master/identification_case.hpp"
 #include "identification_master/identified_case.hpp"
 #include "identification_master/sensitivity_tables.hpp"
+#include "identification_master/serve_runs.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
 
 namespace tether {
@@ -37,24 +37,19 @@ struct IdentifiedCase {
     file.read("mesh", mesh);
     file.read("observations", observations);
     file.read("identification", identification);
-    file.read("diagnosis", diagnosis);
     file.finish();
-    if (is_diagnosis()) return;
     if (identification.parameters.empty())
       throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
   }
   /// The wall's element does not matter: interface nodes are the same.
   VesselMesh vessel() const { return load_mesh(mesh, file, WallElement::prism); }
   LumenSurface lumen() const { return lumen_of(vessel()); }
-  /// Prepared by tether diagnose: whole runs are wanted instead.
-  bool is_diagnosis() const { return diagnosis.runs != "none"; }
   std::size_t particles() const { return identification.parameters.size() + 1; }
 
   CaseFile file;
   MeshCase mesh;
   ObservationsCase observations;
   IdentificationCase identification;
-  DiagnosisCase diagnosis;
 };
 
 IdentificationPlan plan_of(const IdentifiedCase& given, const CommandLine& command) {
@@ -71,35 +66,9 @@ IdentificationPlan plan_of(const IdentifiedCase& given, const CommandLine& comma
   return plan;
 }
 
-std::size_t cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
-}
-
-/// A group for each core, as far as memory goes.
-std::size_t groups_of_machine(const IdentifiedCase& given) {
-  const VesselMesh vessel = given.vessel();
-  const auto nodes = static_cast<std::size_t>(vessel.fluid.points.cols() + vessel.wall.points.cols());
-  return std::max<std::size_t>(1, std::min(cores(), groups_within(available_memory(), nodes)));
-}
-
-/// Groups that share the particles: what the mpirun line holds, what the user wants, or what the machine can hold.
-std::size_t group_count(const IdentifiedCase& given, const CommandLine& command, const protocol::Session& session) {
-  if (const auto offered = session.offered("fsi_master")) return *offered;
+std::size_t groups_for(const IdentifiedCase& given, const CommandLine& command, const protocol::Session& session) {
   const int wanted = command.processes > 0 ? command.processes : given.identification.groups;
-  const std::size_t most = given.is_diagnosis() ? cores() : given.particles();
-  return std::min(most, wanted > 0 ? static_cast<std::size_t>(wanted) : groups_of_machine(given));
-}
-
-std::vector<Partner*> launch_groups(std::size_t count, const fs::path& case_file, const fs::path& output,
-                                    protocol::Session& session) {
-  const protocol::Program program{"fsi_master", "fsi_master", {fs::absolute(case_file).string()}};
-  std::vector<Partner*> groups;
-  for (Partner& group : session.launch(std::vector<protocol::Program>(count, program), output.string()))
-    groups.push_back(&group);
-  for (Partner* group : groups) group->hello();
-  return groups;
+  return group_count({wanted, given.particles(), [&given] { return given.vessel(); }}, session);
 }
 
 std::string news(const Identification& now, const IdentifiedParameters& parameters) {
@@ -275,28 +244,22 @@ class Job {
   IdentificationCost cost_before_;
 };
 
-void diagnose(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool, const fs::path& output) {
-  const auto& numbers = pool.model().parameters;
-  const bool is_trial = given.diagnosis.runs == "trials";
-  const auto runs = is_trial ? trial_runs(numbers, given.diagnosis, given.file)
-                             : sensitivity_runs(numbers, given.diagnosis, given.file);
-  const int steps = command.steps.value_or(given.file.common().time.steps());
-  make_runs(pool, runs, given.file, output, steps, command.quiet);
+void identify(const CommandLine& command, protocol::Session& session) {
+  IdentifiedCase given(command.case_file);
+  const fs::path output = fs::absolute(claim_output(command, given.file));
+  if (!command.resume) remove_old_estimates(output);
+  const std::vector<Partner*> groups =
+      launch_groups(groups_for(given, command, session), command.case_file, output, session);
+  GroupPool pool(session, groups);
+  Job(given, command, pool, output).run();
+  for (Partner* group : groups) group->stop("the identification is done");
 }
 
+/// What it is asked for: runs by a process that listens for it, else an identification.
 int run(const CommandLine& command) {
   return protocol::run_master("identification_master", [&command](protocol::Session& session) {
-    IdentifiedCase given(command.case_file);
-    const fs::path output = fs::absolute(claim_output(command, given.file));
-    if (!command.resume && !given.is_diagnosis()) remove_old_estimates(output);
-    const std::vector<Partner*> groups =
-        launch_groups(group_count(given, command, session), command.case_file, output, session);
-    GroupPool pool(session, groups);
-    if (given.is_diagnosis())
-      diagnose(given, command, pool, output);
-    else
-      Job(given, command, pool, output).run();
-    for (Partner* group : groups) group->stop("the identification is done");
+    const char* socket = std::getenv(protocol::run_service_socket);
+    socket == nullptr ? identify(command, session) : serve_runs(command, socket, session);
   });
 }
 
@@ -311,15 +274,9 @@ Program identification_master_program() {
       .declare =
           [](Fields& fields) {
             IdentificationCase identification;
-            DiagnosisCase diagnosis;
             fields.group("identification", identification, meaning_of_section("identification"));
-            fields.group("diagnosis", diagnosis, meaning_of_section("diagnosis"));
           },
-      .validate =
-          [](const CommandLine& command) {
-            const IdentifiedCase given(command.case_file);
-            if (!given.is_diagnosis()) data_of(given);
-          },
+      .validate = [](const CommandLine& command) { data_of(IdentifiedCase(command.case_file)); },
       .run = run,
       .shares_work = true};
 }

@@ -108,14 +108,4 @@ std::vector<ParticleReport> GroupPool::advance(const EnsembleStep& step, const s
   return reports;
 }
 
-void GroupPool::simulate(const std::vector<NamedValues>& values, const std::vector<std::string>& folders,
-                         std::int64_t steps) {
-  deal<protocol::Simulate>(
-      values.size(),
-      [&](std::size_t i) {
-        return protocol::Simulate{values[i].names, values[i].values, steps, folders[i]};
-      },
-      [](std::size_t, protocol::Ready) {});
-}
-
 }  // namespace tether

@@ -18,8 +18,6 @@ class GroupPool : public Ensemble {
   VectorXd initial_state() override;
   std::vector<ParticleReport> advance(const EnsembleStep& step, const std::vector<NamedValues>& values,
                                       MatrixXd& states, std::vector<std::vector<double>>& memories) override;
-  /// Whole runs, one for each set of values, with their results in folders of their own.
-  void simulate(const std::vector<NamedValues>& values, const std::vector<std::string>& folders, std::int64_t steps);
 
   std::size_t size() const { return groups_.size(); }
   /// Positions of the lumen's nodes in the image.

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/named_values.hpp"
 #include "common/base/transform.hpp"
 #include "common/base/types.hpp"
 #include "common/config/case_file.hpp"
@@ -10,12 +11,6 @@
 #include "identification_master/identification_case.hpp"
 
 namespace tether {
-
-/// Values of the model's numbers, by name.
-struct NamedValues {
-  std::vector<std::string> names;
-  std::vector<double> values;
-};
 
 /// One parameter to be found: its prior, and the model's numbers that it sets.
 struct IdentifiedParameter {

@@ -6,6 +6,7 @@
 #include "diagnosis/explanation/explainer.hpp"
 #include "diagnosis/explanation/interruption.hpp"
 #include "report/report.hpp"
+#include "tether/diagnosed.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -18,7 +19,10 @@ class Verbs : public ExplanationWork {
  public:
   explicit Verbs(const CommandLine& command) : command_(command) {}
   void compare(const ExplanationTask& task) override { make<ComparisonResult>(tether::compare, task); }
-  void diagnose(const ExplanationTask& task) override { make<Diagnosis>(tether::diagnose, task); }
+  void diagnose(const ExplanationTask& task, const DiagnosisSettings& settings) override {
+    const CommandLine command = command_for(task);
+    print(diagnose_further(command, settings), command);
+  }
   void identify(const ExplanationTask& task) override { make<Estimate>(tether::identify, task); }
 
  private:

@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/config/describe.hpp"
+#include "common/config/diagnosis_case.hpp"
 #include "common/protocol/programs.hpp"
 #include "tether/verbs.hpp"
 
@@ -23,6 +25,14 @@ std::vector<std::string> blocks(const std::string& text, const std::string& form
   return found;
 }
 
+/// The section `diagnosis`, which no other program reads.
+std::string describe_diagnosis(const std::string& format) {
+  Describe describe(UnitSystem::cgs());
+  DiagnosisCase diagnosis;
+  describe.group("diagnosis", diagnosis, meaning_of_section("diagnosis"));
+  return format == "markdown" ? describe.markdown() : describe.text();
+}
+
 }  // namespace
 
 std::string case_reference(const std::string& format) {
@@ -33,7 +43,8 @@ std::string case_reference(const std::string& format) {
     for (auto& block : blocks(end.output, format))
       if (std::find(all.begin(), all.end(), block) == all.end()) all.push_back(std::move(block));
   }
-  if (format != "effects") all.push_back(describe_twin(format));  // it offers none
+  if (format != "effects")
+    all.insert(all.end(), {describe_diagnosis(format), describe_twin(format)});  // they offer none
   std::string text;
   for (const auto& block : all) text += block;
   return text;

@@ -11,6 +11,7 @@
 #include "diagnosis/results/missing_force.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
+#include "identification_master/results/made_run.hpp"
 #include "twin/score.hpp"
 
 namespace tether {
@@ -29,7 +30,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"wall.json", schema<ComparedWall>},   {"diagnosis.json", schema<Diagnosis>},
       {"explain.json", schema<Explanation>}, {"steps.json", schema<StepsMade>},
       {"force.json", schema<ForceFound>},    {"estimate.json", schema<Estimate>},
-      {"score.json", schema<Score>},
+      {"run.json", schema<MadeRun>},         {"score.json", schema<Score>},
   };
   return all;
 }

@@ -16,6 +16,7 @@
 #include <map>
 
 #include "diagnosis/evidence/diagnosed_case.hpp"
+#include "diagnosis/evidence/living_runs.hpp"
 #include "diagnosis/search/diagnosis_report.hpp"
 #include "diagnosis/search/effect_search.hpp"
 #include "twin/noise.hpp"
@@ -25,16 +26,22 @@ using Index = Eigen::Index;
 
 namespace {
 
-/// A case whose sensitivity runs are there.
+CommandLine quiet() {
+  CommandLine command;
+  command.quiet = true;
+  return command;
+}
+
+/// A case whose sensitivity runs are there: none is made again.
 struct Surrogate {
   Surrogate(const std::string& case_file, const std::filesystem::path& folder)
       : given(case_file),
-        motions(stored_runs(folder / "candidates")),
-        evidence(given.data, given.lumen, motions.front()),
-        problem(problem_of(given, evidence, motions, content_of(folder / "candidates/runs.json"),
-                           catalogue_of(given.file, given.diagnosis))) {
+        runs(quiet(), folder / "candidates.yaml", folder),
+        sensitivities(sensitivities_of(runs, varied_numbers(runs.parameters(), given.diagnosis, given.file))),
+        evidence(given.data, given.lumen, sensitivities.motions.front()),
+        problem(problem_of(given, evidence, sensitivities, catalogue_of(given.file, given.diagnosis))) {
     const DiagnosisCase& d = given.diagnosis;
-    settings = {d.alpha, d.unexplained, d.enough, d.most, d.refinements, d.confirmed};
+    settings = {d.alpha, d.unexplained, 0, d.most, d.refinements, d.confirmed};
     const std::vector<TestedEffect> effects =
         test_all(problem, Trained(problem).scores(problem.changes, problem.residual), d.alpha,
                  problem.independent(problem.training).sum());
@@ -104,7 +111,8 @@ struct Surrogate {
 
   static constexpr double trace_interval = 0.01, allowed_share = 1;
   DiagnosedCase given;
-  std::vector<FinishedMotion> motions;
+  LivingRuns runs;
+  Sensitivities sensitivities;
   Evidence evidence;
   EffectProblem problem;
   SearchSettings settings;

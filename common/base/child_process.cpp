@@ -75,10 +75,14 @@ pid_t start(const Command& command, const std::function<void()>& prepare) {
   return pid;
 }
 
+int exit_code_in(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 int exit_code_of(pid_t pid) {
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return exit_code_in(status);
 }
 
 volatile std::sig_atomic_t foreground_child = 0;
@@ -129,6 +133,25 @@ int run_in_foreground(const Command& command) {
   const pid_t pid = start(command, detach_from_terminal);
   foreground_child = pid;
   return exit_code_of(pid);
+}
+
+RunningProgram::RunningProgram(const Command& command) : pid_(start(command, detach_from_terminal)) {}
+
+RunningProgram::~RunningProgram() {
+  if (exit_code()) return;
+  kill(pid_, SIGTERM);
+  wait();
+}
+
+std::optional<int> RunningProgram::exit_code() {
+  int status = 0;
+  if (!code_ && waitpid(pid_, &status, WNOHANG) == pid_) code_ = exit_code_in(status);
+  return code_;
+}
+
+int RunningProgram::wait() {
+  if (!code_) code_ = exit_code_of(pid_);
+  return *code_;
 }
 
 }  // namespace tether

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,5 +28,25 @@ ChildEnd capture(const Command& command);
 /// signals INT, TERM and HUP that this process gets, and TERM if this process dies. Returns its exit code. One at a
 /// time.
 int run_in_foreground(const Command& command);
+
+/// A program that runs beside this process: it writes where this process writes, reads nothing, and gets TERM if this
+/// process or this object goes first.
+class RunningProgram {
+ public:
+  /// Throws RunError if it cannot be started.
+  explicit RunningProgram(const Command& command);
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// Its exit code, as ChildEnd has it; nothing as long as it runs.
+  std::optional<int> exit_code();
+  /// Waits for that.
+  int wait();
+
+ private:
+  pid_t pid_;
+  std::optional<int> code_;
+};
 
 }  // namespace tether

@@ -17,28 +17,16 @@ void AllowanceCase::declare(Fields& f) {
            "of the times of all frames, and of the model: absent: half its time step");
 }
 
-void DiagnosisCase::Trial::declare(Fields& f) {
-  f.texts("parameters", parameters, "by their places in the case");
-  f.numbers("values", values, {0, dimension::none, range::any}, "of them, in the case's units");
-}
-
 void DiagnosisCase::declare(Fields& f) {
   f.texts("candidates", candidates, "types of effects that may be missing; absent: all of the catalogue");
   f.texts("exclude", exclude, "what is no candidate: types, parts of the wall, or numbers by their place in the case");
   f.texts("assumed", assumed,
           "numbers of the model, by their place in the case, that may be anything: effects must show beyond them");
-  f.texts(
-      "refused", refused,
-      "numbers of candidates that are tested and not accepted, since an identification did not confirm them; written "
-      "by tether explain");
   f.number("step", step, dimension::none, {0, 1, true, false},
            "by how much of its scale an effect is switched on to see what it would do");
   f.number("alpha", alpha, dimension::none, {0, 0.5, true, true}, "probability of a false alarm over all candidates");
   f.number("unexplained", unexplained, dimension::none, {0, 1},
            "share of what the data ask for beyond noise; if more remains, something else is missing");
-  f.number("enough", enough, dimension::none, range::not_negative,
-           "misfit beyond noise (lack_of_fit.excess) below which another effect must stand out at alpha/5; written by "
-           "tether explain");
   f.integer("most", most, {1, 20}, "effects that are added at most, one after the other");
   f.integer("refinements", refinements, {1, 20}, "runs at most to find an effect's amplitude");
   f.integer("confirmed", confirmed, {1, 100}, "candidates whose amplitude is found with runs before one is chosen");
@@ -46,12 +34,6 @@ void DiagnosisCase::declare(Fields& f) {
   f.flag("numerics", numerics,
          "whether half the time step, and of a swept mesh twice the elements around and along, compete with the "
          "effects: two runs that cost some six others");
-  f.choice("runs", runs,
-           {{"none", "a diagnosis has not prepared this case"},
-            {"sensitivities", "identification_master runs the case, and once more for each number that may be wrong"},
-            {"trials", "identification_master runs the case with the values of each trial"}},
-           "written by tether diagnose into cases of its own");
-  f.groups("trials", trials, "written by tether diagnose: runs with other values");
 }
 
 }  // namespace tether

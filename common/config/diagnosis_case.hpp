@@ -15,19 +15,11 @@ struct AllowanceCase {
 
 /// The section `diagnosis` of a case: which effects may be missing, and how they are judged.
 struct DiagnosisCase {
-  /// A run with other values, which `tether diagnose` asks for.
-  struct Trial {
-    std::vector<std::string> parameters;
-    std::vector<double> values;
-    void declare(Fields& f);
-  };
-  std::vector<std::string> candidates, exclude, assumed, refused;
-  double step = 0.2, alpha = 0.05, unexplained = 0.1, enough = 0;
+  std::vector<std::string> candidates, exclude, assumed;
+  double step = 0.2, alpha = 0.05, unexplained = 0.1;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;
   bool numerics = false;
-  std::string runs = "none";
-  Named<Trial> trials;
   void declare(Fields& f);
 };
 

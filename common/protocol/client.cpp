@@ -143,10 +143,14 @@ struct Count {
   }
 };
 
+template <class Reply, class... Others>
+inline constexpr bool is_any_of = (std::is_same_v<Reply, Others> || ...);
+
+/// Not of those that the library sends itself, nor of those of Tether's own masters.
 template <class Reply>
 Packet reply_from(const tether_array* arrays, int count) {
-  if constexpr (std::is_same_v<Reply, Interface> || std::is_same_v<Reply, Usage> || std::is_same_v<Reply, Advanced>) {
-    throw InternalError("the library answers this itself");
+  if constexpr (is_any_of<Reply, Interface, Usage, Advanced, Simulated, RunEnded>) {
+    throw InternalError("no foreign code answers this");
   } else {
     Reply reply;
     Count expected;

@@ -146,6 +146,21 @@ struct Advanced {
   TETHER_MESSAGE(Advanced, state, memory, observables, distances, weights, velocities, evaluations, krylov_iterations,
                  parts)
 };
+/// How a whole run ended.
+struct Simulated {
+  std::string failure;           ///< why it ended before its end; empty: it did not
+  std::int64_t evaluations = 0;  ///< of fluid and solid together, over all steps
+  TETHER_MESSAGE(Simulated, failure, evaluations)
+};
+/// A run that was ordered has ended.
+struct RunEnded {
+  std::string folder;            ///< as it was ordered
+  std::string failure;           ///< as Simulated has it
+  bool made = false;             ///< now; else it was there
+  std::int64_t evaluations = 0;  ///< as Simulated has them
+  double cpu_seconds = 0;        ///< of all processes that made it
+  TETHER_MESSAGE(RunEnded, folder, failure, made, evaluations, cpu_seconds)
+};
 struct Usage {
   double cpu_seconds = 0, peak_memory_mb = 0;  ///< user and system time; largest resident set
   TETHER_MESSAGE(Usage, cpu_seconds, peak_memory_mb)
@@ -329,14 +344,40 @@ struct Advance {
   std::vector<double> memory;  ///< what the coupling method remembers: for its speed only; may be empty
   TETHER_MESSAGE(Advance, step, time, dt, observe, names, values, state, memory)
 };
-/// A whole run from the initial state with these parameters: timeseries.csv and lumen.motion in `output`.
+/// A whole run from the initial state with these parameters: timeseries.csv and lumen.motion in `output`. Its steps
+/// begin as those of the guide, a run of the same case with other values, changed: that saves work, and changes what
+/// the coupling's tolerance leaves open. The guide itself is told so by its own folder.
 struct Simulate {
-  using Reply = Ready;
+  using Reply = Simulated;
   std::vector<std::string> names;
   std::vector<double> values;
   std::int64_t steps = 0;
   std::string output;
-  TETHER_MESSAGE(Simulate, names, values, steps, output)
+  std::string guide;  ///< folder of that run; empty: none
+  TETHER_MESSAGE(Simulate, names, values, steps, output, guide)
+};
+
+// ---- tether -> identification_master that serves runs ---------------------------------------------------------------
+
+/// A run that is wanted: its folder, and numbers of the model that differ from the case.
+struct RunOrder {
+  std::string folder;
+  std::vector<std::string> names;
+  std::vector<double> values;
+  TETHER_FIELDS(folder, names, values)
+};
+/// Make these runs, as soon as groups are free, those first that were ordered first. What a folder holds of the same
+/// case and the same values is not made again.
+struct OrderRuns {
+  using Reply = Ready;
+  std::vector<RunOrder> runs;
+  std::string guide;  ///< of all of them, as Simulate has it; it must have ended before others begin
+  TETHER_MESSAGE(OrderRuns, runs, guide)
+};
+/// Wait for the next run that ends, whichever it is: each that was ordered is answered once.
+struct NextRun {
+  using Reply = RunEnded;
+  TETHER_MESSAGE(NextRun)
 };
 
 #undef TETHER_MESSAGE
@@ -346,9 +387,10 @@ struct Simulate {
 using ToPartner = std::variant<Welcome, GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write,
                                Stop, FluidEvaluate, FluidTangent, SolidEvaluate, SolidTangent, SolidResidual,
                                SolidProduct, SolidPrecondition, Observe, GetUsage, Correct, Withdraw, MoveInterface,
-                               GetVelocity, Advance, Simulate>;
-using ToMaster = std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion,
-                              SolidResidualReply, Unknowns, Discrepancy, Usage, Correction, Velocity, Advanced>;
+                               GetVelocity, Advance, Simulate, OrderRuns, NextRun>;
+using ToMaster =
+    std::variant<Arrival, Hello, Ready, Failure, Interface, State, StepReport, Load, Motion, SolidResidualReply,
+                 Unknowns, Discrepancy, Usage, Correction, Velocity, Advanced, Simulated, RunEnded>;
 
 /// What each role must be able to answer: a handler for each is asked for at compile time (serve.hpp, which answers
 /// GetUsage itself).
@@ -364,6 +406,8 @@ using ToObservedSolid =
                  SolidTangent, SolidResidual, SolidProduct, SolidPrecondition, Correct, Withdraw>;
 /// To an fsi_master that is a partner itself. It answers GetUsage for its whole group.
 using ToGroup = std::variant<GetInterface, SetParameters, GetState, Write, Stop, Advance, Simulate, GetUsage>;
+/// To an identification_master that serves runs. Its Hello is that of the model.
+using ToRunService = std::variant<OrderRuns, NextRun, Stop>;
 /// A manager of measurements of the lumen.
 using ToObservation = std::variant<SetParameters, Write, Stop, Observe>;
 

@@ -32,12 +32,18 @@ Packet answer(std::variant<Requests...>*, const Packet& request, Handler& handle
 
 }  // namespace detail
 
-/// The reply to one request. `Requests`: ToFluid, ToSolid, ToObservation, ToGroup: each must have a handler, a function
-/// `Request::Reply operator()(const Request&)`. What a handler throws becomes Failure.
+/// The reply to one request. `Requests`: ToFluid, ToSolid, ToObservation, ToGroup, ToRunService: each must have a
+/// handler, a function `Request::Reply operator()(const Request&)`. Throws what the handler throws.
+template <class Requests, class Handler>
+Packet reply_to(const Packet& request, Handler& handler) {
+  return detail::answer(static_cast<Requests*>(nullptr), request, handler);
+}
+
+/// The same; what a handler throws becomes Failure.
 template <class Requests, class Handler>
 Packet answer(const Packet& request, Handler& handler) {
   try {
-    return detail::answer(static_cast<Requests*>(nullptr), request, handler);
+    return reply_to<Requests>(request, handler);
   } catch (...) {
     return pack(detail::current_failure());
   }

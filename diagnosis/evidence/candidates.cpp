@@ -21,10 +21,6 @@ bool holds(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-double number(const Json& value) {
-  return value.is_null() ? undefined : value.get<double>();
-}
-
 /// A generic direction is a candidate only if it is asked for.
 bool is_wanted(const Json& effect, const DiagnosisCase& diagnosis) {
   const std::string type = effect["type"], part = effect["part"];
@@ -33,18 +29,16 @@ bool is_wanted(const Json& effect, const DiagnosisCase& diagnosis) {
 }
 
 /// A number of the model as an amplitude that is zero as the model is.
-Amplitude amplitude_of(const Json& p) {
-  const double value = p["value"], absent = number(p["absent"]), scale = number(p["scale"]),
-               prior = number(p["prior_deviation"]);
-  const bool is_absent = value == absent;
-  Amplitude amplitude{p["name"], p["meaning"], p["unit"], is_absent && value == number(p["lower"]), {}, value, {}};
-  if (!p["lower"].is_null()) amplitude.lower = p["lower"];
-  if (!p["upper"].is_null()) amplitude.upper = p["upper"];
-  amplitude.doubles = p["transform"].get<std::string>().starts_with("log") && value > 0;
+Amplitude amplitude_of(const protocol::ParameterInfo& p) {
+  const bool is_absent = p.value == p.absent;
+  Amplitude amplitude{p.name, p.meaning, p.unit, is_absent && p.value == p.lower, {}, p.value, {}};
+  amplitude.lower = p.lower;
+  amplitude.upper = p.upper;
+  amplitude.doubles = p.transform.starts_with("log") && p.value > 0;
   if (is_absent)
-    amplitude.scale = amplitude.doubles ? std::log2(1 + scale / value) : scale;
+    amplitude.scale = amplitude.doubles ? std::log2(1 + p.scale / p.value) : p.scale;
   else
-    amplitude.scale = amplitude.doubles && p["transform"] == "log" ? prior / std::log(2.0) : prior;
+    amplitude.scale = amplitude.doubles && p.transform == "log" ? p.prior_deviation / std::log(2.0) : p.prior_deviation;
   return amplitude;
 }
 
@@ -151,7 +145,6 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
     for (const std::string& required : effect.required)  // the period of a load
       overlay.values.push_back({effect.path + "." + required, number_text(common.time.end - common.time.start)});
   }
-  overlay.values.push_back({"diagnosis.runs", "sensitivities"});
   overlay.values.push_back({"output.write_every", "1000000"});
   overlay.values.push_back({"output.checkpoint_every", "1000000"});
   if (from.has("observer")) overlay.values.push_back({"observer", ""});
@@ -159,26 +152,22 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
   write_overlay(file, overlay);
 }
 
-void add_model_changes(EffectProblem& problem, const std::string& runs_json, const MatrixXd& residuals,
+void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& varied, const MatrixXd& residuals,
                        const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis) {
-  const Json json = Json::parse(runs_json);
   constexpr double no_response = 1e-3;  // of a noise's deviation, over all data
-  for (std::size_t i = 1; i < json["runs"].size(); ++i) {
-    const Json& run = json["runs"][i];
-    const auto parameter = std::find_if(json["parameters"].begin(), json["parameters"].end(),
-                                        [&](const Json& p) { return p["name"] == run["parameter"]; });
-    const Amplitude amplitude = amplitude_of(*parameter);
-    const double value = run["value"],
-                 step = amplitude.doubles ? std::log2(value / amplitude.base) : value - amplitude.base;
-    const VectorXd seen = residuals.col(0) - residuals.col(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    const auto& [number, value] = varied[i];
+    const auto run = static_cast<Eigen::Index>(i) + 1;
+    const Amplitude amplitude = amplitude_of(number);
+    const double step = amplitude.doubles ? std::log2(value / amplitude.base) : value - amplitude.base;
+    const VectorXd seen = residuals.col(0) - residuals.col(run);
     const VectorXd change = seen.array().isFinite().select(seen, 0);  // (D.7)
     if (change.dot(problem.precision.cwiseProduct(change)) < no_response * no_response) continue;
-    const bool is_absent = amplitude.base == number((*parameter)["absent"]),
-               is_assumed = holds(diagnosis.assumed, amplitude.name);
+    const bool is_absent = number.value == number.absent, is_assumed = holds(diagnosis.assumed, amplitude.name);
     if (!is_absent || is_assumed) {
       const auto before = problem.allowed.cols();
       allow(problem, change / step, allowed_deviation(amplitude, diagnosis), amplitude.name);
-      if (problem.allowed.cols() > before) problem.allowed_runs.push_back({before, static_cast<Eigen::Index>(i), step});
+      if (problem.allowed.cols() > before) problem.allowed_runs.push_back({before, run, step});
     }
     if (is_assumed) continue;
     candidate_of(problem, amplitude, is_absent, effects).amplitudes.push_back(problem.changes.cols());

@@ -7,6 +7,7 @@
 #include "common/config/case_file.hpp"
 #include "common/config/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
+#include "diagnosis/evidence/sensitivities.hpp"
 
 namespace tether {
 
@@ -24,14 +25,13 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
 /// Throws InputError if the case's section `diagnosis`, if there is one, names what is not there.
 void check_diagnosis(const std::filesystem::path& case_file);
 
-/// The case with every candidate at the value at which it does nothing, from which identification_master makes the
-/// sensitivity runs.
+/// The case with every candidate at the value at which it does nothing: the model whose runs a diagnosis asks for.
 void write_candidates(const std::filesystem::path& file, const CaseFile& from, const Observations& data,
                       const std::vector<PlacedEffect>& effects);
 
-/// Adds what the runs show: the change of all data per amplitude, and what its number is called. residuals: one column
-/// a run of `runs_json`, the base first. (D.7)
-void add_model_changes(EffectProblem& problem, const std::string& runs_json, const MatrixXd& residuals,
+/// Adds what the runs show: the change of all data per amplitude, and what its number is called. residuals: of
+/// the model as it is, then one column for each of `varied`. (D.7)
+void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& varied, const MatrixXd& residuals,
                        const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis);
 
 }  // namespace tether

@@ -1,11 +1,7 @@
 #include "diagnosis/evidence/diagnosed_case.hpp"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "common/base/error.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
-#include "diagnosis/evidence/stored_run.hpp"
 
 namespace tether {
 namespace {
@@ -35,26 +31,16 @@ DiagnosedCase::DiagnosedCase(const fs::path& path) : file(path) {
   for (const Measurement* source : data.all()) check_noise_of(source->facts(), where);
 }
 
-std::vector<FinishedMotion> stored_runs(const fs::path& folder) {
-  std::vector<FinishedMotion> all;
-  const auto json = nlohmann::json::parse(content_of(folder / "runs.json"));
-  for (const auto& run : json["runs"])
-    all.push_back(run.contains("failure") ? FinishedMotion{}
-                                          : StoredRun(folder / "runs" / run["folder"].get<std::string>()).motion());
-  return all;
-}
-
-EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
-                         const std::vector<FinishedMotion>& motions, const std::string& runs_json,
+EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const Sensitivities& sensitivities,
                          const std::vector<PlacedEffect>& effects) {
   const UnitSystem& units = given.file.units();
   AllowanceCase allowed = given.diagnosis.allowed;
   if (!allowed.time_shift) allowed.time_shift = 0.5 * given.file.common().time.step;
-  const FinishedMotion& base = motions.front();
+  const FinishedMotion& base = sensitivities.motions.front();
   EffectProblem problem = evidence.problem();
   std::vector<const FinishedMotion*> all;
-  for (const FinishedMotion& motion : motions) all.push_back(&motion);
-  add_model_changes(problem, runs_json, evidence.residuals(all), effects, given.diagnosis);
+  for (const FinishedMotion& motion : sensitivities.motions) all.push_back(&motion);
+  add_model_changes(problem, sensitivities.varied, evidence.residuals(all), effects, given.diagnosis);
   add_data_errors(problem, evidence, base, allowed, units.symbol(dimension::length), units.symbol(dimension::time));
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
   return problem;
@@ -68,11 +54,6 @@ MatrixXd residuals_of(const Evidence& evidence, const std::vector<FinishedMotion
   for (std::size_t k = 0; k < motions.size(); ++k)
     if (motions[k].failed()) filled.col(static_cast<Eigen::Index>(k)).setConstant(undefined);
   return filled;
-}
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace tether

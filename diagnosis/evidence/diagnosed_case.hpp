@@ -26,19 +26,11 @@ struct DiagnosedCase {
   Observations data;
 };
 
-/// What runs.json in `folder` lists, in its order; lumens are read when they are asked for. Those that failed are
-/// empty.
-std::vector<FinishedMotion> stored_runs(const std::filesystem::path& folder);
-
-/// Data against the base run, what each candidate and each allowed error does to first order. runs_json: of the
-/// sensitivity runs, `motions` these.
-EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
-                         const std::vector<FinishedMotion>& motions, const std::string& runs_json,
+/// Data against the model as it is, what each candidate and each allowed error does to first order.
+EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const Sensitivities& sensitivities,
                          const std::vector<PlacedEffect>& effects);
 
 /// Data minus model of each run, a column each; where a run has no datum as `otherwise` [n]. NaN for a run that failed.
 MatrixXd residuals_of(const Evidence& evidence, const std::vector<FinishedMotion>& motions, const VectorXd& otherwise);
-
-std::string content_of(const std::filesystem::path& path);
 
 }  // namespace tether

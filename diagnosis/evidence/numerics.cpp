@@ -15,8 +15,6 @@ RefinedCase write(const std::filesystem::path& candidates, const DiagnosedCase& 
                   const std::string& meaning, std::vector<Overlay::Value> values) {
   const std::string suffix = "_" + name;
   const std::filesystem::path file = candidates.parent_path() / ("refined" + suffix + ".yaml");
-  values.push_back({"diagnosis.runs", "trials"});
-  values.push_back({"diagnosis.trials.refined", "{}"});
   const CommonCase& common = given.file.common();
   write_overlay(file, {candidates, common.name + suffix, common.title + ", refined", values});
   return {name, meaning, file};

@@ -15,6 +15,12 @@ struct RefinedCase {
   std::filesystem::path file;
 };
 
+/// Its run, as the nodes of the model's own lumen move in it.
+struct RefinedRun {
+  RefinedCase refined;
+  FinishedMotion motion;
+};
+
 /// Writes cases beside that of all candidates: half the step; of a swept mesh twice the elements around and along.
 std::vector<RefinedCase> write_refined(const std::filesystem::path& candidates, const DiagnosedCase& given);
 

@@ -44,9 +44,9 @@ std::string first_line(const fs::path& path) {
   return line;
 }
 
-/// Of the case and of the version, whose files others may not understand.
-std::string key_of(const fs::path& case_file) {
-  return fmt::format("{:016x} {}", hash_case(yaml_text(as_one_file(read_case_tree(case_file))), 0), built_from);
+/// Of the case, of what else was asked, and of the version, whose files others may not understand.
+std::string key_of(const fs::path& case_file, std::uint64_t asked) {
+  return fmt::format("{:016x} {}", hash_case(yaml_text(as_one_file(read_case_tree(case_file))), asked), built_from);
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ ExplainedSteps::ExplainedSteps(fs::path output, fs::file_time_type data, bool qu
 }
 
 void ExplainedSteps::make(const std::string& title, const fs::path& case_file, const std::string& folder,
-                          const std::string& result, const std::function<void(bool)>& act) {
-  const std::string key = key_of(case_file);
+                          const std::string& result, const std::function<void(bool)>& act, std::uint64_t asked) {
+  const std::string key = key_of(case_file, asked);
   const fs::path made = output_ / folder / result;
   const auto kept = std::find_if(before_.begin(), before_.end(), [&](const ExplainedStep& step) {
     return step.name == title && step.folder == folder && step.key == key;

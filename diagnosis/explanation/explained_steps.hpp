@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
-
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 
 #include "diagnosis/results/explanation.hpp"
 
@@ -16,9 +16,9 @@ class ExplainedSteps {
   ExplainedSteps(std::filesystem::path output, std::filesystem::file_time_type data, bool quiet);
 
   /// Runs a verb on a case, which leaves `result` in OUTPUT/folder. `act` is told whether this very step was begun
-  /// before and did not end. Throws RunError if it fails.
+  /// before and did not end. asked: a hash of what it depends on beside the case. Throws RunError if it fails.
   void make(const std::string& title, const std::filesystem::path& case_file, const std::string& folder,
-            const std::string& result, const std::function<void(bool was_begun)>& act);
+            const std::string& result, const std::function<void(bool was_begun)>& act, std::uint64_t asked = 0);
 
   const std::vector<ExplainedStep>& all() const { return done_; }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
@@ -38,6 +39,12 @@ std::vector<std::string> identified_numbers(const fs::path& case_file) {
     if (const YamlNode* of = parameter.value.find("of"))
       for (const YamlNode& number : of->items) all.push_back(number.text);
   return all;
+}
+
+std::uint64_t hash_of(const DiagnosisSettings& settings) {
+  std::uint64_t hash = hash_bytes(&settings.enough, sizeof settings.enough);
+  for (const std::string& number : settings.refused) hash = hash_values(number, hash);
+  return hash;
 }
 
 /// "with contact at spine and ...", "with other inputs".
@@ -151,12 +158,12 @@ class Explainer {
     for (const std::string& number : identified_numbers(case_of(model.folder()))) assumed.push_back(number);
     for (const auto& value : of_data_) set_value(values, value);
     if (!assumed.empty()) set_value(values, {"diagnosis.assumed", list_text(assumed)});
-    if (!model.refused.empty()) set_value(values, {"diagnosis.refused", list_text(model.refused)});
     set_value(values, {"diagnosis.most", "1"});  // one at a time, all refitted in between
-    set_value(values, {"diagnosis.enough", number_text(enough())});
     write_case(folder, ", its diagnosis", values);
-    steps_.make(fmt::format("model {}: what it lacks", model.told.number), case_of(folder), folder, "diagnosis.json",
-                [&](bool) { return work_.diagnose(task(folder, folder)); });
+    const DiagnosisSettings settings{model.refused, enough()};
+    steps_.make(
+        fmt::format("model {}: what it lacks", model.told.number), case_of(folder), folder, "diagnosis.json",
+        [&](bool) { return work_.diagnose(task(folder, folder), settings); }, hash_of(settings));
     model.diagnosis = read_record<Diagnosis>(output_ / folder / "diagnosis.json");
     return effects_added() < given_.diagnosis.most && !accepted_of(*model.diagnosis, false).empty() &&
            !are_data_to_be_checked();

@@ -2,6 +2,7 @@
 
 #include "diagnosis/evidence/diagnosed_case.hpp"
 #include "diagnosis/explanation/path.hpp"
+#include "diagnosis/search/diagnosis.hpp"
 
 namespace tether {
 
@@ -15,8 +16,9 @@ struct ExplanationTask {
 class ExplanationWork {
  public:
   virtual ~ExplanationWork() = default;
-  virtual void compare(const ExplanationTask& task) = 0;   ///< comparison.json, after a run
-  virtual void diagnose(const ExplanationTask& task) = 0;  ///< diagnosis.json, suggested.yaml
+  virtual void compare(const ExplanationTask& task) = 0;  ///< comparison.json, after a run
+  /// diagnosis.json, suggested.yaml. settings: what came of the path so far.
+  virtual void diagnose(const ExplanationTask& task, const DiagnosisSettings& settings) = 0;
   virtual void identify(const ExplanationTask& task) = 0;  ///< estimate.json, identified.yaml
 };
 

@@ -28,7 +28,8 @@ struct FinishedMotion {
   std::function<RunTrace(const std::string&)> trace;
   /// At points of space that the run was told of, 3 x points, NaN outside the lumen [velocity].
   std::function<Points(const Points&, double)> velocity = {};
-  bool failed() const { return !motion.positions; }  ///< it did not come to its end
+  std::string failure = {};                          ///< why it did not come to its end
+  bool failed() const { return !motion.positions; }  ///< it did not
 };
 
 /// What a model says at one time, while it runs.

@@ -189,25 +189,31 @@ TEST(Coupling, GoesOnFromItsMemoryBitForBit) {
   for (const char* method : {"newton_krylov", "iqn_ils"}) expect_to_go_on_from_memory(method);
 }
 
+StepStart step_of(double dt) {
+  StepStart start;
+  start.dt = dt;
+  return start;
+}
+
 TEST(Extrapolation, IsOfStepsOfOneSizeWithoutFailure) {
   Extrapolation extrapolation;
-  EXPECT_EQ(extrapolation.begin(0.1).size(), 0);
+  EXPECT_EQ(extrapolation.begin(step_of(0.1)).size(), 0);
   extrapolation.end(VectorXd::Constant(3, 2));
-  EXPECT_EQ(extrapolation.begin(0.1), VectorXd::Constant(3, 2));
-  EXPECT_EQ(extrapolation.begin(0.1).size(), 0) << "the step before did not end";
+  EXPECT_EQ(extrapolation.begin(step_of(0.1)), VectorXd::Constant(3, 2));
+  EXPECT_EQ(extrapolation.begin(step_of(0.1)).size(), 0) << "the step before did not end";
   extrapolation.end(VectorXd::Constant(3, 2));
-  EXPECT_EQ(extrapolation.begin(0.05).size(), 0);
+  EXPECT_EQ(extrapolation.begin(step_of(0.05)).size(), 0);
 }
 
 TEST(Extrapolation, TakesLessOfAChangeThatRings) {
   Extrapolation extrapolation;
   const auto after = [&](double first, double second) {
-    extrapolation.begin(0.1);
-    extrapolation.begin(0.1);
+    extrapolation.begin(step_of(0.1));
+    extrapolation.begin(step_of(0.1));
     extrapolation.end(VectorXd::Constant(3, first));
-    extrapolation.begin(0.1);
+    extrapolation.begin(step_of(0.1));
     extrapolation.end(VectorXd::Constant(3, second));
-    return extrapolation.begin(0.1)[0];
+    return extrapolation.begin(step_of(0.1))[0];
   };
   EXPECT_DOUBLE_EQ(after(2, 4), 4);
   EXPECT_DOUBLE_EQ(after(2, 1.5), 0.75);
@@ -221,7 +227,7 @@ TEST(Extrapolation, ForeseesTwoModes) {
   Extrapolation extrapolation;
   double worst = 0;
   for (int k = 0; k < 30; ++k) {
-    const VectorXd guess = extrapolation.begin(0.1);
+    const VectorXd guess = extrapolation.begin(step_of(0.1));
     if (k > 10) worst = std::max(worst, (guess - change(k)).norm() / change(k).norm());
     extrapolation.end(change(k));
     if (k == 15) {

@@ -1,0 +1,70 @@
+#include "diagnosis/search/diagnosis.hpp"
+
+#include "diagnosis/search/further_measurements.hpp"
+#include "diagnosis/search/trials.hpp"
+
+namespace tether {
+namespace {
+
+SearchSettings search_settings(const DiagnosisCase& d, const DiagnosisSettings& settings) {
+  return {d.alpha,       d.unexplained, settings.enough,           d.most,
+          d.refinements, d.confirmed,   SearchSettings{}.compared, settings.refused};
+}
+
+void add_refined(EffectProblem& problem, const Evidence& evidence, const std::vector<RefinedRun>& refined) {
+  for (const auto& [of, motion] : refined)
+    if (!motion.failed())
+      add_numerics(problem, of, problem.residual - residuals_of(evidence, {motion}, problem.residual).col(0));
+}
+
+/// Accepted effects with rivals that these data cannot tell from them. runs: of the sensitivities; the pairs' are
+/// added.
+std::vector<Rivals> rivals_in(const DiagnosisReport& report, const Trials& trials, std::vector<FinishedMotion>& runs) {
+  std::vector<Rivals> pairs;
+  const auto with = [&](const TestedEffect& effect) {
+    runs.push_back(trials.motion_with(effect.run));
+    return static_cast<Eigen::Index>(runs.size()) - 1;
+  };
+  for (const TestedEffect& rival : report.found.effects)
+    for (const TestedEffect& one : report.found.effects)
+      if (one.accepted && rival.rival && !rival.accepted && one.group == rival.group)
+        pairs.push_back({trials.residual_with(one.run), trials.residual_with(rival.run), with(one), with(rival)});
+  return pairs;
+}
+
+/// What would tell those apart that these data cannot.
+std::vector<Split> splits_of(const DiagnosedCase& given, const DiagnosisReport& report, const Evidence& evidence,
+                             const Trials& trials, std::vector<FinishedMotion> motions,
+                             const std::vector<std::string>& columns) {
+  const std::vector<Rivals> pairs = rivals_in(report, trials, motions);
+  if (pairs.empty()) return {};
+  for (FinishedMotion& run : motions)
+    if (run.failed()) run = motions.front();  // it changes nothing, as in the search
+  return splits(report.problem, pairs, further_measurements(given, evidence, motions, columns));
+}
+
+}  // namespace
+
+DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects, ModelRuns& runs,
+                         const std::vector<RefinedRun>& refined, const DiagnosisSettings& settings) {
+  DiagnosisReport report;
+  report.case_name = given.file.common().name;
+  report.title = given.file.common().title;
+  report.alpha = given.diagnosis.alpha;
+  const Sensitivities sensitivities =
+      sensitivities_of(runs, varied_numbers(runs.parameters(), given.diagnosis, given.file));
+  const Evidence evidence(given.data, given.lumen, sensitivities.motions.front());
+  report.problem = problem_of(given, evidence, sensitivities, effects);
+  add_refined(report.problem, evidence, refined);
+  Trials trials(report.problem, evidence, sensitivities.motions.front(), runs);
+  report.found = search_effects(report.problem, search_settings(given.diagnosis, settings),
+                                [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); });
+  report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, runs.columns());
+  report.cost.sensitivity_runs = static_cast<int>(sensitivities.motions.size());
+  report.cost.runs = runs.cost().runs;
+  report.cost.runs_made = runs.cost().made;
+  report.cost.cpu_seconds = runs.cost().cpu_seconds;
+  return report;
+}
+
+}  // namespace tether

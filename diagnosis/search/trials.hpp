@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+
+#include "diagnosis/evidence/diagnosed_case.hpp"
+
+namespace tether {
+
+/// Runs of the model at finite amplitudes, each made once.
+class Trials {
+ public:
+  /// base: the run of the model as it is, at which the problem was posed.
+  Trials(const EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base, ModelRuns& runs);
+
+  /// The residuals with these amplitudes, a column each; errors of the data are added to first order, which is exact
+  /// for most. NaN where the model does not come to its end.
+  MatrixXd residual_at(const MatrixXd& amplitudes);
+  /// Of amplitudes that were run before.
+  VectorXd residual_with(const VectorXd& amplitudes) const;
+  const FinishedMotion& motion_with(const VectorXd& amplitudes) const;
+
+ private:
+  struct Trial {
+    FinishedMotion motion;
+    VectorXd residual;
+  };
+  /// What the model's numbers are then, those that differ.
+  NamedValues values_of(const VectorXd& amplitudes) const;
+  void provide(const MatrixXd& amplitudes);
+
+  const EffectProblem& problem_;
+  const Evidence& evidence_;
+  ModelRuns& runs_;
+  std::map<NamedValues, Trial> known_;
+  int count_ = 0;
+};
+
+}  // namespace tether

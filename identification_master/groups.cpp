@@ -1,0 +1,44 @@
+#include "identification_master/groups.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+
+#include "identification_master/group_memory.hpp"
+
+namespace tether {
+
+using protocol::Partner;
+
+namespace {
+
+std::size_t groups_of_machine(const VesselMesh& vessel) {
+  const auto nodes = static_cast<std::size_t>(vessel.fluid.points.cols() + vessel.wall.points.cols());
+  return std::max<std::size_t>(1, std::min(cores(), groups_within(available_memory(), nodes)));
+}
+
+}  // namespace
+
+std::size_t cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
+}
+
+std::size_t group_count(const GroupsWanted& wanted, const protocol::Session& session) {
+  if (const auto offered = session.offered("fsi_master")) return *offered;
+  return std::min(wanted.most,
+                  wanted.wanted > 0 ? static_cast<std::size_t>(wanted.wanted) : groups_of_machine(wanted.vessel()));
+}
+
+std::vector<Partner*> launch_groups(std::size_t count, const std::filesystem::path& case_file,
+                                    const std::filesystem::path& output, protocol::Session& session) {
+  const protocol::Program program{"fsi_master", "fsi_master", {std::filesystem::absolute(case_file).string()}};
+  std::vector<Partner*> groups;
+  for (Partner& group : session.launch(std::vector<protocol::Program>(count, program), output.string()))
+    groups.push_back(&group);
+  for (Partner* group : groups) group->hello();
+  return groups;
+}
+
+}  // namespace tether

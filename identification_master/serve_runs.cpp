@@ -1,0 +1,68 @@
+#include "identification_master/serve_runs.hpp"
+
+#include "common/base/error.hpp"
+#include "common/config/case_essence.hpp"
+#include "common/config/echo.hpp"
+#include "common/config/output_folder.hpp"
+#include "common/protocol/guard.hpp"
+#include "common/protocol/job.hpp"
+#include "common/protocol/serve.hpp"
+#include "common/protocol/socket_channel.hpp"
+#include "identification_master/groups.hpp"
+#include "identification_master/run_service.hpp"
+#include "vessel/mesh_case.hpp"
+
+namespace tether {
+namespace {
+
+using protocol::Partner;
+
+constexpr double look_every = 0.1;  // seconds
+
+/// A case of which runs are made.
+struct ServedCase {
+  explicit ServedCase(const std::filesystem::path& path) : file(path) {
+    file.read("mesh", mesh);
+    file.finish();
+  }
+  /// The wall's element does not matter: interface nodes are the same.
+  VesselMesh vessel() const { return load_mesh(mesh, file, WallElement::prism); }
+  CaseFile file;
+  MeshCase mesh;
+};
+
+/// Of all that a run depends on beside the values of its numbers.
+std::string hash_of(const protocol::Hello& model, const CaseFile& file) {
+  const std::uint64_t time = hash_case(echo_json("time", file.common().time), hash_case(model.effective_case, 0));
+  return fmt::format("{:016x}", hash_case(echo_json("image", file.common().image), time));
+}
+
+/// Answers until Stop. What a handler throws ends the service.
+void answer_all(protocol::Channel& front_end, RunService& service) {
+  front_end.send(pack(service.hello()));
+  protocol::Packet request;
+  do {
+    request = front_end.receive();
+    front_end.send(protocol::reply_to<protocol::ToRunService>(request, service));
+  } while (!protocol::holds<protocol::Stop>(request));
+}
+
+}  // namespace
+
+void serve_runs(const CommandLine& command, const std::filesystem::path& socket, protocol::Session& session) {
+  const auto front_end = protocol::connect_to({"tether"}, socket);
+  const protocol::Guard watch(look_every, [&](double) {
+    if (front_end->is_left()) protocol::end_job(exit_run_failed);
+  });
+  const ServedCase given(command.case_file);
+  const std::filesystem::path output = std::filesystem::absolute(claim_output(command, given.file));
+  const std::size_t count = group_count({command.processes, cores(), [&given] { return given.vessel(); }}, session);
+  const std::vector<Partner*> groups = launch_groups(count, command.case_file, output, session);
+  GroupRunMakers makers(session, groups);
+  RunService service(makers, hash_of(makers.model(), given.file),
+                     command.steps.value_or(given.file.common().time.steps()));
+  answer_all(*front_end, service);
+  for (Partner* group : groups) group->stop("no more runs are wanted");
+}
+
+}  // namespace tether

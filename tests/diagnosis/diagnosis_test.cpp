@@ -1,0 +1,101 @@
+/// A whole diagnosis without processes: from a case with measured surfaces and runs of a fake to what the model lacks.
+#include "diagnosis/search/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/diagnosis/fake_runs.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/surface_file.hpp"
+
+namespace tether::testing {
+namespace diagnosis_test {
+
+constexpr const char* tube = R"(name: tube
+units: cgs
+time: {step: 0.02, end: 0.8}
+mesh:
+  source: swept
+  swept: {radius: 2, length: 10, wall_thickness: 0.2, around: 24, along: 16, layers: 1,
+          regions: {spine: {angle: [120, 240]}, left: {angle: [0, 120]}, right: {}}}
+)";
+constexpr const char* measured =
+    "observations: {surfaces: {ct: {file: ct.csv, unit: cm, held_out: [2, 5], noise: {deviation: 0.1 mm, "
+    "correlation_length: 5 mm}}}}\n";
+
+const std::vector<std::string> regions{"spine", "left", "right"};
+
+/// A case that was measured: the truth has a spring of 0.8 at the spine.
+std::filesystem::path written_in(const TemporaryFolder& folder) {
+  CaseFile file(folder.file("tube.yaml", tube));
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  const LumenSurface lumen = lumen_of(load_mesh(mesh, file, WallElement::prism));
+  const FakeRuns truth(lumen, regions);
+  std::string list = "file, time [s]\n";
+  for (int frame = 0; frame < 8; ++frame) {
+    const std::string name = fmt::format("s{}.stl", frame);
+    write_stl(folder / name, truth.at(0.1 * frame, {{truth.infos[0].name}, {0.8}}), lumen.triangles);
+    list += fmt::format("{}, {}\n", name, 0.1 * frame);
+  }
+  folder.file("ct.csv", list);
+  return folder.file("case.yaml", std::string(tube) + measured);
+}
+
+class WholeDiagnosis : public ::testing::Test {
+ protected:
+  std::vector<PlacedEffect> effects() const {
+    std::vector<PlacedEffect> all;
+    for (const std::string& region : regions)
+      all.push_back({"solid.effects.spring_" + region, "spring", region, "holds the wall back", true, {}});
+    return all;
+  }
+  DiagnosisReport report(const DiagnosisSettings& settings = {}) {
+    return diagnose(given, effects(), runs, {}, settings);
+  }
+  int trials() const {
+    return static_cast<int>(std::count_if(runs.made.begin(), runs.made.end(),
+                                          [](const std::string& folder) { return folder.starts_with("trials/"); }));
+  }
+
+  TemporaryFolder folder;
+  DiagnosedCase given{written_in(folder)};
+  FakeRuns runs{given.lumen, regions};
+};
+
+TEST_F(WholeDiagnosis, FindsTheHiddenSpringAndItsStiffness) {
+  const DiagnosisReport found = report();
+  EXPECT_EQ(found.found.verdict, Verdict::missing);
+  const TestedEffect& first = found.found.effects.front();
+  EXPECT_TRUE(first.accepted);
+  const Candidate& candidate = found.problem.candidates[first.candidate];
+  EXPECT_EQ(candidate.name, "spring");
+  EXPECT_EQ(candidate.where, "spine");
+  EXPECT_NEAR(first.amplitudes(0), 0.8, 0.02);
+  EXPECT_EQ(found.cost.sensitivity_runs, 4) << "the model as it is, and each spring";
+  EXPECT_EQ(found.cost.runs, 4 + trials());
+  EXPECT_GE(trials(), 1);
+  EXPECT_LE(trials(), 4) << "a linear model is known after two of each";
+}
+
+TEST_F(WholeDiagnosis, WhatWasRefusedIsNotAcceptedAgain) {
+  const DiagnosisReport found = report({.refused = {runs.infos[0].name}});
+  EXPECT_FALSE(found.found.effects.front().accepted);
+  EXPECT_NE(found.found.verdict, Verdict::missing);
+}
+
+TEST_F(WholeDiagnosis, ARunThatFailsIsLeftOut) {
+  runs.fails = {"candidates/runs/" + runs.infos[1].name};
+  const DiagnosisReport found = report();
+  EXPECT_EQ(found.found.verdict, Verdict::missing);
+  EXPECT_EQ(found.problem.candidates[found.found.effects.front().candidate].where, "spine");
+  for (const Candidate& candidate : found.problem.candidates) EXPECT_NE(candidate.where, "left");
+}
+
+TEST_F(WholeDiagnosis, WithoutTheModelAsItIsThereIsNone) {
+  runs.fails = {"candidates/runs/base"};
+  EXPECT_EQ(message_of([&] { report(); }), "the model as it is: too much");
+  EXPECT_EQ(runs.made.size(), 1U);
+}
+
+}  // namespace diagnosis_test
+}  // namespace tether::testing

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "diagnosis/evidence/model_runs.hpp"
+#include "observation_manager/measurements/lumen_surface.hpp"
+
+namespace tether::testing {
+
+/// Runs of a tube about the z axis that beats with period 0.8: springs at its regions, each a number of the model, hold
+/// the wall back by half a millimetre a unit.
+struct FakeRuns : ModelRuns {
+  explicit FakeRuns(const LumenSurface& of, const std::vector<std::string>& regions) : lumen(of) {
+    for (const std::string& region : regions)
+      infos.push_back({"solid.effects.spring_" + region + ".stiffness", "of the spring", "1", "linear", 0, 0, 0,
+                       infinite, undefined, 1});
+  }
+  const std::vector<protocol::ParameterInfo>& parameters() const override { return infos; }
+  std::vector<std::string> columns() const override { return {}; }
+  RunsCost cost() const override { return {static_cast<int>(made.size()), static_cast<int>(made.size()), 0, 0}; }
+  std::vector<FinishedMotion> make(const std::vector<WantedRun>& wanted) override {
+    std::vector<FinishedMotion> all;
+    for (const WantedRun& run : wanted) {
+      made.push_back(run.folder);
+      all.push_back(fails.contains(run.folder) ? FinishedMotion{{}, {}, {}, "too much"} : motion(run.values));
+    }
+    return all;
+  }
+
+  Points at(double time, const NamedValues& values) const {
+    const double beat = 0.5 * (1 - std::cos(2 * std::numbers::pi * time / 0.8));
+    Points x = lumen.points;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      double moved = 0.2;  // cm
+      for (std::size_t k = 0; k < values.names.size(); ++k)
+        if (values.names[k].find(lumen.region_names.at(
+                static_cast<std::size_t>(lumen.region[static_cast<std::size_t>(i)]))) != std::string::npos)
+          moved -= 0.05 * values.values[k];
+      x.col(i).head<2>() += beat * moved * lumen.points.col(i).head<2>().normalized();
+    }
+    return x;
+  }
+  FinishedMotion motion(const NamedValues& values) const {
+    return {{0, 0.8, lumen.points, [this, values](double time) { return at(time, values); }}, {}};
+  }
+
+  const LumenSurface& lumen;
+  std::vector<protocol::ParameterInfo> infos;
+  std::set<std::string> fails;    ///< folders of runs that do not come to their end
+  std::vector<std::string> made;  ///< folders
+};
+
+}  // namespace tether::testing
