@@ -5,6 +5,7 @@
 
 #include "common/base/error.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
+#include "diagnosis/evidence/patterns.hpp"
 #include "diagnosis/evidence/stored_run.hpp"
 
 namespace tether {
@@ -55,7 +56,7 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence,
   std::vector<const FinishedMotion*> all;
   for (const FinishedMotion& motion : motions) all.push_back(&motion);
   add_model_changes(problem, runs_json, evidence.residuals(all), effects, given.diagnosis);
-  add_data_errors(problem, evidence, base, allowed, units.symbol(dimension::length), units.symbol(dimension::time));
+  add_data_errors(problem, evidence, base, allowed, units);
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
   return problem;
 }
