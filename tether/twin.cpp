@@ -136,10 +136,12 @@ TwinFrames write_data(const fs::path& folder, const CaseWithTwin& given, const T
   TwinFrames frames = make_frames(given.twin, given.file.units(), lumen, given.file.where("twin"));
   write_frames(folder / "data", frames.frames);
   std::uint64_t seed = static_cast<std::uint64_t>(given.twin.seed) * 16 + 8;
-  for (const auto& [name, trace] : given.twin.traces)
-    write_trace(folder / "data" / (name + ".csv"),
-                make_trace(trace, truth.series.numbers("time"), truth.series.numbers(trace.observable), first, seed++),
-                truth.series.unit(trace.observable));
+  for (const auto& [name, trace] : given.twin.traces) {
+    TwinTrace made =
+        make_trace(trace, truth.series.numbers("time"), truth.series.numbers(trace.observable), first, seed++);
+    given.twin.faults.spoil(name, made.times, made.values);
+    write_trace(folder / "data" / (name + ".csv"), made, truth.series.unit(trace.observable));
+  }
   return frames;
 }
 

@@ -1,17 +1,8 @@
 #include "twin/twin_case.hpp"
 
-#include <algorithm>
-
 #include "observation_manager/measurements/trace_case.hpp"
 
 namespace tether {
-namespace {
-
-constexpr IntegerRange frame_range{-1};
-constexpr const char* frame_meaning = "number of the frame, from 0; -1: all";
-
-}  // namespace
-
 void TwinImageCase::declare(Fields& f) {
   f.numbers("voxel", voxel, {3, dimension::length, range::not_negative},
             "size of a voxel in x, y, z; absent: 0.6 x 0.6 x 1 mm; [0, 0, 0]: no image, the truth's surface itself");
@@ -20,32 +11,6 @@ void TwinImageCase::declare(Fields& f) {
   f.flag("mask", mask,
          "whether voxels are marked as inside or outside, as by hand; false: the level 1/2 of the grey values");
   f.integer("smoothing", smoothing, {0, 1000}, "passes that smooth the voxels' steps away");
-}
-
-void TwinFaultsCase::Mistimed::declare(Fields& f) {
-  f.integer("frame", frame, frame_range, frame_meaning);
-  f.number("shift", shift, dimension::time, range::any, "the frame shows the vessel that much later than it says");
-}
-
-void TwinFaultsCase::Misplaced::declare(Fields& f) {
-  f.integer("frame", frame, frame_range, frame_meaning);
-  f.point("offset", offset, dimension::length, "added to the frame's coordinates");
-}
-
-void TwinFaultsCase::Cropped::declare(Fields& f) {
-  f.integer("frame", frame, frame_range, frame_meaning);
-  f.point("point", point, dimension::length, "of the plane");
-  f.point("normal", normal, dimension::none, "of the plane: what lies on this side is cut off");
-}
-
-void TwinFaultsCase::declare(Fields& f) {
-  f.numbers("lost", lost, {0, dimension::none, range::not_negative}, "numbers of frames (from 0) that are missing");
-  f.group("mistimed", mistimed, "a frame with a wrong time");
-  f.group("misplaced", misplaced, "a frame that is moved as a whole");
-  f.group("cropped", cropped, "a frame that shows a part only");
-  f.number("bias", bias, dimension::length, range::any, "added along the outward normal, as by a wrong threshold");
-  f.number("clipped_ends", clipped_ends, dimension::length, range::not_negative,
-           "nothing is segmented within this distance of the vessel's ends");
 }
 
 void TwinTraceCase::declare(Fields& f) {

@@ -15,31 +15,6 @@ struct TwinImageCase {
   void declare(Fields& f);
 };
 
-/// What goes wrong with data. Frames by their number from 0; -1: all of them.
-struct TwinFaultsCase {
-  struct Mistimed {
-    int frame = -1;
-    double shift = 0;
-    void declare(Fields& f);
-  };
-  struct Misplaced {
-    int frame = -1;
-    Vec3 offset{undefined, undefined, undefined};
-    void declare(Fields& f);
-  };
-  struct Cropped {
-    int frame = -1;
-    Vec3 point{undefined, undefined, undefined}, normal{undefined, undefined, undefined};
-    void declare(Fields& f);
-  };
-  std::vector<double> lost;
-  std::optional<Mistimed> mistimed;
-  std::optional<Misplaced> misplaced;
-  std::optional<Cropped> cropped;
-  double bias = 0, clipped_ends = 0;
-  void declare(Fields& f);
-};
-
 /// A measured trace to make.
 struct TwinTraceCase {
   std::string observable, quantity;
@@ -70,7 +45,7 @@ struct TwinCase {
   std::vector<double> held_out;
   TwinImageCase image;
   NoiseCase noise;
-  TwinFaultsCase faults;
+  Faults faults;
   Named<TwinTraceCase> traces;
   HiddenCase hidden;
   void declare(Fields& f);

@@ -5,9 +5,7 @@
 
 #include "common/base/curve.hpp"
 #include "common/base/error.hpp"
-#include "common/mesh/locator.hpp"
 #include "common/mesh/surface.hpp"
-#include "common/mesh/topology.hpp"
 #include "observation_manager/measurements/open_ends.hpp"
 #include "twin/closed_lumen.hpp"
 #include "twin/noise.hpp"
@@ -20,14 +18,6 @@ enum Purpose : std::uint64_t { of_grid = 1, of_surfaces, of_triangles };
 
 std::uint64_t seed_of(const TwinCase& given, Purpose purpose) {
   return static_cast<std::uint64_t>(given.seed) * 16 + purpose;
-}
-
-bool concerns(int fault, int frame) {
-  return fault < 0 || fault == frame;
-}
-
-bool is_lost(const TwinFaultsCase& faults, int frame) {
-  return std::find(faults.lost.begin(), faults.lost.end(), frame) != faults.lost.end();
 }
 
 /// The image's voxels, and how far beyond the vessel they reach.
@@ -78,54 +68,15 @@ std::vector<double> squared_errors(const Points& truth, const TriangleSurface& s
   return squares;
 }
 
-TriangleSurface without_ends(const TriangleSurface& surface, const TriangleSurface& truth, double distance) {
-  std::vector<int> ends;
-  for (const auto& rim : rims(truth.triangles)) ends.insert(ends.end(), rim.begin(), rim.end());
-  if (distance == 0 || ends.empty()) return surface;
-  const PointLocator locator(truth.points(Eigen::all, ends));
-  std::vector<bool> keep;
-  for (const Triangle& t : surface.triangles)
-    keep.push_back(std::all_of(
-        t.begin(), t.end(), [&](int node) { return locator.nearest(surface.points.col(node)).distance >= distance; }));
-  return part_of(surface, keep);
-}
-
-TriangleSurface cut_off(const TriangleSurface& surface, const TwinFaultsCase::Cropped& crop) {
-  std::vector<bool> keep;
-  for (const Triangle& t : surface.triangles)
-    keep.push_back(std::all_of(
-        t.begin(), t.end(), [&](int node) { return (surface.points.col(node) - crop.point).dot(crop.normal) <= 0; }));
-  return part_of(surface, keep);
-}
-
 void move_along_normals(TriangleSurface& surface, const VectorXd& distance) {
   surface.points += nodal_normals(surface.points, surface.triangles) * distance.asDiagonal();
 }
 
-/// The moment that a frame shows.
-double moment(const TwinCase& given, int frame, double stated) {
-  const auto& late = given.faults.mistimed;
-  return late && concerns(late->frame, frame) ? stated + late->shift : stated;
-}
-
-void spoil(TriangleSurface& surface, const TriangleSurface& truth, const TwinFaultsCase& faults, int frame) {
-  surface = without_ends(surface, truth, faults.clipped_ends);
-  if (faults.misplaced && concerns(faults.misplaced->frame, frame))
-    surface.points.colwise() += faults.misplaced->offset;
-  if (faults.cropped && concerns(faults.cropped->frame, frame)) surface = cut_off(surface, *faults.cropped);
-}
-
 void check_frames(const TwinCase& given, const std::vector<double>& times, const TrueLumen& truth,
                   const std::string& where) {
-  const auto number_of = [](const auto& fault) { return fault ? fault->frame : -1; };
-  const TwinFaultsCase& faults = given.faults;
-  for (const int frame : {number_of(faults.mistimed), number_of(faults.misplaced), number_of(faults.cropped)})
-    if (frame >= given.frames)
-      throw input_error("{}.faults: frame {} of {}, counted from 0", where, frame, given.frames);
-  if (std::all_of(times.begin(), times.end(), [&, frame = 0](double) mutable { return is_lost(faults, frame++); }))
-    throw input_error("{}.faults.lost: no frame is left", where);
+  given.faults.check(given.frames, where + ".faults");
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const double time = moment(given, static_cast<int>(i), times[i]);
+    const double time = times[i] + given.faults.delay(static_cast<int>(i));
     if (time < truth.start - 1e-9 || time > truth.end + 1e-9)
       throw input_error("{}: frame {} shows the time {:.6g}, but the truth's run is from {:.6g} to {:.6g}", where, i,
                         time, truth.start, truth.end);
@@ -152,15 +103,15 @@ TwinFrames make_frames(const TwinCase& given, const UnitSystem& units, const Tru
   TwinFrames result;
   std::vector<double> errors;
   for (int frame = 0; frame < given.frames; ++frame) {
-    if (is_lost(given.faults, frame)) continue;
+    if (given.faults.lose(frame)) continue;
     const auto i = static_cast<std::size_t>(frame);
-    const double shown = std::clamp(moment(given, frame, times[i]), truth.start, truth.end);
+    const double shown = std::clamp(times[i] + given.faults.delay(frame), truth.start, truth.end);
     const TriangleSurface lumen = round_lumen({truth.positions(shown), truth.triangles}, seed_of(given, of_triangles));
     TriangleSurface surface = scanner.is_on() ? imaged(lumen, scanner, given.image) : lumen;
     if (scanner.is_on())
       for (const double square : squared_errors(lumen.points, surface)) errors.push_back(square);
-    move_along_normals(surface, noise(i, surface.points).array() + given.faults.bias);
-    spoil(surface, lumen, given.faults, frame);
+    move_along_normals(surface, noise(i, surface.points).array() + given.faults.moved_outward());
+    given.faults.spoil(surface, lumen, frame);
     result.frames.push_back({frame, times[i], std::move(surface)});
   }
   double sum = 0;

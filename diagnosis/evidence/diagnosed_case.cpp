@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
+#include "diagnosis/evidence/patterns.hpp"
 
 namespace tether {
 namespace {
@@ -41,7 +42,7 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, c
   std::vector<const FinishedMotion*> all;
   for (const FinishedMotion& motion : sensitivities.motions) all.push_back(&motion);
   add_model_changes(problem, sensitivities.varied, evidence.residuals(all), effects, given.diagnosis);
-  add_data_errors(problem, evidence, base, allowed, units.symbol(dimension::length), units.symbol(dimension::time));
+  add_data_errors(problem, evidence, base, allowed, units);
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
   return problem;
 }

@@ -7,8 +7,7 @@
 namespace tether {
 
 /// What the case must say so that the errors of the data that a diagnosis accepted are taken off them: on top of what
-/// it says of them already. Frames that are wrong alone are left out. Nothing for a blur, nor for a rotation beside
-/// another.
+/// it says of them already. Frames that are wrong alone are left out; nothing for what its fault cannot take off.
 std::vector<Overlay::Value> corrections_of(const DiagnosisReport& report, const ObservationsCase& observations);
 
 }  // namespace tether

@@ -179,7 +179,7 @@ void correct(std::vector<Drawn>& drawn, const SlicesCase& given) {
   const auto& out = given.data.left_out;
   std::erase_if(drawn, [&](const Drawn& one) { return std::find(out.begin(), out.end(), one.frame) != out.end(); });
   if (drawn.empty()) throw input_error("{}: left_out: no frame is left", given.file.string());
-  for (Drawn& one : drawn) one.points = given.data.correction.corrected(one.points);
+  for (Drawn& one : drawn) one.points = given.data.correction.faults.corrected(one.points);
 }
 
 /// Only the slices that the case names.

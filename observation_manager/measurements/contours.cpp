@@ -19,7 +19,7 @@ const MeasurementKind kinds::contours{
     .name = "contours",
     .meaning = "contours of the lumen in slices, by name",
     .formats = "one .csv with a row for each point: slice, frame, time, x, y, z, and contour and closed if needed",
-    .fallible = {.in_place = true, .in_threshold = true, .in_time = true},
+    .fallible = fallible::image,
     .on_lumen = true,
     .section = section_of<SlicesCase, kinds::contours>};
 

@@ -12,6 +12,7 @@ struct SlicesCase {
   std::optional<double> beat, period;
   int samples = 64;
   LumenDataCase data;
+  StatedErrors stated_errors() const { return data.stated_errors(); }
   void declare(Fields& f);
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,18 @@
 namespace tether {
 
 class CaseFile;
+struct CorrectionCase;
 struct FlowObservations;
 struct LumenSurface;
 struct MeasurementKind;
 struct Observations;
+
+/// What a case says is wrong with a source.
+struct StatedErrors {
+  const CorrectionCase* correction = nullptr;
+  double time_shift = 0;
+  std::vector<double> left_out;
+};
 
 /// The sources of one kind as a case names them: its section of `observations`.
 class KindSection {
@@ -22,18 +31,24 @@ class KindSection {
   virtual void declare(Fields& f) = 0;
   virtual std::vector<std::string> names() const = 0;
   virtual std::unique_ptr<KindSection> copy() const = 0;
+  /// Nothing of a kind without faults. Throws std::logic_error if there is no such source.
+  virtual StatedErrors errors_of(const std::string& name) const = 0;
   const MeasurementKind& kind() const { return kind_; }
 
  private:
   const MeasurementKind& kind_;
 };
 
-/// How data may err beside their noise: each fault of the data (diagnosis/evidence) says what it needs to happen to.
+/// How data may err beside their noise: each fault of the data (faults/) says what it needs to happen to.
 struct Fallible {
   bool in_place = false;      ///< they show where the wall is: an image of it, displaced, turned, or off in one region
   bool in_threshold = false;  ///< they are drawn at an edge of an image: too far out, or blurred
   bool in_time = false;       ///< a time is stated for each frame
+  bool in_value = false;      ///< they are read off an instrument, which may drift
 };
+namespace fallible {
+inline constexpr Fallible image{.in_place = true, .in_threshold = true, .in_time = true}, instrument{.in_value = true};
+}
 
 /// A kind of measurement: declared beside its code in one file, listed once in registry.cpp.
 struct MeasurementKind {
@@ -64,6 +79,14 @@ class SectionOf : public KindSection {
     return all;
   }
   std::unique_ptr<KindSection> copy() const override { return std::make_unique<SectionOf>(*this); }
+  StatedErrors errors_of(const std::string& name) const override {
+    for (const auto& [known, source] : sources)
+      if (known == name) {
+        if constexpr (requires { source.stated_errors(); }) return source.stated_errors();
+        return {};
+      }
+    throw std::logic_error(name + ": no such source");
+  }
   Named<Case> sources;
 };
 

@@ -48,7 +48,7 @@ SourceSettings settings_of(const LumenDataCase& data, double period, const Lumen
   settings.of_node = excluded_nodes(data, lumen, source);
   settings.region = lumen.region;
   settings.noise = noise_of(data.noise);
-  settings.outward = data.correction.outward;
+  settings.outward = data.correction.faults.outward();
   if (const double radius = mean_radius({lumen.points, lumen.triangles}); std::abs(settings.outward) > 0.5 * radius)
     throw input_error("{}: {:g} is more than half of the vessel's mean radius, {:.3g}",
                       source.where("correction.outward"), settings.outward, radius);
@@ -61,7 +61,7 @@ bool holds(const std::vector<double>& numbers, double number) {
 
 /// What the case takes off the data.
 void note_corrections(std::vector<std::string>& notes, const LumenDataCase& data, const CaseFile& file) {
-  for (std::string& note : data.correction.notes(file.units().symbol(dimension::length)))
+  for (std::string& note : data.correction.faults.notes(file.units().symbol(dimension::length)))
     notes.push_back(std::move(note));
   if (!data.left_out.empty()) notes.push_back(fmt::format("left out: frames {:g}", fmt::join(data.left_out, ", ")));
 }

@@ -1,20 +1,8 @@
 #include "observation_manager/measurements/observation_case.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 
 namespace tether {
-namespace {
-
-Vec3 vector_of(const std::vector<double>& numbers) {
-  return numbers.size() == 3 ? Vec3(numbers.data()) : Vec3::Zero();
-}
-
-}  // namespace
-
 void NoiseCase::declare(Fields& f) {
   f.number("deviation", deviation, dimension, range::not_negative,
            "standard deviation of a single value; 0: not known");
@@ -22,37 +10,6 @@ void NoiseCase::declare(Fields& f) {
            "distance along the wall within which errors are alike; 0: not known");
   f.number("correlation_time", correlation_time, dimension::time, range::not_negative,
            "time within which errors are alike; 0: not known");
-}
-
-void CorrectionCase::declare(Fields& f) {
-  f.numbers("displacement", displacement, {3, dimension::length, range::any}, "added to the data's coordinates");
-  f.numbers("rotation", rotation, {3, dimension::none, range::any},
-            "axis times angle in radians by which the data are turned, before they are displaced");
-  f.numbers("about", about, {3, dimension::length, range::any}, "point about which they are turned; absent: 0, 0, 0");
-  f.number("outward", outward, dimension::length, range::any,
-           "by which the measured lumen is moved out along its normal: that much was segmented too small");
-  constexpr double eighth_of_a_turn = 0.786;
-  f.check(vector_of(rotation).norm() < eighth_of_a_turn, "rotation", "must be below 45 degrees; it is in radians");
-}
-
-std::vector<std::string> CorrectionCase::notes(const std::string& unit) const {
-  std::vector<std::string> all;
-  const Vec3 by = vector_of(displacement), turned = vector_of(rotation);
-  if (turned.norm() > 0)
-    all.push_back(fmt::format("corrected: turned by {:.3g} degrees", turned.norm() * 180 / std::numbers::pi));
-  if (by.norm() > 0)
-    all.push_back(fmt::format("corrected: displaced by ({:.3g}, {:.3g}, {:.3g}) {}", by(0), by(1), by(2), unit));
-  if (outward != 0) all.push_back(fmt::format("corrected: moved outward by {:.3g} {}", outward, unit));
-  return all;
-}
-
-Points CorrectionCase::corrected(Points points) const {
-  const Vec3 turned = vector_of(rotation), by = vector_of(displacement), middle = vector_of(about);
-  if (turned.norm() > 0)
-    points = (Eigen::AngleAxisd(turned.norm(), turned.normalized()).toRotationMatrix() * (points.colwise() - middle))
-                 .colwise() +
-             middle;
-  return points.colwise() + by;
 }
 
 void LumenDataCase::declare(Fields& f) {
@@ -82,6 +39,13 @@ ObservationsCase::ObservationsCase(const ObservationsCase& other) {
 
 void ObservationsCase::declare(Fields& f) {
   for (const auto& section : sections_) section->declare(f);
+}
+
+StatedErrors ObservationsCase::errors_of(const std::string& field) const {
+  for (const auto& section : sections_)
+    if (const std::string prefix = "observations." + section->kind().name + "."; field.starts_with(prefix))
+      return section->errors_of(field.substr(prefix.size()));
+  throw std::logic_error(field + ": no such source");
 }
 
 bool ObservationsCase::has_lumen_data() const {

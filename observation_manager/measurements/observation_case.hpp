@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/config/fields.hpp"
+#include "observation_manager/measurements/faults/faults.hpp"
 #include "observation_manager/measurements/registry.hpp"
 
 /// The section `observations` of a case: what was measured, and what is known of its errors.
@@ -18,13 +19,9 @@ struct NoiseCase {
 
 /// What is known to be wrong with data, and is taken off them before they are used.
 struct CorrectionCase {
-  std::vector<double> displacement, rotation, about;  ///< empty: zero; else three numbers [length], [rad], [length]
-  double outward = 0;                                 ///< [length]
-  void declare(Fields& f);
-  /// What is done to the data, for people: a line each.
-  std::vector<std::string> notes(const std::string& unit) const;
-  /// Points of the data where they should be.
-  Points corrected(Points points) const;
+  explicit CorrectionCase(const Fallible& data) : faults(data) {}
+  Faults faults;
+  void declare(Fields& f) { faults.declare_corrections(f); }
 };
 
 /// What sources of lumen data have in common: where on the wall and when they count, and their errors.
@@ -33,9 +30,10 @@ struct LumenDataCase {
   std::optional<double> trust_distance;
   std::vector<std::string> masked_regions;
   std::vector<double> held_out, left_out;
-  CorrectionCase correction;
+  CorrectionCase correction{fallible::image};
   NoiseCase noise;
   void declare(Fields& f);
+  StatedErrors stated_errors() const { return {&correction, time_shift, left_out}; }
 };
 
 /// What was measured: for each kind its sources.
@@ -47,6 +45,8 @@ class ObservationsCase {
   ObservationsCase& operator=(ObservationsCase) = delete;
   void declare(Fields& f);
   bool has_lumen_data() const;
+  /// Of a source by its place in the case: "observations.surfaces.ct". Throws std::logic_error if there is none.
+  StatedErrors errors_of(const std::string& field) const;
   const std::vector<std::unique_ptr<KindSection>>& sections() const { return sections_; }
 
   /// The sources of the kind whose section reads a `Case`: of<SurfacesCase>().

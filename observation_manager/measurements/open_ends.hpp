@@ -27,7 +27,4 @@ TriangleSurface closed_by_fans(const LumenSurface& lumen);
 /// 2 V / A of a surface with its holes closed by fans, A without them: the radius of a tube [length].
 double mean_radius(const TriangleSurface& surface);
 
-/// The triangles that `keep` says, with their points.
-TriangleSurface part_of(const TriangleSurface& surface, const std::vector<bool>& keep);
-
 }  // namespace tether

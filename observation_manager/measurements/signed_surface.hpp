@@ -3,15 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "common/base/types.hpp"
+#include "observation_manager/measurements/triangle_surface.hpp"
 
 namespace tether {
-
-/// A triangulated surface as a file holds it: triangles counterclockwise seen from outside the lumen.
-struct TriangleSurface {
-  Points points;  ///< [length]
-  std::vector<Triangle> triangles;
-};
 
 /// What of a triangle is closest to a point.
 enum class Feature { face, edge, vertex };

@@ -89,7 +89,7 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
     const double label = labels[frames.size()];
     const std::string name = timed.file.string();
     TriangleSurface read = read_surface(timed.file, scale);
-    read.points = given.data.correction.corrected(read.points);
+    read.points = given.data.correction.faults.corrected(read.points);
     CheckedSurface checked = checked_surface(name, std::move(read));
     check_size(name, checked.surface, lumen, given.unit);
     open_ends(checked, openings);

@@ -20,7 +20,7 @@ const MeasurementKind kinds::surfaces{
     .name = "surfaces",
     .meaning = "segmented surfaces of the lumen, by name",
     .formats = "one surface a frame in .vtp, .stl, .ply or .vtk; a list of them in .pvd or .csv",
-    .fallible = {.in_place = true, .in_threshold = true, .in_time = true},
+    .fallible = fallible::image,
     .on_lumen = true,
     .section = section_of<SurfacesCase, kinds::surfaces>};
 

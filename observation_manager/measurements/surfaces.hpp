@@ -10,6 +10,7 @@ struct SurfacesCase {
   std::string pattern, unit;
   std::optional<double> first_time, interval, period;
   LumenDataCase data;
+  StatedErrors stated_errors() const { return data.stated_errors(); }
   void declare(Fields& f);
 };
 

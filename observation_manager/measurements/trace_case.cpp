@@ -30,6 +30,7 @@ void TraceCase::declare(Fields& f) {
     f.flag("absolute", absolute, "the pressure of the image is subtracted, to which the run's pressures are relative");
   });
   f.flag("held_out", held_out, "the model never sees it: it judges");
+  if (!correction.faults.empty()) f.group("correction", correction, "what is wrong with the values, taken off them");
   f.group("noise", noise, "errors of the values");
 }
 

@@ -14,8 +14,10 @@ struct TraceCase {
   CurveCase curve = CurveCase(Dimension{});
   double time_shift = 0;
   bool absolute = true, held_out = false;
+  CorrectionCase correction{fallible::instrument};
   NoiseCase noise;
   void declare(Fields& f);
+  StatedErrors stated_errors() const { return {&correction, time_shift, {}}; }
 };
 
 }  // namespace tether

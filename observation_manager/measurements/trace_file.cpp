@@ -41,6 +41,7 @@ Trace load_trace(const std::string& name, const TraceCase& given, const CaseFile
   const bool shifted = given.quantity == "pressure" && given.absolute;
   for (double& time : table.times) time += given.time_shift;
   for (double& value : table.values) value = given.curve.scale * value - (shifted ? file.common().image.pressure : 0);
+  given.correction.faults.correct(table.times, table.values);
   const double period = given.curve.period.value_or(0);
   check_range(table.times, period, file.common().time, where);
   Curve curve(table.times, table.values, {.period = period});
@@ -59,7 +60,7 @@ Trace load_trace(const std::string& name, const TraceCase& given, const CaseFile
 const MeasurementKind kinds::traces{.name = "traces",
                                     .meaning = "measured pressures and flows, by name",
                                     .formats = "one .csv with a column of times and one of values",
-                                    .fallible = {},
+                                    .fallible = fallible::instrument,
                                     .on_lumen = false,
                                     .section = section_of<TraceCase, kinds::traces>,
                                     .load = load_traces_of};

@@ -4,19 +4,23 @@
 
 #include <map>
 
-#include "observation_manager/measurements/surfaces.hpp"
+#include "common/config/case_file.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 namespace {
 
 /// What the case says of the data already stays.
 TEST(CorrectedData, AreWhatTheDiagnosisAsksFor) {
+  const TemporaryFolder folder;
+  folder.file("ct.stl", "");
+  CaseFile file(folder.file("case.yaml",
+                            "name: tube\nunits: cgs\ntime: {step: 1e-2, end: 1}\nobservations: {surfaces: {ct: {file: "
+                            "ct.stl, unit: cm, time_shift: 0.01, left_out: [1], correction: {displacement: [0.5, 0, "
+                            "0]}}}}\n"));
   ObservationsCase observations;
-  observations.of<SurfacesCase>().emplace_back("ct", SurfacesCase{});
-  LumenDataCase& ct = observations.of<SurfacesCase>()[0].second.data;
-  ct.correction.displacement = {0.5, 0, 0};
-  ct.time_shift = 0.01;
-  ct.left_out = {1};
+  file.read("observations", observations);
+  file.finish();
   DiagnosisReport report;
   const auto accept = [&](const std::string& name, const std::vector<std::string>& axes, const VectorXd& amplitudes,
                           double frame = undefined) {

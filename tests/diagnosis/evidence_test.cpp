@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/evidence/data_errors.hpp"
+#include "diagnosis/evidence/patterns.hpp"
 #include "tests/observation_manager/measured_samples.hpp"
 
 namespace tether::testing {
@@ -96,7 +97,7 @@ TEST(Evidence, FaultsAreOnlyThoseThatDataCanHave) {
   const Evidence evidence(data, lumen, base);
   EffectProblem problem = evidence.problem();
   const AllowanceCase allowed;
-  add_data_errors(problem, evidence, base, allowed, "cm", "s");
+  add_data_errors(problem, evidence, base, allowed, UnitSystem::cgs());
   add_patterns(problem, evidence, allowed, 0, 0.8);
   EXPECT_TRUE(problem.candidates.empty());
   EXPECT_EQ(problem.allowed.cols(), 0);

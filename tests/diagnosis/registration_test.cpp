@@ -39,7 +39,7 @@ EffectProblem problem_of(const Observations& data) {
   const FinishedMotion base{beating_run(1), {}};
   const Evidence evidence(data, surface, base);
   EffectProblem problem = evidence.problem();
-  add_data_errors(problem, evidence, base, {}, "cm", "s");
+  add_data_errors(problem, evidence, base, {}, UnitSystem::cgs());
   return problem;
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.hpp"
+#include "common/config/case_file.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/twin/shapes.hpp"
 
 namespace tether {
@@ -32,6 +34,19 @@ TwinCase with_voxels() {
   given.image.voxel = {};
   given.frames = 2;
   return given;
+}
+
+/// As a case says them.
+Faults faults_of(const std::string& text) {
+  const TemporaryFolder folder;
+  CaseFile file(folder.file("case.yaml",
+                            "name: tube\nunits: mm-g-s\ntime: {step: 1e-2, end: 2}\ntwin: {truth: case.yaml, hidden: "
+                            "{verdict: nothing_missing}, faults: {" +
+                                text + "}}\n"));
+  TwinCase given;
+  file.read("twin", given);
+  file.finish();
+  return given.faults;
 }
 
 TwinFrames made(const TwinCase& given) {
@@ -118,10 +133,9 @@ TEST(TwinFrames, HaveNoiseOfTheStatedSizeAndReach) {
 TEST(TwinFaults, DoWhatTheySay) {
   const TwinFrames right = made(plain());
   TwinCase given = plain();
-  given.faults.lost = {3, 7};
-  given.faults.mistimed = TwinFaultsCase::Mistimed{2, 0.05};
-  given.faults.misplaced = TwinFaultsCase::Misplaced{4, Vec3(1, 2, 3)};
-  given.faults.cropped = TwinFaultsCase::Cropped{5, Vec3(0, 0, 10), Vec3(0, 0, 2)};
+  given.faults = faults_of(
+      "lost: [3, 7], mistimed: {frame: 2, shift: 0.05}, misplaced: {frame: 4, offset: [1, 2, 3]}, "
+      "cropped: {frame: 5, point: [0, 0, 10], normal: [0, 0, 2]}");
   const TwinFrames wrong = made(given);
   ASSERT_EQ(wrong.frames.size(), 8U);
   std::vector<int> numbers;
@@ -146,9 +160,7 @@ TEST(TwinFaults, ConcernAllFramesUnlessOneIsNamed) {
   const TwinFrames right = made(plain());
   TwinCase given = plain();
   given.first = 1;
-  given.faults.mistimed = TwinFaultsCase::Mistimed{-1, 0.1};
-  given.faults.bias = 0.5;
-  given.faults.clipped_ends = 6;
+  given.faults = faults_of("mistimed: {shift: 0.1}, bias: 0.5, clipped_ends: 6");
   for (const TwinFrame& frame : made(given).frames) {
     EXPECT_NEAR(radius_of(frame.surface), radius_at(frame.time + 0.1) + 0.5, 2e-3);
     EXPECT_LT(frame.surface.points.row(2).cwiseAbs().maxCoeff(), 20 - std::sqrt(6 * 6 - 0.5 * 0.5) + 1e-3);
@@ -166,13 +178,13 @@ TEST(TwinFaults, OfFramesThatDoNotExistAreTold) {
     return "no error";
   };
   TwinCase given = plain();
-  given.faults.misplaced = TwinFaultsCase::Misplaced{10, Vec3(1, 0, 0)};
+  given.faults = faults_of("misplaced: {frame: 10, offset: [1, 0, 0]}");
   EXPECT_EQ(error_of(given), "case.yaml:9: twin.faults: frame 10 of 10, counted from 0");
   given = plain();
-  given.faults.mistimed = TwinFaultsCase::Mistimed{9, 0.2};
+  given.faults = faults_of("mistimed: {frame: 9, shift: 0.2}");
   EXPECT_EQ(error_of(given), "case.yaml:9: twin: frame 9 shows the time 2.2, but the truth's run is from 0 to 2");
   given = plain();
-  for (double frame = 0; frame < 10; ++frame) given.faults.lost.push_back(frame);
+  given.faults = faults_of("lost: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]");
   EXPECT_EQ(error_of(given), "case.yaml:9: twin.faults.lost: no frame is left");
 }
 
