@@ -134,6 +134,10 @@ SocketListener::SocketListener() {
 
 SocketListener::~SocketListener() {
   if (descriptor_ >= 0) ::close(descriptor_);
+  remove_path();
+}
+
+void SocketListener::remove_path() const {
   std::error_code ignored;
   std::filesystem::remove_all(path_.parent_path(), ignored);
 }
@@ -143,6 +147,7 @@ std::unique_ptr<SocketChannel> SocketListener::accept(const Peer& peer, const st
     if (!may_come()) return nullptr;
   const int connected = accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC);
   if (connected < 0) throw socket_error("nobody came to", path_);
+  remove_path();
   return std::make_unique<SocketChannel>(peer, connected);
 }
 

@@ -45,10 +45,13 @@ class SocketListener {
   SocketListener& operator=(const SocketListener&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Waits for the process, and looks ten times a second whether it may still come; nothing if not.
+  /// Waits for the process, and looks ten times a second whether it may still come; nothing if not. When it has come
+  /// the path is gone, so that nothing stays behind a process that is killed.
   std::unique_ptr<SocketChannel> accept(const Peer& peer, const std::function<bool()>& may_come) const;
 
  private:
+  void remove_path() const;
+
   std::filesystem::path path_;
   int descriptor_ = -1;
 };

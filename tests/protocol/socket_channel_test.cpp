@@ -42,6 +42,10 @@ TEST_F(Sockets, Say_at_once_that_the_other_end_is_gone) {
   EXPECT_THROW(here->send(pack(Ready{})), PeerDied);
 }
 
+TEST_F(Sockets, Leave_nothing_on_the_disk) {
+  EXPECT_FALSE(std::filesystem::exists(listener.path().parent_path()));
+}
+
 TEST_F(Sockets, Carry_a_partner) {
   std::thread other([&] {
     Hello hello;
