@@ -65,13 +65,14 @@ TEST_F(DataFaults, AreGoneOnceTheyAreTakenOff) {
     if (!std::isnan(error.data.frame)) continue;  // a frame is left out
     FoundFault found{{}, error.data.middle, 0};
     VectorXd expected = problem.residual;
-    for (const Eigen::Index k : error.amplitudes) {
-      const VectorXd column = problem.changes.col(k);
-      const double size =
-          0.25 / (problem.independent.array() > 0).select(column.array().abs() / deviation.array(), 0).maxCoeff();
+    const MatrixXd columns = problem.changes(Eigen::all, error.amplitudes);
+    const MatrixXd in_deviations = (problem.independent.array() > 0)
+                                       .replicate(1, columns.cols())
+                                       .select(columns.array().abs().colwise() / deviation.array(), 0);
+    const double size = 0.25 / in_deviations.maxCoeff();
+    for (const Eigen::Index k : error.amplitudes)
       found.numbers[problem.amplitudes[static_cast<std::size_t>(k)].name] = size;
-      expected -= size * column;
-    }
+    expected -= size * columns.rowwise().sum();
     Overlay corrected{folder / "case.yaml", "corrected", "", {}};
     for (const auto& [field, text] : Faults().take_off(error.name, found))
       corrected.values.push_back({error.data.field + "." + field, text});
