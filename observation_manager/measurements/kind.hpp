@@ -82,7 +82,7 @@ class SectionOf : public KindSection {
   StatedErrors errors_of(const std::string& name) const override {
     for (const auto& [known, source] : sources)
       if (known == name) {
-        if constexpr (requires { source.stated_errors(); }) return source.stated_errors();
+        if constexpr (requires(const Case& c) { c.stated_errors(); }) return source.stated_errors();
         return {};
       }
     throw std::logic_error(name + ": no such source");

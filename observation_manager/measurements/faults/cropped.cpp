@@ -3,6 +3,16 @@
 namespace tether::faults {
 namespace {
 
+struct CroppedFrame {
+  ConcernedFrame frame;
+  Vec3 point{undefined, undefined, undefined}, normal{undefined, undefined, undefined};
+  void declare(Fields& f) {
+    frame.declare(f);
+    f.point("point", point, dimension::length, "of the plane");
+    f.point("normal", normal, dimension::none, "of the plane: what lies on this side is cut off");
+  }
+};
+
 /// A frame shows a part of the vessel only.
 class Cropped : public FaultOf<Cropped> {
  public:
@@ -21,16 +31,7 @@ class Cropped : public FaultOf<Cropped> {
   }
 
  private:
-  struct Plane {
-    ConcernedFrame frame;
-    Vec3 point{undefined, undefined, undefined}, normal{undefined, undefined, undefined};
-    void declare(Fields& f) {
-      frame.declare(f);
-      f.point("point", point, dimension::length, "of the plane");
-      f.point("normal", normal, dimension::none, "of the plane: what lies on this side is cut off");
-    }
-  };
-  std::optional<Plane> made_;
+  std::optional<CroppedFrame> made_;
 };
 
 }  // namespace

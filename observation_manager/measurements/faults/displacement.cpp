@@ -5,6 +5,15 @@
 namespace tether::faults {
 namespace {
 
+struct MisplacedFrame {
+  ConcernedFrame frame;
+  Vec3 offset{undefined, undefined, undefined};
+  void declare(Fields& f) {
+    frame.declare(f);
+    f.point("offset", offset, dimension::length, "added to the frame's coordinates");
+  }
+};
+
 /// The data are displaced, all of them or one frame.
 class Displacement : public FaultOf<Displacement> {
  public:
@@ -50,16 +59,8 @@ class Displacement : public FaultOf<Displacement> {
   }
 
  private:
-  struct Misplaced {
-    ConcernedFrame frame;
-    Vec3 offset{undefined, undefined, undefined};
-    void declare(Fields& f) {
-      frame.declare(f);
-      f.point("offset", offset, dimension::length, "added to the frame's coordinates");
-    }
-  };
   std::vector<double> added_;
-  std::optional<Misplaced> made_;
+  std::optional<MisplacedFrame> made_;
 };
 
 }  // namespace
