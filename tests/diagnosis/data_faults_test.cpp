@@ -28,6 +28,19 @@ TEST(FaultDeclarations, SayWhatIsLookedForInWhichData) {
   }
 }
 
+/// So fine that distances change by the normals, whichever triangle is closest; the vessel goes on behind its ends.
+std::string write_fine_surfaces(const TemporaryFolder& folder, const SimpleRun& run) {
+  std::string list = "file, time [s]\n";
+  for (const double time : sample_times) {
+    TriangleSurface measured = tube(64, 20, 5, [&](double) { return run.radius(time); });
+    measured.points.row(2).array() -= 0.5;
+    folder.file(fmt::format("s{}.stl", time), stl_text(measured));
+    list += fmt::format("s{}.stl, {}\n", time, time);
+  }
+  folder.file("surfaces.csv", list);
+  return "{file: surfaces.csv, unit: cm";
+}
+
 /// Surfaces and a pressure of another run than the one that they are held against.
 class DataFaults : public ::testing::Test {
  protected:
@@ -37,7 +50,7 @@ class DataFaults : public ::testing::Test {
                 fmt::format("name: tube\nunits: cgs\ntime: {{step: 1e-2, end: 0.8}}\nobservations:\n"
                             "  surfaces: {{data: {}, noise: {{deviation: 0.04, correlation_length: 0.5}}}}}}\n"
                             "  traces: {{data: {}, noise: {{deviation: 50}}}}}}\n",
-                            write_surfaces(folder, measured), write_traces(folder, measured)));
+                            write_fine_surfaces(folder, measured), write_traces(folder, measured)));
   }
   Observations load(const std::string& name) const {
     CaseFile file(folder / name);

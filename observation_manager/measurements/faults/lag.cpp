@@ -3,6 +3,15 @@
 namespace tether::faults {
 namespace {
 
+struct MistimedFrame {
+  ConcernedFrame frame;
+  double shift = 0;
+  void declare(Fields& f) {
+    frame.declare(f);
+    f.number("shift", shift, dimension::time, range::any, "the frame shows the vessel that much later than it says");
+  }
+};
+
 /// Frames show the vessel later than they say, all of them or one.
 class Lag : public FaultOf<Lag> {
  public:
@@ -30,15 +39,7 @@ class Lag : public FaultOf<Lag> {
   double delay(int frame) const override { return made_ && made_->frame.is(frame) ? made_->shift : 0; }
 
  private:
-  struct Mistimed {
-    ConcernedFrame frame;
-    double shift = 0;
-    void declare(Fields& f) {
-      frame.declare(f);
-      f.number("shift", shift, dimension::time, range::any, "the frame shows the vessel that much later than it says");
-    }
-  };
-  std::optional<Mistimed> made_;
+  std::optional<MistimedFrame> made_;
 };
 
 }  // namespace
