@@ -66,17 +66,29 @@ void prepare_open_mpi() {
   setenv("OMPI_MCA_btl", "self,tcp", 0);
 }
 
+/// What the environment says of a start: read before MPI_Init, which changes it while the guard's thread runs.
+struct Start {
+  Peer master = marking_master();
+  bool is_first = std::string_view(rank()) == "0";
+  double limit = start_limit();
+
+ private:
+  static const char* rank() {
+    const char* text = std::getenv("OMPI_COMM_WORLD_RANK");
+    return text == nullptr ? "0" : text;
+  }
+};
+
 /// MPI_Init of an MPMD line waits for all its programs. Only the first of them tells that it is in vain. A spawned
 /// program whose master has died meanwhile goes silently.
-void check_initialising(double seconds, const std::string& role) {
-  if (is_dead(marking_master())) end_job(exit_run_failed);
-  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  const bool is_first = rank == nullptr || std::string(rank) == "0";
-  if (is_first && interrupted()) give_up(role, "interrupted while MPI started: a program of the mpirun line ended");
-  if (is_first && seconds > start_limit())
+void check_initialising(double seconds, const std::string& role, const Start& start) {
+  if (is_dead(start.master)) end_job(exit_run_failed);
+  if (start.is_first && interrupted())
+    give_up(role, "interrupted while MPI started: a program of the mpirun line ended");
+  if (start.is_first && seconds > start.limit)
     give_up(role,
-            fmt::format("MPI did not start within {} s: a program of the mpirun line did not reach it", start_limit()));
-  if (seconds > start_limit() + 2) end_job(exit_run_failed);
+            fmt::format("MPI did not start within {} s: a program of the mpirun line did not reach it", start.limit));
+  if (seconds > start.limit + 2) end_job(exit_run_failed);
 }
 
 MPI_Info spawn_info() {
@@ -109,7 +121,8 @@ bool initialise_mpi(const std::string& role) {
   report_signals();
   prepare_process();
   prepare_open_mpi();
-  const Guard guard(0.1, [&role](double seconds) { check_initialising(seconds, role); });
+  const Start start;
+  const Guard guard(0.1, [&](double seconds) { check_initialising(seconds, role, start); });
   MPI_Init(nullptr, nullptr);
   prepare_process();  // MPI may have bound the process to a core
   return true;

@@ -167,7 +167,7 @@ TEST_F(FrontEnd, DescribesEachFieldOnce) {
   const std::string text = tether("describe").output;
   EXPECT_TRUE(text.starts_with(
       "fluid.density [g/cm3]  (number)\n    mass per volume\nsolid.density [g/cm3]  (number)\n    mass per volume\n"
-      "twin  (section)\n"))
+      "diagnosis  (section)\n"))
       << "each program's fields, and then its own:\n"
       << text;
 }
