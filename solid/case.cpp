@@ -13,10 +13,16 @@
 namespace tether {
 namespace {
 
-const EffectDeclaration clamped_ring{
-    .name = "clamped", .meaning = "The ring does not move", .place = Place::ring, .parameters = {}};
-const EffectDeclaration free_ring{
-    .name = "free", .meaning = "Nothing holds the ring", .place = Place::ring, .parameters = {}};
+const EffectDeclaration clamped_ring{.name = "clamped",
+                                     .meaning = "The ring does not move",
+                                     .place = Place::ring,
+                                     .parameters = {},
+                                     .role = EffectRole::holds};
+const EffectDeclaration free_ring{.name = "free",
+                                  .meaning = "Nothing holds the ring",
+                                  .place = Place::ring,
+                                  .parameters = {},
+                                  .role = EffectRole::replaces};
 
 const std::vector<const EffectDeclaration*>& ring_family() {
   static const std::vector<const EffectDeclaration*> family = [] {

@@ -16,7 +16,8 @@ const EffectDeclaration expression_declaration{
     .name = "expression",
     .meaning = "A traction on the outer wall, written as formulas in the case file",
     .place = Place::outer_wall,
-    .parameters = {}};
+    .parameters = {},
+    .role = EffectRole::loads};
 
 const std::vector<const EffectDeclaration*>& family() {
   static const std::vector<const EffectDeclaration*> all = [] {
@@ -66,7 +67,12 @@ bool shares(const SurfaceSupport& support, const std::vector<Triangle>& triangle
 }
 
 bool holds(const SurfaceSupport& support) {
-  return is_of(supports(), support.effect().declaration().name) || support.effect()->replaces_clamp();
+  return support.effect().declaration().role != EffectRole::loads;
+}
+
+/// Of a type that the case's reader has let pass.
+const EffectDeclaration& declaration_of(const std::string& type) {
+  return **std::find_if(family().begin(), family().end(), [&](const auto* effect) { return effect->name == type; });
 }
 
 /// Ties what holds the wall at these triangles to moving tissue. A support that holds more of the wall is tied as a
@@ -160,8 +166,8 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
     if (!block.region.empty() && !on_ring && find_patch(mesh.outside, block.region) == nullptr)
       throw input_error("{}: {}: the wall has no such part; it has: {}", file.where(path + ".region"), block.region,
                         parts_of(mesh));
-    if (block.effect.type == loose_ring.declaration.name && !on_ring)
-      throw input_error("{}: a loose_ring needs the name of an end ring as its region", file.where(path));
+    if (replaces_clamp(declaration_of(block.effect.type)) && !on_ring)
+      throw input_error("{}: a {} needs the name of an end ring as its region", file.where(path), block.effect.type);
     if (is_of(wall_effects(), block.effect.type) && on_ring)
       throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
     if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
@@ -170,7 +176,7 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
 
 bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects) {
   return std::any_of(effects.begin(), effects.end(), [&](const auto& entry) {
-    return entry.second.effect.type == loose_ring.declaration.name && entry.second.region == ring;
+    return entry.second.region == ring && replaces_clamp(declaration_of(entry.second.effect.type));
   });
 }
 

@@ -16,6 +16,19 @@ struct Present {
   std::string path, type, part;
 };
 
+std::vector<const EffectDeclaration*> catalogue() {
+  std::vector<const EffectDeclaration*> all = declarations(surface_effects());
+  for (const EffectDeclaration* effect : declarations(wall_effects())) all.push_back(effect);
+  return all;
+}
+
+/// Of what is in no catalogue, such as an expression, empty.
+std::string variant_of(const std::string& type) {
+  for (const EffectDeclaration* effect : catalogue())
+    if (effect->name == type) return effect->variant_of;
+  return {};
+}
+
 std::vector<Present> present_in(const SolidCase& solid) {
   std::vector<Present> all;
   for (const auto& [region, support] : solid.support.regions)
@@ -32,9 +45,8 @@ bool is_clamped(const std::string& ring, const SolidCase& solid) {
                       [&](const auto& entry) { return entry.first == ring && entry.second.effect.type != "clamped"; });
 }
 
-/// The pressure around the vessel is that of its whole surroundings.
 std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidCase& solid, const WallMesh& mesh) {
-  if (effect.name == external_pressure.declaration.name) return {""};
+  if (effect.target == EffectTarget::whole) return {""};
   std::vector<std::string> parts;
   if (effect.place == Place::ring) {
     for (const Patch& ring : mesh.rings)
@@ -53,7 +65,8 @@ Json described(const EffectDeclaration& effect, const std::string& part, const U
     if (p.standard != p.standard) required.push_back(p.name);
   }
   return {{"type", effect.name},       {"part", part},
-          {"meaning", effect.meaning}, {"generic", effect.name == traction.declaration.name},
+          {"meaning", effect.meaning}, {"role", std::string(name_of(effect.role))},
+          {"generic", effect.generic}, {"variant_of", effect.variant_of},
           {"amplitudes", parameters},  {"required", required}};
 }
 
@@ -61,15 +74,14 @@ Json described(const EffectDeclaration& effect, const std::string& part, const U
 
 std::string list_effects(const SolidCase& solid, const WallMesh& mesh, const UnitSystem& units) {
   const std::vector<Present> present = present_in(solid);
-  std::vector<const EffectDeclaration*> catalogue = declarations(surface_effects());
-  for (const EffectDeclaration* effect : declarations(wall_effects())) catalogue.push_back(effect);
   Json possible = Json::array(), there = Json::array();
-  for (const EffectDeclaration* effect : catalogue)
+  for (const EffectDeclaration* effect : catalogue())
     for (const std::string& part : parts_for(*effect, solid, mesh))
       if (std::none_of(present.begin(), present.end(),
                        [&](const Present& p) { return p.type == effect->name && p.part == part; }))
         possible.push_back(described(*effect, part, units));
-  for (const Present& p : present) there.push_back({{"path", p.path}, {"type", p.type}, {"part", p.part}});
+  for (const Present& p : present)
+    there.push_back({{"path", p.path}, {"type", p.type}, {"part", p.part}, {"variant_of", variant_of(p.type)}});
   return Json{{"possible", possible}, {"present", there}}.dump(2);
 }
 

@@ -71,7 +71,7 @@ void WallModel::orient_supports() {
 void WallModel::update_clamps() {
   clamped_ = always_clamped_;
   for (const SurfaceSupport& support : supports_) {
-    if (!support.effect()->replaces_clamp() || !support.effect().is_absent()) continue;
+    if (!replaces_clamp(support.effect().declaration()) || !support.effect().is_absent()) continue;
     const std::vector<int> more = unknowns_of(nodes_of(support.triangles()));
     clamped_.insert(clamped_.end(), more.begin(), more.end());
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/units.hpp"
@@ -47,12 +48,34 @@ struct Parameter {
 /// Where an effect acts.
 enum class Place { wall, outer_wall, ring, interface, blood, inlet, outlet, data };
 
+/// What an effect does to a model.
+enum class EffectRole {
+  holds,    ///< resists the wall's motion, passively
+  loads,    ///< pushes, pulls or drives by itself
+  replaces  ///< stands where the model has something else without it: a clamp, the wall's stiffness, another law
+};
+
+/// "holds".
+constexpr std::string_view name_of(EffectRole role) {
+  return role == EffectRole::holds ? "holds" : role == EffectRole::loads ? "loads" : "replaces";
+}
+
+/// How much of its place one effect acts on.
+enum class EffectTarget {
+  part,  ///< a region or ring that the case names
+  whole  ///< all of it at once: the surroundings as such
+};
+
 /// One physical effect of a model: declared beside its code in one file, listed once in its family's registry.
 struct EffectDeclaration {
   std::string name;     ///< as in the case file: "windkessel"
   std::string meaning;  ///< one sentence for a physician
   Place place;
   std::vector<Parameter> parameters;
+  EffectRole role = EffectRole::replaces;
+  EffectTarget target = EffectTarget::part;
+  bool generic = false;         ///< says that something acts, not what: sought only where a case asks for it
+  std::string variant_of = {};  ///< the effect that it is a special shape of: one for the other is no other verdict
 };
 
 /// An entry of a family's registry: `Physics` is the family's abstract class of point functions (a material, a support,

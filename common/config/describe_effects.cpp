@@ -43,6 +43,13 @@ const char* words_of(Place place) {
   return "";
 }
 
+std::string role_of(const EffectDeclaration& effect) {
+  std::string text = fmt::format("Role: {}", name_of(effect.role));
+  if (effect.target == EffectTarget::whole) text += ", on the whole at once";
+  if (!effect.variant_of.empty()) text += fmt::format(", a variant of `{}`", effect.variant_of);
+  return text + (effect.generic ? ", generic" : "");
+}
+
 }  // namespace
 
 void DescribeEffects::offers(EffectFamily family) {
@@ -77,8 +84,9 @@ std::string DescribeEffects::table_of(const EffectDeclaration& effect) const {
 std::string DescribeEffects::markdown() const {
   std::string out;
   for (const Offer& offer : offers_)
-    out += fmt::format("## {}: {}\n\n{}. As `type` of {}.\n{}\n", words_of(offer.effect->place), offer.effect->name,
-                       offer.effect->meaning, fmt::join(offer.sections, ", "), table_of(*offer.effect));
+    out += fmt::format("## {}: {}\n\n{}. As `type` of {}. {}.\n{}\n", words_of(offer.effect->place), offer.effect->name,
+                       offer.effect->meaning, fmt::join(offer.sections, ", "), role_of(*offer.effect),
+                       table_of(*offer.effect));
   return out;
 }
 

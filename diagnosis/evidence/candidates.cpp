@@ -56,8 +56,10 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
   const auto effect =
       std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
   Candidate wanted{amplitude.name, {}, amplitude.meaning, Candidate::Kind::input, {}};
-  if (is_absent && effect != effects.end())
+  if (is_absent && effect != effects.end()) {
     wanted = {effect->type, effect->part, effect->meaning, Candidate::Kind::effect, {}};
+    wanted.variant_of = effect->variant_of;
+  }
   if (wanted.kind == Candidate::Kind::effect && amplitude.one_sided) {  // one at a time
     wanted.parameter = amplitude.name.substr(path.size() + 1);
     return problem.candidates.emplace_back(wanted);
@@ -116,10 +118,16 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
     if (!is_wanted(effect, diagnosis)) continue;
     const std::string type = effect["type"], part = effect["part"];
     all.push_back({"solid.effects." + type + (part.empty() ? "" : "_" + part), type, part, effect["meaning"], true,
-                   effect["required"]});
+                   effect["required"], effect["variant_of"]});
   }
   for (const Json& effect : list["present"])
-    all.push_back({effect["path"], effect["type"], effect["part"], "An effect that the model has, at zero", false, {}});
+    all.push_back({effect["path"],
+                   effect["type"],
+                   effect["part"],
+                   "An effect that the model has, at zero",
+                   false,
+                   {},
+                   effect["variant_of"]});
   return all;
 }
 

@@ -16,6 +16,7 @@ struct PlacedEffect {
   std::string path, type, part, meaning;
   bool is_new = false;                ///< the case itself does not have it
   std::vector<std::string> required;  ///< numbers that must be given for it
+  std::string variant_of = {};        ///< the effect that it is a special shape of; empty: of none
 };
 
 /// What the solid program says could be missing, and what the case has; restricted as the case wants it. Throws

@@ -27,8 +27,8 @@ double Amplitude::value(double amplitude) const {
 }
 
 bool is_variant(const Candidate& one, const Candidate& other) {
-  const bool named = one.name.ends_with("_" + other.name) || other.name.ends_with("_" + one.name);
-  return named && one.where == other.where && one.parameter == other.parameter;
+  const bool variant = one.variant_of == other.name || other.variant_of == one.name;
+  return variant && one.where == other.where && one.parameter == other.parameter;
 }
 
 ResidualAt linear_residual(const EffectProblem& problem) {

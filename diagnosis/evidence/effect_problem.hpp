@@ -41,12 +41,13 @@ struct Candidate {
   bool confirmable = true;               ///< it acts on held-out data as well
   std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
   DataPlace data = {};                   ///< of an error of the data
+  std::string variant_of = {};           ///< the effect that it is a special shape of
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };
 
-/// Whether one candidate is a special shape of the other at the same place: its name ends with the other's, as
-/// normal_visco_elastic is a visco_elastic support. Which of the two it is is no other verdict.
+/// Whether one candidate is a special shape of the other at the same place, as normal_visco_elastic is a visco_elastic
+/// support. Which of the two it is is no other verdict.
 bool is_variant(const Candidate& one, const Candidate& other);
 
 /// A way in which data may be off that no effect has to explain: a region at a moment, or over the beat.

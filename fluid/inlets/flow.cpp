@@ -46,7 +46,8 @@ const EffectDeclaration flow_declaration{
      part("cosine_1", "flow that the curve lacks, times the cosine of its first harmonic; needs a period"),
      part("sine_1", "times the sine of the first harmonic; needs a period"),
      part("cosine_2", "times the cosine of the second harmonic; needs a period"),
-     part("sine_2", "times the sine of the second harmonic; needs a period")}};
+     part("sine_2", "times the sine of the second harmonic; needs a period")},
+    EffectRole::loads};
 
 }  // namespace
 

@@ -42,7 +42,8 @@ const EffectDeclaration breathing_declaration{
                     .standard = 0.0,
                     .absent = undefined,
                     .transform = Transform::linear,
-                    .prior_deviation = 0.25}}};
+                    .prior_deviation = 0.25}},
+    .role = EffectRole::loads};
 
 /// y_b = A (sin(2 pi (t/T + phase)) - sin(2 pi phase)) (S.18)
 class Breathing final : public MotionLaw {

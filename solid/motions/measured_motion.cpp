@@ -14,7 +14,8 @@ const EffectDeclaration measured_motion_declaration{
                     .standard = 1.0,
                     .absent = 0.0,
                     .transform = Transform::linear,
-                    .prior_deviation = 0.5}}};
+                    .prior_deviation = 0.5}},
+    .role = EffectRole::loads};
 
 /// y_b = factor (measured(t) - measured(0)) (S.18)
 class MeasuredMotion final : public MotionLaw {

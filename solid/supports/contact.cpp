@@ -27,7 +27,8 @@ const EffectDeclaration contact_declaration{
                     .standard = 2e-4,
                     .absent = undefined,
                     .transform = Transform::log2,
-                    .prior_deviation = undefined}}};
+                    .prior_deviation = undefined}},
+    .role = EffectRole::holds};
 
 /// sigma n = - k s(y.n - gap) n; s(x) = 0, x^2/(2 w), x - w/2 for x below 0, up to w, above. (S.16)
 class Contact final : public Support {
@@ -50,8 +51,8 @@ class Contact final : public Support {
 
 }  // namespace
 
-const Registered<Support> contact{contact_declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                    return std::make_unique<Contact>(values);
-                                  }};
+extern const Registered<Support> contact{
+    contact_declaration,
+    [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<Contact>(values); }};
 
 }  // namespace tether

@@ -133,8 +133,8 @@ const std::vector<std::string>& expression_names() {
 
 Configured<Support> configure(const ExpressionLaw& law, std::vector<double> values) {
   check_absent(law, values);
-  auto declaration = std::make_shared<EffectDeclaration>(
-      EffectDeclaration{"expression", "A traction as the case file writes it", Place::outer_wall, law.parameters});
+  auto declaration = std::make_shared<EffectDeclaration>(EffectDeclaration{
+      "expression", "A traction as the case file writes it", Place::outer_wall, law.parameters, EffectRole::loads});
   return {std::move(declaration),
           [law](std::span<const double> v) -> std::unique_ptr<Support> {
             return std::make_unique<ExpressionTraction>(law, v);

@@ -8,12 +8,15 @@ const EffectDeclaration external_pressure_declaration{
     .name = "external_pressure",
     .meaning = "Pressure around the vessel, such as that in the chest, beyond what it was when the image was taken",
     .place = Place::outer_wall,
-    .parameters = [] {
-      std::vector<Parameter> list;
-      add_harmonics(list, "", "pressure on the outer wall, inward", 500);
-      add_timing(list);
-      return list;
-    }()};
+    .parameters =
+        [] {
+          std::vector<Parameter> list;
+          add_harmonics(list, "", "pressure on the outer wall, inward", 500);
+          add_timing(list);
+          return list;
+        }(),
+    .role = EffectRole::loads,
+    .target = EffectTarget::whole};
 
 /// sigma n = - p(t) n, p by (S.17). (S.16)
 class ExternalPressure final : public Support {
@@ -33,9 +36,9 @@ class ExternalPressure final : public Support {
 
 }  // namespace
 
-const Registered<Support> external_pressure{external_pressure_declaration,
-                                            [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                              return std::make_unique<ExternalPressure>(values);
-                                            }};
+extern const Registered<Support> external_pressure{external_pressure_declaration,
+                                                   [](std::span<const double> values) -> std::unique_ptr<Support> {
+                                                     return std::make_unique<ExternalPressure>(values);
+                                                   }};
 
 }  // namespace tether

@@ -15,7 +15,8 @@ const EffectDeclaration loose_ring_declaration{
                     .absent = 0.0,
                     .transform = Transform::log2,
                     .prior_deviation = 1.0,
-                    .scale = 1e-7}}};
+                    .scale = 1e-7}},
+    .role = EffectRole::replaces};
 
 /// sigma n = - (y - y_b)/compliance; without compliance the ring is clamped. (S.16)
 class LooseRing final : public Support {
@@ -27,7 +28,6 @@ class LooseRing final : public Support {
     result.stiffness = stiffness_ * Mat3::Identity();
     return result;
   }
-  bool replaces_clamp() const override { return true; }
 
  private:
   double stiffness_;
@@ -35,7 +35,7 @@ class LooseRing final : public Support {
 
 }  // namespace
 
-const Registered<Support> loose_ring{
+extern const Registered<Support> loose_ring{
     loose_ring_declaration,
     [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<LooseRing>(values); }};
 

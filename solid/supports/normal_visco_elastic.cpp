@@ -9,7 +9,9 @@ const EffectDeclaration normal_visco_elastic_declaration{
     .meaning = "Tissue along which the wall slides freely: springs and dampers normal to the wall only",
     .place = Place::outer_wall,
     .parameters = {stiffness_parameter("traction per displacement along the normal"),
-                   damping_parameter("traction per velocity along the normal")}};
+                   damping_parameter("traction per velocity along the normal")},
+    .role = EffectRole::holds,
+    .variant_of = "visco_elastic"};
 
 /// sigma n = - (k y.n + c u.n) n
 class NormalViscoElastic final : public Support {
@@ -27,9 +29,9 @@ class NormalViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> normal_visco_elastic{normal_visco_elastic_declaration,
-                                               [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                                 return std::make_unique<NormalViscoElastic>(values);
-                                               }};
+extern const Registered<Support> normal_visco_elastic{normal_visco_elastic_declaration,
+                                                      [](std::span<const double> values) -> std::unique_ptr<Support> {
+                                                        return std::make_unique<NormalViscoElastic>(values);
+                                                      }};
 
 }  // namespace tether

@@ -7,13 +7,11 @@
 
 namespace tether {
 
-extern const Registered<Support> visco_elastic, normal_visco_elastic, tangential_visco_elastic, contact, stiffening,
-    tissue_mass, external_pressure, traction, loose_ring;
-
-/// What holds the wall, passively. A new one: one file, one name above, one name in registry.cpp.
-std::span<const Registered<Support>> supports();
-
-/// All that acts on the wall's outer surface and rings: the supports, the loads, and what replaces a clamp.
+/// All that acts on the wall's outer surface and rings: what holds, what loads, and what replaces a clamp. A new one:
+/// one file, its name in the two lists of registry.cpp.
 std::span<const Registered<Support>> surface_effects();
+
+/// Those that hold the wall.
+std::span<const Registered<Support>> supports();
 
 }  // namespace tether

@@ -15,7 +15,8 @@ const EffectDeclaration stiffening_declaration{
                     .absent = 0.0,
                     .transform = Transform::log2,
                     .prior_deviation = 1.0,
-                    .scale = 1e12}}};
+                    .scale = 1e12}},
+    .role = EffectRole::holds};
 
 /// sigma n = - k3 |y|^2 y (S.16)
 class Stiffening final : public Support {
@@ -35,7 +36,7 @@ class Stiffening final : public Support {
 
 }  // namespace
 
-const Registered<Support> stiffening{
+extern const Registered<Support> stiffening{
     stiffening_declaration,
     [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<Stiffening>(values); }};
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/base/effect.hpp"
 #include "common/base/types.hpp"
 
 namespace tether {
@@ -31,8 +32,11 @@ class Support {
   virtual SupportTraction at(const SupportPoint& point) const = 0;
   /// Whether `at` reads the vessel's direction.
   virtual bool uses_axial() const { return false; }
-  /// Whether it stands in place of a clamp: where it is absent the ring does not move.
-  virtual bool replaces_clamp() const { return false; }
 };
+
+/// Whether an effect stands in place of a ring's clamp: where it is absent the ring does not move.
+inline bool replaces_clamp(const EffectDeclaration& effect) {
+  return effect.place == Place::ring && effect.role == EffectRole::replaces;
+}
 
 }  // namespace tether

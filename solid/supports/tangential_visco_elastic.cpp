@@ -10,7 +10,9 @@ const EffectDeclaration tangential_visco_elastic_declaration{
         "Tissue that tethers the wall along itself and lets it bulge: springs and dampers tangential to the wall only",
     .place = Place::outer_wall,
     .parameters = {stiffness_parameter("traction per displacement tangential to the wall"),
-                   damping_parameter("traction per velocity tangential to the wall")}};
+                   damping_parameter("traction per velocity tangential to the wall")},
+    .role = EffectRole::holds,
+    .variant_of = "visco_elastic"};
 
 /// sigma n = - (1 - n n') (k y + c u)
 class TangentialViscoElastic final : public Support {
@@ -28,9 +30,9 @@ class TangentialViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> tangential_visco_elastic{tangential_visco_elastic_declaration,
-                                                   [](std::span<const double> values) -> std::unique_ptr<Support> {
-                                                     return std::make_unique<TangentialViscoElastic>(values);
-                                                   }};
+extern const Registered<Support> tangential_visco_elastic{
+    tangential_visco_elastic_declaration, [](std::span<const double> values) -> std::unique_ptr<Support> {
+      return std::make_unique<TangentialViscoElastic>(values);
+    }};
 
 }  // namespace tether

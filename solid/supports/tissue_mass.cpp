@@ -15,7 +15,8 @@ const EffectDeclaration tissue_mass_declaration{
                     .absent = 0.0,
                     .transform = Transform::log2,
                     .prior_deviation = 1.0,
-                    .scale = 5.0}}};
+                    .scale = 5.0}},
+    .role = EffectRole::holds};
 
 /// sigma n = - m a, a = (V - u0)/(theta dt): the step's own inertia (S.5), so that energy is conserved where it is
 /// there. (S.16)
@@ -35,7 +36,7 @@ class TissueMass final : public Support {
 
 }  // namespace
 
-const Registered<Support> tissue_mass{
+extern const Registered<Support> tissue_mass{
     tissue_mass_declaration,
     [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<TissueMass>(values); }};
 

@@ -10,14 +10,17 @@ const EffectDeclaration traction_declaration{
     .name = "traction",
     .meaning = "A pull of unknown origin that goes with the beat: what the other effects do not explain",
     .place = Place::outer_wall,
-    .parameters = [] {
-      std::vector<Parameter> list;
-      add_harmonics(list, "normal_", "traction along the outward normal", 500);
-      add_harmonics(list, "axial_", "traction along the vessel, from its first ring", 500);
-      add_harmonics(list, "around_", "traction around the vessel, right-handed about its direction", 500);
-      add_timing(list);
-      return list;
-    }()};
+    .parameters =
+        [] {
+          std::vector<Parameter> list;
+          add_harmonics(list, "normal_", "traction along the outward normal", 500);
+          add_harmonics(list, "axial_", "traction along the vessel, from its first ring", 500);
+          add_harmonics(list, "around_", "traction around the vessel, right-handed about its direction", 500);
+          add_timing(list);
+          return list;
+        }(),
+    .role = EffectRole::loads,
+    .generic = true};
 
 /// sigma n = f_n(t) n + f_a(t) e + f_c(t) (e x n), e along the vessel (S.15), each f by (S.17). (S.16)
 class Traction final : public Support {
@@ -42,7 +45,7 @@ class Traction final : public Support {
 
 }  // namespace
 
-const Registered<Support> traction{
+extern const Registered<Support> traction{
     traction_declaration,
     [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<Traction>(values); }};
 

@@ -9,7 +9,8 @@ const EffectDeclaration visco_elastic_declaration{
     .meaning = "Tissue that holds the wall by springs and dampers in all directions (Moireau et al. 2012)",
     .place = Place::outer_wall,
     .parameters = {stiffness_parameter("traction per displacement, in every direction"),
-                   damping_parameter("traction per velocity, in every direction")}};
+                   damping_parameter("traction per velocity, in every direction")},
+    .role = EffectRole::holds};
 
 /// sigma n = - k y - c u
 class ViscoElastic final : public Support {
@@ -26,7 +27,7 @@ class ViscoElastic final : public Support {
 
 }  // namespace
 
-const Registered<Support> visco_elastic{
+extern const Registered<Support> visco_elastic{
     visco_elastic_declaration,
     [](std::span<const double> values) -> std::unique_ptr<Support> { return std::make_unique<ViscoElastic>(values); }};
 

@@ -15,7 +15,8 @@ const EffectDeclaration axial_tension_declaration{
                     .absent = 0.0,
                     .transform = Transform::log2,
                     .prior_deviation = 1.0,
-                    .scale = 2e4}}};
+                    .scale = 2e4}},
+    .role = EffectRole::replaces};
 
 /// S <- S + stress e x e, less the force that this has on the imaged wall. (S.19)
 class AxialTension final : public WallEffect {
@@ -30,9 +31,9 @@ class AxialTension final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> axial_tension{axial_tension_declaration,
-                                           [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
-                                             return std::make_unique<AxialTension>(values[0]);
-                                           }};
+extern const Registered<WallEffect> axial_tension{axial_tension_declaration,
+                                                  [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
+                                                    return std::make_unique<AxialTension>(values[0]);
+                                                  }};
 
 }  // namespace tether

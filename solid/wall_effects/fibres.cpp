@@ -33,7 +33,8 @@ const EffectDeclaration fibres_declaration{
                     .standard = 0.0,
                     .absent = undefined,
                     .transform = Transform::linear,
-                    .prior_deviation = undefined}}};
+                    .prior_deviation = undefined}},
+    .role = EffectRole::replaces};
 
 /// Holzapfel, Gasser and Ogden 2000, from the imaged state and in both directions of strain. (S.20)
 class FibreFamilies final : public WallEffect {
@@ -50,9 +51,9 @@ class FibreFamilies final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> fibres{fibres_declaration,
-                                    [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
-                                      return std::make_unique<FibreFamilies>(values);
-                                    }};
+extern const Registered<WallEffect> fibres{fibres_declaration,
+                                           [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
+                                             return std::make_unique<FibreFamilies>(values);
+                                           }};
 
 }  // namespace tether

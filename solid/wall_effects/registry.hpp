@@ -7,9 +7,7 @@
 
 namespace tether {
 
-extern const Registered<WallEffect> stiffness_factor, thickness_factor, axial_tension, fibres;
-
-/// All differences of a part of the wall. A new one: one file, one name above, one name in registry.cpp.
+/// All differences of a part of the wall. A new one: one file, its name in the two lists of registry.cpp.
 std::span<const Registered<WallEffect>> wall_effects();
 
 }  // namespace tether

@@ -15,7 +15,8 @@ const EffectDeclaration stiffness_factor_declaration{
                     .absent = 1.0,
                     .transform = Transform::log2,
                     .prior_deviation = 0.5,
-                    .scale = 0.5}}};
+                    .scale = 0.5}},
+    .role = EffectRole::replaces};
 
 /// S <- factor S; prestress stays as it is. (S.19)
 class StiffnessFactor final : public WallEffect {
@@ -29,9 +30,9 @@ class StiffnessFactor final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> stiffness_factor{stiffness_factor_declaration,
-                                              [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
-                                                return std::make_unique<StiffnessFactor>(values[0]);
-                                              }};
+extern const Registered<WallEffect> stiffness_factor{stiffness_factor_declaration,
+                                                     [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
+                                                       return std::make_unique<StiffnessFactor>(values[0]);
+                                                     }};
 
 }  // namespace tether

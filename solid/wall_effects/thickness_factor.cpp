@@ -15,7 +15,8 @@ const EffectDeclaration thickness_factor_declaration{
                     .absent = 1.0,
                     .transform = Transform::log2,
                     .prior_deviation = 0.3,
-                    .scale = 0.3}}};
+                    .scale = 0.3}},
+    .role = EffectRole::replaces};
 
 /// Elastic and viscous forces and mass times the factor, on the imaged shape; prestress stays as it is. (S.19)
 class ThicknessFactor final : public WallEffect {
@@ -29,9 +30,9 @@ class ThicknessFactor final : public WallEffect {
 
 }  // namespace
 
-const Registered<WallEffect> thickness_factor{thickness_factor_declaration,
-                                              [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
-                                                return std::make_unique<ThicknessFactor>(values[0]);
-                                              }};
+extern const Registered<WallEffect> thickness_factor{thickness_factor_declaration,
+                                                     [](std::span<const double> values) -> std::unique_ptr<WallEffect> {
+                                                       return std::make_unique<ThicknessFactor>(values[0]);
+                                                     }};
 
 }  // namespace tether

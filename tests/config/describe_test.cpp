@@ -12,7 +12,11 @@ const EffectDeclaration spring{
     "spring",
     "pulls back",
     Place::ring,
-    {{"stiffness", "traction per way", dimension::support_stiffness, range::not_negative, 30, 0}}};  // in SI
+    {{"stiffness", "traction per way", dimension::support_stiffness, range::not_negative, 30, 0}},  // in SI
+    EffectRole::holds,
+    EffectTarget::whole,
+    true,
+    "still"};
 const EffectDeclaration* const family[] = {&still, &spring};
 
 struct Ring {
@@ -112,7 +116,13 @@ TEST(DescribeEffects, ListsEachEffectOnceWithWhatThereIsToSayOfItsNumbers) {
   wall.declare(describe);
   wall.declare(describe);
   const std::string text = describe.markdown();
-  EXPECT_NE(text.find("## on an end ring: spring\n\npulls back. As `type` of `rings.NAME`"), std::string::npos) << text;
+  EXPECT_NE(
+      text.find(
+          "## on an end ring: spring\n\npulls back. As `type` of `rings.NAME`. Role: holds, on the whole at once, a "
+          "variant of `still`, generic.\n"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("does not move. As `type` of `rings.NAME`. Role: replaces.\n"), std::string::npos) << text;
   EXPECT_NE(text.find("| `stiffness` | g/(cm2 s2) | not negative | 3 | 0 | linear |  |  | traction per way |"),
             std::string::npos)
       << text;

@@ -142,6 +142,7 @@ TEST(EffectSearch, AVariantOfTheSameEffectIsNoOtherVerdict) {
   EffectProblem problem = band();
   add_candidate(problem, "normal_spring_1", response(1, 8.5, beat));
   problem.candidates.back().where = problem.candidates[2].where;
+  problem.candidates.back().variant_of = problem.candidates[2].name;
   const double right = share(
       [&](std::mt19937_64& generator) {
         problem.residual = noise(generator) + 4 * problem.changes.col(2);

@@ -21,6 +21,20 @@ Vec3 traction_of(const std::string& type, const Values& values, const SupportPoi
   return effect(type, values)->at(point).traction;
 }
 
+TEST(Declarations, SayWhatSupportsAndVariantsAre) {
+  for (const auto& entry : supports()) EXPECT_EQ(entry.declaration.role, EffectRole::holds);
+  for (const auto& entry : surface_effects()) {
+    const EffectDeclaration& own = entry.declaration;
+    if (own.role != EffectRole::holds) {
+      EXPECT_THROW(find_effect(supports(), own.name), InputError) << own.name;
+    }
+    if (own.variant_of.empty()) continue;
+    const EffectDeclaration& other = find_effect(surface_effects(), own.variant_of).declaration;
+    EXPECT_EQ(other.role, own.role) << own.name;
+    EXPECT_TRUE(other.variant_of.empty()) << own.name << ": a variant of a variant";
+  }
+}
+
 TEST(Contact, PushesBackOnlyWhereItTouchesAndSetsInSmoothly) {
   const Values values{{"stiffness", 100}, {"gap", 0.2}, {"smoothing", 0.1}};
   const auto push = [&](double y) {
