@@ -10,6 +10,7 @@
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
@@ -129,18 +130,32 @@ void check_columns(const FlowObservations& data, const std::vector<Column>& colu
     for (const NeededColumn& needed : source->columns()) check_column(needed, source->facts().field(), columns, file);
 }
 
+/// What a run and its continuation have in common: the programs' effective cases, how an observer uses its data, and
+/// what the files hold that the programs' sections name, since a foreign program need not tell.
+std::vector<std::string> cases_of(std::span<Partner> processes, const CaseFile& file) {
+  std::vector<std::string> all;
+  for (Partner& process : processes) all.push_back(process.hello().effective_case);
+  if (file.common().observer.is_on()) all.push_back(echo_json("observer", file.common().observer));
+  for (const InputFile& input : input_files(file.path()))
+    for (const char* section : {"mesh.", "fluid.", "solid."})
+      if (input.field.starts_with(section)) all.push_back(fmt::format("{} {:x}", input.field, input.content));
+  return all;
+}
+
 /// A direct run.
 void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
   const std::vector<std::string> notices = notices_of(processes, plan);
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
-  plan.fingerprint = fingerprint({fluid_case, solid_case}, plan.dt, codes.interface().points);
+  plan.fingerprint = fingerprint(cases_of(processes, master.file), plan.dt, codes.interface().points);
   Crew crew = codes.crew();
   for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, codes.size());
   check_columns(master.flow, simulation.columns(), master.file);
   const auto before = costs(crew, processes);
+  simulation.begin();
+  if (plan.resume) mark_output(plan.output, master.file.path());
   simulation.run();
   RunFacts facts{master.file.common().name,
                  master.file.common().title,
@@ -160,7 +175,10 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   MasterCase master(command.case_file);
   RunPlan plan = plan_of(master, command);
   plan.output = fs::absolute(claim_output(command, master.file));
-  if (!plan.resume) remove_old_results(plan.output);
+  if (!plan.resume) {
+    remove_old_results(plan.output);
+    mark_output(plan.output, command.case_file);
+  }
   const bool observed = master.file.common().observer.is_on();
   const std::span<Partner> partners = session.launch(programs_of(master, observed), plan.output.string());
   for (Partner& partner : partners) partner.hello();

@@ -194,6 +194,7 @@ protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   Simulation simulation(plan, codes_->crew(), master_->coupling.halvings);
   protocol::Simulated reply;
   try {
+    simulation.begin();
     simulation.run();
   } catch (const StepFailure& failure) {  // these values are too much for the model; others may not be
     reply.failure = failure.what();

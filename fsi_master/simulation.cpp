@@ -31,7 +31,6 @@ Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
 }
 
 void Simulation::run() {
-  begin();
   progress_.emplace(first_step_, plan_.last_step, plan_.quiet);
   std::int64_t step = first_step_;
   try {

@@ -52,8 +52,10 @@ class Simulation {
  public:
   Simulation(RunPlan plan, Crew crew, int halvings);
 
-  /// From the start, or from the checkpoint, to the last step. Throws RunError if a step fails for good (the last good
-  /// state is then on the disk) or after a signal (the last checkpoint is).
+  /// At the start, or at the checkpoint. Throws InputError if that is none of this run's.
+  void begin();
+  /// From there to the last step. Throws RunError if a step fails for good (the last good state is then on the disk) or
+  /// after a signal (the last checkpoint is).
   void run();
 
   const RunPlan& plan() const { return plan_; }
@@ -65,7 +67,6 @@ class Simulation {
   std::vector<Column> columns() const;
 
  private:
-  void begin();
   void advance(std::int64_t step);
   void record(std::int64_t step, const StepRecord& record, double seconds);
   void record_fields(double time);

@@ -182,6 +182,7 @@ class Job {
       filter_.restore(std::move(checkpoint.state));
       cost_before_ = checkpoint.cost;
       saved_ = filter_.state().step;
+      mark_output(output_, command_.case_file);
     }
     if (!plan_.corrects) begin_sensitivities();
     if (command_.quiet) return;
@@ -247,7 +248,10 @@ class Job {
 void identify(const CommandLine& command, protocol::Session& session) {
   IdentifiedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  if (!command.resume) remove_old_estimates(output);
+  if (!command.resume) {
+    remove_old_estimates(output);
+    mark_output(output, command.case_file);
+  }
   const std::vector<Partner*> groups =
       launch_groups(groups_for(given, command, session), command.case_file, output, session);
   GroupPool pool(session, groups);

@@ -55,9 +55,9 @@ std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& 
   for (std::size_t i = 0; i < table.columns().size(); ++i) {
     const auto name = label(plot, table.columns()[i]);
     if (!name || table.units()[i] != unit) continue;
-    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{} + {}) with lines linewidth 2 title '{}'",
+    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{} + {}) with lines linewidth 2 title {}",
                          lines.empty() ? "plot " : ", \\\n     ", i + 1, factor(plot, units),
-                         offset(plot, units, image_pressure), *name);
+                         offset(plot, units, image_pressure), gnuplot_text(*name));
   }
   return lines;
 }

@@ -81,6 +81,7 @@ Made<ComparisonResult> compare(const CommandLine& command) {
   check_case(command);
   const MeasuredCase measured(command.case_file);
   const fs::path output = output_of(command, measured.file);
+  hold_output(output);
   provide_run(command, measured.file, output, measured.data.points());
   const FinishedRun run(output);
   const RunMotion motion = motion_of(run, measured.surface);

@@ -72,6 +72,8 @@ Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSett
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
+  fs::remove(output / "diagnosis.json");
+  mark_output(output, command.case_file);
   Diagnosis diagnosis = diagnosed(given, command, output, settings);
   const auto pictures = draw_ranking(diagnosis, output);
   std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);

@@ -74,6 +74,8 @@ Made<Explanation> explain(const CommandLine& command) {
   CommandLine own = command;
   if (own.output.empty()) own.output = fs::path("out") / (given.file.common().name + "_explain");
   const fs::path output = fs::absolute(claim_output(own, given.file));
+  for (const char* old : {"explain.json", "report.html"}) fs::remove(output / old);
+  mark_output(output, command.case_file);
   Verbs verbs(own);
   const ExplanationPath path = explain(given, output, verbs, own.quiet);
   Explanation explanation = explanation_of(path);

@@ -28,8 +28,8 @@ std::vector<std::string> draw(const fs::path& output, const Estimate& estimate) 
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EstimatedParameter& p = parameters[i];
     const auto column = 2 + 3 * i;
-    script += fmt::format("{} logscale y\nset ylabel \"{} [{}]\" noenhanced\n", is_logarithmic(p) ? "set" : "unset",
-                          p.name, p.unit);
+    script += fmt::format("{} logscale y\nset ylabel {} noenhanced\n", is_logarithmic(p) ? "set" : "unset",
+                          gnuplot_text(fmt::format("{} [{}]", p.name, p.unit)));
     script += fmt::format(
         "plot 'estimate.csv' using 1:{1}:{2} skip 1 with filledcurves linecolor 1 title '95 %', '' using 1:{0} skip 1 "
         "with lines "

@@ -81,7 +81,7 @@ std::string areas_text(const WallMesh& wall, const UnitSystem& units) {
 int write_meshes(const CommandLine& command) {
   CaseFile file(command.case_file);
   const VesselMesh vessel = mesh_of(command, file);
-  const auto folder = claim_output(command, file) / "mesh";
+  const auto folder = claim_and_mark_output(command, file) / "mesh";
   std::filesystem::create_directories(folder);
   const Faces fluid_faces = faces_of(vessel.fluid), wall_faces = faces_of(vessel.wall);
   write_vtu(folder / "fluid.vtu", vessel.fluid.points, cells_of(vessel.fluid), {});

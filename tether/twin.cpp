@@ -57,6 +57,7 @@ fs::path claim_folder(const CommandLine& command, const CaseFile& file) {
   if (fs::exists(folder) && !command.overwrite && !fs::is_empty(folder) && !fs::exists(folder / "sealed"))
     throw input_error("{}: holds files that are not a twin's; choose another folder with --output, or give --overwrite",
                       folder.string());
+  hold_output(folder);
   fs::remove_all(folder / "data");
   fs::create_directories(folder / "data");
   fs::create_directories(folder / "sealed");

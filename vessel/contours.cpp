@@ -9,7 +9,7 @@ namespace tether {
 
 std::vector<Points> read_contours(const std::filesystem::path& file) {
   const CsvTable table(file);
-  const std::vector<std::string> section = table.texts("section");
+  const std::vector<std::string> section = table.names("section");
   const std::vector<double> x = table.numbers("x"), y = table.numbers("y"), z = table.numbers("z");
   std::vector<Points> contours;
   std::set<std::string> seen;

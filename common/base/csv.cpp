@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 
 namespace tether {
 namespace {
@@ -60,6 +61,7 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
   for (int line = 1; std::getline(in, text); ++line) {
     if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
     if (skipped(text)) continue;
+    if (!is_utf8(text)) throw input_error("{}:{}: is not UTF-8; save the file in that encoding", file_, line);
     auto cells = split(text);
     if (columns_.empty()) {
       check_separator(file_, line, cells);
@@ -102,6 +104,14 @@ std::vector<std::string> CsvTable::texts(std::string_view column) const {
   const std::size_t at = index(column);
   std::vector<std::string> values;
   for (const auto& row : cells_) values.push_back(row[at]);
+  return values;
+}
+
+std::vector<std::string> CsvTable::names(std::string_view column) const {
+  std::vector<std::string> values = texts(column);
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (!values[row].empty() && !is_name(values[row]))
+      throw input_error("{}: {}: '{}': {}", where(row), column, values[row], name_rule);
   return values;
 }
 

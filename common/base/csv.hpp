@@ -30,6 +30,8 @@ class CsvTable {
   std::vector<double> quantities(std::string_view column, const UnitSystem& units, Dimension dimension,
                                  const std::string& unit = {}) const;
   std::vector<std::string> texts(std::string_view column) const;
+  /// Throws InputError "file:line: ..." for one that is neither empty nor a name.
+  std::vector<std::string> names(std::string_view column) const;
   /// "file:line" of a row, for messages about its values.
   std::string where(std::size_t row) const;
 

@@ -4,18 +4,21 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/checked_file.hpp"
+#include "common/config/input_files.hpp"
 
 namespace tether {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Folders of files do not count: a case may be moved.
-void forget_folders(Json& value) {
-  if (value.is_string() && value.get_ref<const std::string&>().starts_with('/'))
-    value = std::filesystem::path(value.get<std::string>()).filename().string();
-  else if (value.is_structured())
-    for (auto& item : value) forget_folders(item);
+/// Files count by what they hold, and their folders do not: a case may be moved.
+void look_into_files(Json& value) {
+  if (value.is_string() && value.get_ref<const std::string&>().starts_with('/')) {
+    const std::filesystem::path path = value.get<std::string>();
+    value = Json::array({path.filename().string(), hash_content(path)});
+  } else if (value.is_structured()) {
+    for (auto& item : value) look_into_files(item);
+  }
 }
 
 std::string essence(const std::string& effective_case) {
@@ -25,8 +28,8 @@ std::string essence(const std::string& effective_case) {
     for (const char* name : {"output", "coupling", "title"}) json.erase(name);
     if (json.contains("time") && json["time"].is_object()) json["time"].erase("end");
   }
-  forget_folders(json);
-  return json.dump();
+  look_into_files(json);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "common/config/output_folder.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/folder_lock.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/input_files.hpp"
 
 namespace tether {
 namespace {
@@ -13,12 +16,17 @@ namespace fs = std::filesystem;
 constexpr std::string_view copy_of = "# Copy of ", as_it_was = " as it was";
 constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
 
+bool is_empty_but_for_lock(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
+}
+
 /// Throws InputError if the folder holds anything but results of this very case file.
 void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
   if (!fs::exists(folder / case_as_run)) {
-    if (fs::is_empty(folder)) return;
+    if (is_empty_but_for_lock(folder)) return;
     throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
   }
   const YamlNode marker = read_yaml(folder / case_as_run);
@@ -49,28 +57,42 @@ void copy_case(const fs::path& case_file, const std::vector<fs::path>& files, st
   to << yaml_text(as_one_file(read_case_tree(case_file)));
 }
 
-void mark(const fs::path& folder, const fs::path& case_file) {
-  std::ofstream to(folder / case_as_run);
-  to << copy_of << fs::absolute(case_file).lexically_normal().string() << as_it_was
-     << " when the run started. Its paths are relative to that file.\n";
-  copy_case(case_file, files_of_case(case_file), to);
-  if (!to) throw input_error("{}: cannot be written to", folder.string());
-}
-
 }  // namespace
 
 fs::path output_of(const CommandLine& command, const CaseFile& file) {
   return command.output.empty() ? fs::path("out") / file.common().name : command.output;
 }
 
-fs::path claim_output(const CommandLine& command, const CaseFile& file) {
-  const std::string& name = file.common().name;
-  const fs::path folder = output_of(command, file);
-  if (!command.overwrite) check_owner(folder, name, file.path());
+void hold_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw input_error("{}: cannot be made: {}", folder.string(), error.message());
-  mark(folder, file.path());
+  hold_folder(folder);
+}
+
+fs::path claim_output(const CommandLine& command, const CaseFile& file) {
+  const fs::path folder = output_of(command, file);
+  const auto check = [&] {
+    if (!command.overwrite) check_owner(folder, file.common().name, file.path());
+  };
+  check();
+  hold_output(folder);
+  check();  // another run may have been there until now
+  return folder;
+}
+
+void mark_output(const fs::path& folder, const fs::path& case_file) {
+  write_input_files(folder / inputs_as_run, input_files(case_file));
+  std::ofstream to(folder / case_as_run);
+  to << copy_of << fs::absolute(case_file).lexically_normal().string() << as_it_was
+     << " when the run started. Its paths are relative to that file.\n";
+  copy_case(case_file, files_of_case(case_file), to);
+  if (!to.flush()) throw run_error("{}: cannot be written to", folder.string());
+}
+
+fs::path claim_and_mark_output(const CommandLine& command, const CaseFile& file) {
+  const fs::path folder = claim_output(command, file);
+  mark_output(folder, file.path());
   return folder;
 }
 

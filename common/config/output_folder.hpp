@@ -8,12 +8,24 @@ namespace tether {
 /// The file in an output folder that says whose results it holds: a copy of the case,
 /// merged with what it builds on.
 inline constexpr const char* case_as_run = "case_as_run.yaml";
+/// Beside it: what the files that the case names held.
+inline constexpr const char* inputs_as_run = "inputs_as_run.yaml";
 
 /// Where a run's results are, or will be: --output, or out/NAME.
 std::filesystem::path output_of(const CommandLine& command, const CaseFile& file);
 
-/// The folder for a run's results: --output, or out/NAME. It is made if it does not exist, and marked as this case's.
-/// Throws InputError if it holds another case's results, or files that are no results, unless --overwrite.
+/// Makes the folder if need be, and holds it (hold_folder). Throws InputError if that cannot be.
+void hold_output(const std::filesystem::path& folder);
+
+/// The folder for a run's results: --output, or out/NAME. It is made if need be, and held. Throws InputError also if
+/// there are another case's results in it, or files that are no results, unless --overwrite.
 std::filesystem::path claim_output(const CommandLine& command, const CaseFile& file);
+
+/// Marks a folder as this case's, as the case and its files now are. To be called when no results of an earlier state
+/// of the case are left in it.
+void mark_output(const std::filesystem::path& folder, const std::filesystem::path& case_file);
+
+/// Both.
+std::filesystem::path claim_and_mark_output(const CommandLine& command, const CaseFile& file);
 
 }  // namespace tether

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 #include "common/config/rules.hpp"
 
 namespace tether {
@@ -41,8 +42,11 @@ void Problems::throw_if_any() {
   std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
     return std::pair(a.first.file->depth, a.first.line) < std::pair(b.first.file->depth, b.first.line);
   });
+  constexpr std::size_t most_told = 50;
   std::vector<std::string> lines;
-  for (const auto& [place, text] : found_) lines.push_back(fmt::format("{}: {}", place.text(), text));
+  for (const auto& [place, text] : found_)
+    if (lines.size() < most_told) lines.push_back(fmt::format("{}: {}", place.text(), text));
+  if (found_.size() > most_told) lines.push_back(fmt::format("and {} more like these", found_.size() - most_told));
   if (!lines.empty()) throw input_error("{}", fmt::join(lines, "\n"));
 }
 
@@ -245,7 +249,12 @@ void Reader::leave() {
 std::vector<std::string> Reader::entry_names(const std::vector<std::string>&, Need need) {
   Section& section = sections_.back();
   if (section.node)
-    for (const auto& entry : section.node->entries) section.known.push_back(entry.key);
+    for (const auto& entry : section.node->entries) {
+      section.known.push_back(entry.key);
+      if (is_name(entry.key)) continue;
+      section.failed = true;
+      problems_.add(entry.place, fmt::format("{}{}: {}", section.path, entry.key, name_rule));
+    }
   if (section.known.empty() && need == Need::required) {
     section.failed = true;
     problems_.add(section.place,

@@ -44,8 +44,11 @@ std::string rule_of(const Range& range) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
+  constexpr std::size_t longest = 100;  // what is longer resembles no field
+  if (word.size() > longest) return best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& candidate : candidates) {
+    if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >= fewest) continue;
     const std::size_t edits = edit_distance(word, candidate);
     if (edits < std::min(fewest, std::max(word.size(), candidate.size()))) {
       fewest = edits;

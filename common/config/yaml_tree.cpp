@@ -2,12 +2,19 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <fstream>
+#include <map>
+#include <sstream>
+
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 
 namespace tether {
 namespace {
 
 constexpr int deepest = 40;
+constexpr std::size_t most_values = 100'000;         ///< an alias may stand for many: far beyond any case file
+constexpr std::uintmax_t largest_file = 10'000'000;  // bytes
 
 int line_of(const YAML::Mark& mark) {
   return mark.line + 1;
@@ -18,10 +25,12 @@ class Copier {
  public:
   explicit Copier(std::shared_ptr<const YamlFile> file) : file_(std::move(file)) {}
 
-  YamlNode operator()(const YAML::Node& from, int depth = 0) const {
+  YamlNode operator()(const YAML::Node& from, int depth = 0) {
     YamlNode to;
     to.place = place_of(from.Mark());
     if (depth > deepest) throw input_error("{}: nested too deeply (an alias that contains itself?)", to.place.text());
+    if (++values_ > most_values)
+      throw input_error("{}: more than {} values (aliases of aliases?)", to.place.text(), most_values);
     if (from.IsScalar()) {
       to.kind = YamlNode::Kind::scalar;
       to.text = from.Scalar();
@@ -30,7 +39,7 @@ class Copier {
       for (const auto& item : from) to.items.push_back((*this)(item, depth + 1));
     } else if (from.IsMap()) {
       to.kind = YamlNode::Kind::map;
-      for (const auto& pair : from) add(to, pair.first, pair.second, depth);
+      return map_of(from, std::move(to), depth);
     }
     return to;
   }
@@ -38,17 +47,23 @@ class Copier {
  private:
   YamlPlace place_of(const YAML::Mark& mark) const { return {file_, line_of(mark)}; }
 
-  void add(YamlNode& map, const YAML::Node& key, const YAML::Node& value, int depth) const {
-    const YamlPlace place = place_of(key.Mark());
-    if (!key.IsScalar()) throw input_error("{}: a name is expected before ':'", place.text());
-    for (const auto& entry : map.entries)
-      if (entry.key == key.Scalar())
-        throw input_error("{}: '{}' is given twice; first on line {}", place.text(), key.Scalar(), entry.place.line);
-    map.entries.push_back({key.Scalar(), place, (*this)(value, depth + 1)});
-    if (map.entries.back().value.kind != YamlNode::Kind::scalar) map.entries.back().value.place = place;
+  YamlNode map_of(const YAML::Node& from, YamlNode to, int depth) {
+    std::map<std::string, int> lines;
+    for (const auto& pair : from) {
+      const YamlPlace place = place_of(pair.first.Mark());
+      if (!pair.first.IsScalar()) throw input_error("{}: a name is expected before ':'", place.text());
+      const std::string& key = pair.first.Scalar();
+      if (const auto [known, is_new] = lines.emplace(key, place.line); !is_new)
+        throw input_error("{}: '{}' is given twice; first on line {}", place.text(), key, known->second);
+      YamlNode value = (*this)(pair.second, depth + 1);
+      if (value.kind != YamlNode::Kind::scalar) value.place = place;
+      to.entries.push_back({key, place, std::move(value)});
+    }
+    return to;
   }
 
   std::shared_ptr<const YamlFile> file_;
+  std::size_t values_ = 0;
 };
 
 /// Scalars that YAML would take for nothing keep their quotes: yaml-cpp sees to it.
@@ -76,6 +91,22 @@ void emit(YAML::Emitter& out, const YamlNode& node) {
   }
 }
 
+/// Throws InputError for a file that cannot be read, is far too large, or is not UTF-8.
+std::string text_of(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (!std::filesystem::exists(file)) throw input_error("{}: no such file", name);
+  if (!std::filesystem::is_regular_file(file)) throw input_error("{}: is not a file", name);
+  if (std::filesystem::file_size(file) > largest_file)
+    throw input_error("{}: has more than {} bytes: is it a case file?", name, largest_file);
+  std::ifstream from(file, std::ios::binary);
+  std::ostringstream text;
+  text << from.rdbuf();
+  if (!from) throw input_error("{}: cannot be read", name);
+  if (const int line = first_line_not_utf8(text.str()); line > 0)
+    throw input_error("{}:{}: is not UTF-8; save the file in that encoding", name, line);
+  return text.str();
+}
+
 }  // namespace
 
 const YamlNode* YamlNode::find(std::string_view key) const {
@@ -89,20 +120,16 @@ std::string YamlPlace::text() const {
 }
 
 YamlNode read_yaml(const std::filesystem::path& file, int depth) {
-  const std::string name = file.string();
-  if (!std::filesystem::exists(file)) throw input_error("{}: no such file", name);
-  if (!std::filesystem::is_regular_file(file)) throw input_error("{}: is not a file", name);
+  const std::string name = file.string(), text = text_of(file);
   const auto source = std::make_shared<const YamlFile>(YamlFile{file, depth});
   try {
-    const auto documents = YAML::LoadAllFromFile(name);
+    const auto documents = YAML::LoadAll(text);
     if (documents.size() > 1)
       throw input_error("{}:{}: a second document starts here; a case file has one", name,
                         line_of(documents[1].Mark()));
     YamlNode nothing;
     nothing.place = {source, 1};
     return documents.empty() ? nothing : Copier(source)(documents.front());
-  } catch (const YAML::BadFile&) {
-    throw input_error("{}: cannot be read", name);
   } catch (const YAML::Exception& error) {
     throw input_error("{}:{}: not YAML: {}", name, line_of(error.mark), error.msg);
   }

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/base/folder_lock.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 
@@ -80,6 +81,7 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
   add_terminal(run.environment);
   note_of_failure().remove();
   run.environment.emplace_back("TETHER_TOLD", note_of_failure().path());
+  run.environment.emplace_back(holder_variable, holder_name());
   if (geteuid() == 0) {
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");

@@ -6,6 +6,7 @@
 
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "fsi_master/results/run_summary.hpp"
@@ -45,28 +46,21 @@ std::string first_difference(const YamlNode& one, const YamlNode& other) {
   return {};
 }
 
-/// A file that the case names and that was written after `moment`; empty if there is none.
-std::string newer_file(const YamlNode& node, const fs::path& folder, fs::file_time_type moment) {
-  if (node.kind == YamlNode::Kind::scalar) {
-    std::error_code none;
-    const bool is_file = fs::is_regular_file(folder / node.text, none);
-    return is_file && fs::last_write_time(folder / node.text) > moment ? node.text : "";
-  }
-  for (const auto& item : node.items)
-    if (const std::string found = newer_file(item, folder, moment); !found.empty()) return found;
-  for (const auto& entry : node.entries)
-    if (const std::string found = newer_file(entry.value, folder, moment); !found.empty()) return found;
-  return {};
+std::string section_of(const InputFile& input) {
+  return input.field.substr(0, input.field.find('.'));
 }
 
-/// The later of `moment` and when a file below the node was written.
-fs::file_time_type newest(const YamlNode& node, const fs::path& folder, fs::file_time_type moment) {
-  std::error_code none;
-  if (node.kind == YamlNode::Kind::scalar && fs::is_regular_file(folder / node.text, none))
-    moment = std::max(moment, fs::last_write_time(folder / node.text));
-  for (const auto& item : node.items) moment = newest(item, folder, moment);
-  for (const auto& entry : node.entries) moment = newest(entry.value, folder, moment);
-  return moment;
+/// The first file of the case that holds something else than when the run started; empty if there is none.
+std::string first_changed_file(const std::vector<InputFile>& now, const std::vector<InputFile>& then,
+                               const YamlNode& tree) {
+  for (const InputFile& input : now) {
+    if (!has_effect(section_of(input), tree)) continue;
+    const bool same = std::any_of(then.begin(), then.end(), [&](const InputFile& before) {
+      return before.field == input.field && before.name == input.name && before.content == input.content;
+    });
+    if (!same) return input.name;
+  }
+  return {};
 }
 
 RunSummary summary_in(const fs::path& output) {
@@ -81,18 +75,13 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
   const YamlNode now = as_one_file(read_case_tree(file.path())), then = read_yaml(output / case_as_run);
   if (const std::string section = first_difference(now, then); !section.empty())
     return fmt::format("the run in {} had another '{}'", output.string(), section);
-  const auto written = fs::last_write_time(output / "summary.json");
-  for (const auto& entry : now.entries)
-    if (const std::string newer = newer_file(entry.value, file.path().parent_path(), written);
-        has_effect(entry.key, now) && !newer.empty())
-      return fmt::format("{} is newer than the run in {}", newer, output.string());
+  const auto held = read_input_files(output / inputs_as_run);
+  if (!held) return fmt::format("the run in {} does not say what its files held", output.string());
+  if (const std::string file_name = first_changed_file(input_files(file.path()), *held, now); !file_name.empty())
+    return fmt::format("{} is not as it was for the run in {}", file_name, output.string());
   if (const std::int64_t made = summary_in(output).steps; made < steps)
     return fmt::format("the run in {} ended after {} of {} steps", output.string(), made, steps);
   return std::nullopt;
-}
-
-fs::file_time_type newest_file(const CaseFile& file) {
-  return newest(as_one_file(read_case_tree(file.path())), file.path().parent_path(), fs::file_time_type::min());
 }
 
 std::optional<std::string> why_no_velocity(const fs::path& output, const Points& points) {

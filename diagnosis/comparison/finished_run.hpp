@@ -10,13 +10,10 @@
 
 namespace tether {
 
-/// Why what the folder holds cannot be taken for a finished run of this very case with at least so many steps; nothing
-/// if it can. What the case says of title, identification, diagnosis and output may differ, and, without a state
-/// observer, of observations.
+/// Why what the folder holds cannot be taken for a finished run of this very case, and of what its files now hold, with
+/// at least so many steps; nothing if it can. What the case says of title, identification, diagnosis and output may
+/// differ, and, without a state observer, of observations.
 std::optional<std::string> why_not_run(const std::filesystem::path& output, const CaseFile& file, int steps);
-
-/// When the newest of the files that a case names was written.
-std::filesystem::file_time_type newest_file(const CaseFile& file);
 
 /// Why such a run cannot be compared with velocities measured at these points; nothing if it can.
 std::optional<std::string> why_no_velocity(const std::filesystem::path& output, const Points& points);

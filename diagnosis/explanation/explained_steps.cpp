@@ -9,10 +9,12 @@
 #include <iostream>
 
 #include "common/base/built_from.hpp"
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/progress_line.hpp"
 #include "common/config/case_essence.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/input_files.hpp"
 #include "common/io/record_file.hpp"
 
 namespace tether {
@@ -44,15 +46,18 @@ std::string first_line(const fs::path& path) {
   return line;
 }
 
-/// Of the case, of what else was asked, and of the version, whose files others may not understand.
+/// Of the case, of what its files hold, of what else was asked, and of the version, whose files others may not
+/// understand.
 std::string key_of(const fs::path& case_file, std::uint64_t asked) {
-  return fmt::format("{:016x} {}", hash_case(yaml_text(as_one_file(read_case_tree(case_file))), asked), built_from);
+  std::uint64_t hash = hash_case(yaml_text(as_one_file(read_case_tree(case_file))), asked);
+  for (const InputFile& input : input_files(case_file))
+    hash = hash_bytes(&input.content, sizeof input.content, hash_values(input.field, hash));
+  return fmt::format("{:016x} {}", hash, built_from);
 }
 
 }  // namespace
 
-ExplainedSteps::ExplainedSteps(fs::path output, fs::file_time_type data, bool quiet)
-    : output_(std::move(output)), data_(data), quiet_(quiet) {
+ExplainedSteps::ExplainedSteps(fs::path output, bool quiet) : output_(std::move(output)), quiet_(quiet) {
   if (!fs::exists(output_ / "steps.json")) return;
   try {
     before_ = read_record<StepsMade>(output_ / "steps.json").steps;
@@ -68,7 +73,7 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
     return step.name == title && step.folder == folder && step.key == key;
   });
   if (!quiet_) std::cout << fmt::format("\n== {}\n", title) << std::flush;
-  if (kept != before_.end() && fs::exists(made) && fs::last_write_time(made) > data_) {
+  if (kept != before_.end() && fs::exists(made)) {
     if (!quiet_) std::cout << fmt::format("is there, in {}\n", (output_ / folder).string()) << std::flush;
     done_.push_back(*kept);
     return;

@@ -8,12 +8,11 @@
 
 namespace tether {
 
-/// Makes the steps of an explanation, and leaves out those that were made before from the same case and data:
+/// Makes the steps of an explanation, and leaves out those that were made before from the same case and files:
 /// steps.json in the output folder remembers.
 class ExplainedSteps {
  public:
-  /// data: what the given case was measured with; newer files make every step anew.
-  ExplainedSteps(std::filesystem::path output, std::filesystem::file_time_type data, bool quiet);
+  ExplainedSteps(std::filesystem::path output, bool quiet);
 
   /// Runs a verb on a case, which leaves `result` in OUTPUT/folder. `act` is told whether this very step was begun
   /// before and did not end. asked: a hash of what it depends on beside the case. Throws RunError if it fails.
@@ -26,7 +25,6 @@ class ExplainedSteps {
   void save() const;
 
   std::filesystem::path output_;
-  std::filesystem::file_time_type data_;
   bool quiet_;
   std::vector<ExplainedStep> before_, done_;
 };

@@ -8,7 +8,6 @@
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
-#include "diagnosis/comparison/finished_run.hpp"
 #include "diagnosis/evidence/stored_run.hpp"
 #include "diagnosis/explanation/explained_distances.hpp"
 #include "diagnosis/explanation/explained_steps.hpp"
@@ -77,7 +76,7 @@ void take_estimates(std::vector<Finding>& findings, const Estimate& estimate) {
 class Explainer {
  public:
   Explainer(const DiagnosedCase& given, fs::path output, ExplanationWork& work, bool quiet)
-      : given_(given), output_(std::move(output)), work_(work), steps_(output_, newest_file(given.file), quiet) {
+      : given_(given), output_(std::move(output)), work_(work), steps_(output_, quiet) {
     const CommonCase& common = given.file.common();
     path_.case_name = common.name;
     path_.title = common.title;

@@ -58,18 +58,18 @@ std::vector<std::string> draw_ranking(const Diagnosis& diagnosis, const std::fil
   const std::size_t count = std::min<std::size_t>(25, diagnosis.effects.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Finding& finding = diagnosis.effects[i];
-    rows += fmt::format("{} {} \"{}\" {}\n", count - i, std::max(0.0, finding.misfit_removed) + 0.1, name_of(finding),
-                        level_of(finding, diagnosis.alpha));
+    rows += fmt::format("{} {} {} {}\n", count - i, std::max(0.0, finding.misfit_removed) + 0.1,
+                        gnuplot_cell(name_of(finding)), level_of(finding, diagnosis.alpha));
   }
   const std::string script =
       gnuplot_head(1000, 120 + 24 * static_cast<int>(count)) + rows + "END\n" +
       fmt::format(
-          "set output 'plots/diagnosis.png'\nset title '{}'\nset xlabel 'misfit that the effect removes (chi-square)'\n"
+          "set output 'plots/diagnosis.png'\nset title {}\nset xlabel 'misfit that the effect removes (chi-square)'\n"
           "set logscale x\nset xrange [0.1:*]\nset yrange [0:{}]\nset style fill solid 0.7\nset key bottom right\n"
           "plot for [k=0:2] $rows using (0.1):1:(0.1):($4==k?$2:0.1):($1-0.35):($1+0.35):ytic(3) with boxxyerror "
           "linecolor "
           "word('8 1 7',k+1)+0 title word('chance significant accepted',k+1)\n",
-          diagnosis.case_name, count + 1);
+          gnuplot_text(diagnosis.case_name), count + 1);
   run_gnuplot(output, "diagnosis.gp", script);
   return {"diagnosis.png"};
 }

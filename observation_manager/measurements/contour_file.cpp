@@ -25,8 +25,8 @@ class Table {
  public:
   Table(const SlicesCase& given, const UnitSystem& units)
       : table_(given.file),
-        slice_(table_.texts("slice")),
-        contour_(table_.has("contour") ? table_.texts("contour") : std::vector<std::string>(table_.rows())),
+        slice_(table_.names("slice")),
+        contour_(table_.has("contour") ? table_.names("contour") : std::vector<std::string>(table_.rows())),
         frame_(table_.numbers("frame")),
         time_(table_.quantities("time", units, dimension::time)),
         closed_(table_.has("closed") ? table_.numbers("closed") : std::vector<double>(table_.rows(), 1.0)) {

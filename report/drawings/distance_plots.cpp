@@ -35,7 +35,7 @@ struct DistancePanel {
 
 std::string panel(const DistancePanel& p, const std::string& region, const std::string& names, bool has_held_out,
                   double noise, double bound) {
-  std::string text = fmt::format("set title '{}: {}'\nplot ", region, p.title);
+  std::string text = fmt::format("set title {}\nplot ", gnuplot_text(region + ": " + p.title));
   if (p.model == 4 && bound > 0)
     text += fmt::format(
         "$training{0} using 1:(-$6):6 with filledcurves fillcolor '#dddddd' title 'what noise allows', ", names);
@@ -84,10 +84,10 @@ std::string script(const TraceDiscrepancy& trace, const std::string& png, const 
     rows += fmt::format("{} {} {}\n", trace.times[i], factor * trace.measured[i], factor * trace.model[i]);
   return gnuplot_head(1000, 600) + block("rows", rows) +
          fmt::format(
-             "set output 'plots/{}'\nset xlabel 'time [s]'\nset ylabel '{} [{}]'\nset title '{}'\n"
+             "set output 'plots/{}'\nset xlabel 'time [s]'\nset ylabel {}\nset title {}\n"
              "plot $rows using 1:2 with points pointtype 7 title 'measured', $rows using 1:3 with lines "
              "linewidth 2 title 'model'\n",
-             png, trace.observable, unit, trace.name);
+             png, gnuplot_text(fmt::format("{} [{}]", trace.observable, unit)), gnuplot_text(trace.name));
 }
 
 /// Rows of one kind: time, rms of the difference, of the measured velocity [m/s].
@@ -105,10 +105,10 @@ std::string script(const VelocityDiscrepancy& velocity, const std::string& png, 
   std::string text = gnuplot_head(1000, 600) + block("training", rows(velocity, false, metres));
   if (!held_out.empty()) text += block("held_out", held_out);
   text += fmt::format(
-      "set output 'plots/{}'\nset xlabel 'time [s]'\nset ylabel 'velocity, root mean square [m/s]'\nset title '{}'\n"
+      "set output 'plots/{}'\nset xlabel 'time [s]'\nset ylabel 'velocity, root mean square [m/s]'\nset title {}\n"
       "set yrange [0:*]\nplot $training using 1:3 with linespoints dashtype 2 title 'measured', "
       "$training using 1:2 with linespoints linewidth 2 pointtype 7 title 'measured minus model'",
-      png, velocity.name);
+      png, gnuplot_text(velocity.name));
   if (!held_out.empty()) text += ", $held_out using 1:2 with points pointtype 4 pointsize 1.4 title 'held out'";
   return text + "\n";
 }

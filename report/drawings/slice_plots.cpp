@@ -81,8 +81,8 @@ SlicePanel panel_of(SliceView view, const std::string& suffix, const std::vector
              "lines linewidth 2 linecolor '#d55e00' title 'model'");
   for (int r = 0; r < static_cast<int>(regions.size()); ++r)
     panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, r, units, panel.shown),
-               fmt::format("points pointtype 7 pointsize 0.8 linecolor {} title '{}'", r + 2,
-                           regions[static_cast<std::size_t>(r)]));
+               fmt::format("points pointtype 7 pointsize 0.8 linecolor {} title {}", r + 2,
+                           gnuplot_text(regions[static_cast<std::size_t>(r)])));
   if (!panel.plot.empty())
     panel.plot =
         fmt::format("set xlabel '{}'\nset ylabel '{}'\n{}", along(view.plane.e1), along(view.plane.e2), panel.plot);
@@ -103,7 +103,9 @@ std::map<std::string, std::vector<SlicePanel>> panels_of(const SourceDiscrepancy
                           : moment == moments[0] ? "farthest off"
                                                  : "largest lumen";
       if (!panel.plot.empty())
-        panel.plot = fmt::format("set title '{}, {:.3f} s: {}'\n{}\n", view.name, moment->time, which, panel.plot);
+        panel.plot =
+            fmt::format("set title {}\n{}\n",
+                        gnuplot_text(fmt::format("{}, {:.3f} s: {}", view.name, moment->time, which)), panel.plot);
       of_slice.push_back(std::move(panel));
     }
   return panels;

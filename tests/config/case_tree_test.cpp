@@ -162,7 +162,7 @@ TEST_F(CaseTree, TheMarkOfResultsIsTheMergedCase) {
   CommandLine command;
   command.output = test_folder() / "results";
   const fs::path path = over("title: 'x: \"y\" # z'\nfluid: {density: 2, table: other.csv, angles: [1, 0.5]}\n");
-  claim_output(command, CaseFile(path));
+  claim_and_mark_output(command, CaseFile(path));
   const YamlNode mark = read_yaml(command.output / case_as_run);
   EXPECT_EQ(mark.find("base"), nullptr);
   EXPECT_EQ(mark.find("title")->text, "x: \"y\" # z");

@@ -1,5 +1,6 @@
 #include "common/config/output_folder.hpp"
 
+#include "common/base/folder_lock.hpp"
 #include "tests/config/case_text.hpp"
 
 namespace tether {
@@ -10,7 +11,7 @@ std::string claim(const std::string& name, bool overwrite = false, const std::st
   CommandLine command;
   command.output = test_folder() / "results";
   command.overwrite = overwrite;
-  return input_error_of([&] { claim_output(command, CaseFile(path)); });
+  return input_error_of([&] { claim_and_mark_output(command, CaseFile(path)); });
 }
 
 class OutputFolder : public ::testing::Test {
@@ -52,6 +53,14 @@ TEST_F(OutputFolder, IsNotTakenFromOtherFiles) {
   EXPECT_EQ(claim("tube"),
             "results: holds files that are not the results of a run; choose another folder with --output, or give "
             "--overwrite");
+}
+
+/// What a refused claim leaves behind is nothing.
+TEST_F(OutputFolder, IsNotTouchedWhereItIsRefused) {
+  std::filesystem::create_directories(test_folder() / "results");
+  std::ofstream(test_folder() / "results" / "thesis.txt") << "precious";
+  EXPECT_NE(claim("tube"), "no error");
+  EXPECT_FALSE(std::filesystem::exists(test_folder() / "results" / folder_lock_name));
 }
 
 }  // namespace

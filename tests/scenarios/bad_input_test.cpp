@@ -133,6 +133,24 @@ TEST_P(BadInput, IsAnsweredByOneMessage) {
 
 const Mistake mistakes[] = {
     {"NotYaml", In::the_case, "solid:", "solid: [", "case.yaml:23: not YAML: end of sequence flow not found"},
+    {"NoUtf8", In::the_case, "name: tube",
+     "name: tube\ntitle: Stra\xDF"
+     "e",
+     "case.yaml:2: is not UTF-8; save the file in that encoding"},
+    {"AliasBomb", In::the_case, "name: tube",
+     "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\nb: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]\n"
+     "c: &c [*b, *b, *b, *b, *b, *b, *b, *b, *b, *b]\nd: &d [*c, *c, *c, *c, *c, *c, *c, *c, *c, *c]\n"
+     "e: &e [*d, *d, *d, *d, *d, *d, *d, *d, *d, *d]\nf: &f [*e, *e, *e, *e, *e, *e, *e, *e, *e, *e]",
+     "case.yaml:1: more than 100000 values (aliases of aliases?)"},
+    {"NameWithQuotes", In::the_case, "solid:\n", "output: {points: {\"it's\": [0, 0, 1]}}\nsolid:\n",
+     "case.yaml:21: output.points.it's: a name consists of letters, digits, spaces and _-.+=:()#%"},
+    {"NameThatWouldBeAScript", In::the_case, "solid:\n",
+     "output: {points: {\"S'; system 'touch owned'; set title 'q\": [0, 0, 1]}}\nsolid:\n",
+     "case.yaml:21: output.points.S'; system 'touch owned'; set title 'q: a name consists of letters, digits, spaces "
+     "and "
+     "_-.+=:()#%"},
+    {"NameWithComma", In::the_case, "      spine: {stiffness", "      'a, b': {stiffness",
+     "case.yaml:26: solid.support.regions.a, b: a name consists of letters, digits, spaces and _-.+=:()#%"},
     {"FieldGivenTwice", In::the_case, "units: cgs", "units: cgs\nunits: SI",
      "case.yaml:3: 'units' is given twice; first on line 2"},
     {"UnknownUnits", In::the_case, "units: cgs", "units: metric",

@@ -1,0 +1,67 @@
+#include "common/base/name.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace tether {
+namespace {
+
+constexpr std::size_t longest_name = 100;
+
+bool is_ascii(char c) {
+  return static_cast<unsigned char>(c) < 0x80;
+}
+
+bool may_stand_in_a_name(char c) {
+  constexpr std::string_view signs = " _-.+=:()#%";
+  return !is_ascii(c) || std::isalnum(static_cast<unsigned char>(c)) != 0 || signs.find(c) != std::string_view::npos;
+}
+
+/// Characters that begin alike: the bits that say so, how many bytes follow, the smallest that needs so many.
+struct Lead {
+  unsigned char mask, bits;
+  std::size_t followers;
+  char32_t smallest;
+};
+
+constexpr std::array leads{Lead{0x80, 0x00, 0, 0x0}, Lead{0xE0, 0xC0, 1, 0x80}, Lead{0xF0, 0xE0, 2, 0x800},
+                           Lead{0xF8, 0xF0, 3, 0x10000}};
+
+/// The bytes of the character that a text begins with; 0 if it begins with none.
+std::size_t first_character(std::string_view text) {
+  const auto byte = static_cast<unsigned char>(text.front());
+  const auto* lead = std::find_if(leads.begin(), leads.end(), [&](const Lead& l) { return (byte & l.mask) == l.bits; });
+  if (lead == leads.end() || text.size() <= lead->followers) return 0;
+  char32_t code = byte & static_cast<unsigned char>(~lead->mask);
+  for (std::size_t i = 1; i <= lead->followers; ++i) {
+    const auto follower = static_cast<unsigned char>(text[i]);
+    if ((follower & 0xC0) != 0x80) return 0;
+    code = (code << 6) | (follower & 0x3F);
+  }
+  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code < lead->smallest || is_surrogate || code > 0x10FFFF ? 0 : lead->followers + 1;
+}
+
+}  // namespace
+
+int first_line_not_utf8(std::string_view text) {
+  for (int line = 1; !text.empty();) {
+    const std::size_t bytes = first_character(text);
+    if (bytes == 0) return line;
+    if (text.front() == '\n') ++line;
+    text.remove_prefix(bytes);
+  }
+  return 0;
+}
+
+bool is_utf8(std::string_view text) {
+  return first_line_not_utf8(text) == 0;
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= longest_name && text.front() != ' ' && text.back() != ' ' &&
+         std::all_of(text.begin(), text.end(), may_stand_in_a_name) && is_utf8(text);
+}
+
+}  // namespace tether

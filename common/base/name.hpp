@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+namespace tether {
+
+/// The rule for names that users give: regions, slices, points, outlets. They become columns of tables, labels of plots
+/// and parts of file names.
+inline constexpr std::string_view name_rule = "a name consists of letters, digits, spaces and _-.+=:()#%";
+
+/// Whether a text is such a name: not empty, of at most 100 bytes, without a space at either end, valid UTF-8.
+bool is_name(std::string_view text);
+
+/// Whether a text is valid UTF-8, as all files of results must be (RFC 3629: no overlong forms, no surrogates).
+bool is_utf8(std::string_view text);
+
+/// The first line that is not; 0 if all are.
+int first_line_not_utf8(std::string_view text);
+
+}  // namespace tether

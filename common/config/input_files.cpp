@@ -1,0 +1,154 @@
+#include "common/config/input_files.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+#include "common/base/checked_file.hpp"
+#include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int folders_deep = 1;  ///< those of meshes have their surfaces one below
+
+std::uint64_t hash_text(std::string_view text, std::uint64_t seed) {
+  return hash_bytes(text.data(), text.size(), hash_bytes("|", 1, seed));
+}
+
+std::uint64_t hash_file(const fs::path& path, std::uint64_t seed) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> block(1 << 20);  // a multiple of what hash_bytes takes at a time
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    seed = hash_bytes(block.data(), static_cast<std::size_t>(file.gcount()), seed);
+  return seed;
+}
+
+bool is_number(std::string_view text) {
+  double value = 0;
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && last == text.data() + text.size();
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r\"";
+  const auto first = text.find_first_not_of(blank);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+/// The files that the cells of a table, or the attributes of a series, name.
+std::vector<fs::path> files_named_in(const fs::path& path) {
+  const std::string kind = path.extension().string();
+  if (kind != ".csv" && kind != ".pvd") return {};
+  const char separator = kind == ".csv" ? ',' : '"';
+  std::vector<fs::path> found;
+  std::ifstream file(path);
+  for (std::string line, cell; std::getline(file, line);) {
+    for (std::size_t begin = 0; begin < line.size();) {
+      const std::size_t end = std::min(line.find(separator, begin), line.size());
+      const std::string_view text = trimmed(std::string_view(line).substr(begin, end - begin));
+      begin = end + 1;
+      if (text.empty() || is_number(text)) continue;
+      std::error_code none;
+      if (fs::path named = path.parent_path() / text; fs::is_regular_file(named, none))
+        found.push_back(std::move(named));
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) {
+  std::vector<fs::path> inside;
+  for (const auto& entry : fs::directory_iterator(folder)) inside.push_back(entry.path());
+  std::sort(inside.begin(), inside.end());
+  for (const fs::path& path : inside) {
+    hash = hash_text(path.filename().string(), hash);
+    if (fs::is_regular_file(path)) hash = hash_file(path, hash);
+    if (fs::is_directory(path) && deep > 0) hash = hash_folder(path, hash, deep - 1);
+  }
+  return hash;
+}
+
+/// A folder that the case stands in holds anything.
+bool may_be_input(const fs::path& path, const fs::path& folder) {
+  std::error_code none;
+  if (fs::is_regular_file(path, none)) return true;
+  if (!fs::is_directory(path, none)) return false;
+  const fs::path from_it = fs::canonical(folder, none).lexically_relative(fs::canonical(path, none));
+  return !from_it.empty() && *from_it.begin() == "..";
+}
+
+void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<InputFile>& found) {
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && may_be_input(folder / node.text, folder))
+    found.push_back({field, node.text, hash_content(folder / node.text)});
+  for (const YamlNode& item : node.items) gather(item, field, folder, found);
+  for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);
+}
+
+}  // namespace
+
+std::uint64_t hash_content(const fs::path& path) {
+  constexpr std::uint64_t begin = 14695981039346656037ull;
+  std::error_code none;
+  if (fs::is_directory(path, none)) return hash_folder(path, begin, folders_deep);
+  if (!fs::is_regular_file(path, none)) return 0;
+  std::uint64_t hash = hash_file(path, begin);
+  for (const fs::path& named : files_named_in(path))
+    hash = hash_file(named, hash_text(named.filename().string(), hash));
+  return hash;
+}
+
+std::vector<InputFile> input_files(const fs::path& case_file) {
+  const YamlNode tree = as_one_file(read_case_tree(case_file));
+  std::vector<InputFile> found;
+  for (const auto& entry : tree.entries)
+    if (entry.value.kind != YamlNode::Kind::scalar)
+      gather(entry.value, entry.key, fs::absolute(case_file).parent_path(), found);
+  return found;
+}
+
+void write_input_files(const fs::path& file, const std::vector<InputFile>& inputs) {
+  YamlNode list;
+  list.kind = YamlNode::Kind::list;
+  const auto scalar = [](std::string text) {
+    YamlNode node;
+    node.kind = YamlNode::Kind::scalar;
+    node.text = std::move(text);
+    return node;
+  };
+  for (const InputFile& input : inputs) {
+    YamlNode one;
+    one.kind = YamlNode::Kind::list;
+    one.items = {scalar(input.field), scalar(input.name), scalar(fmt::format("{:016x}", input.content))};
+    list.items.push_back(std::move(one));
+  }
+  YamlNode tree;
+  tree.kind = YamlNode::Kind::map;
+  tree.entries.push_back({"inputs", {}, std::move(list)});
+  std::ofstream to(file);
+  to << "# Field, file, hash of its content when the run started.\n" << yaml_text(tree);
+  if (!to.flush()) throw run_error("{}: cannot be written to", file.string());
+}
+
+std::optional<std::vector<InputFile>> read_input_files(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  const YamlNode tree = read_yaml(file);
+  const YamlNode* list = tree.find("inputs");
+  if (list == nullptr) return std::nullopt;
+  std::vector<InputFile> inputs;
+  for (const YamlNode& one : list->items) {
+    if (one.items.size() != 3) throw input_error("{}: must have three items", one.place.text());
+    InputFile& input = inputs.emplace_back(InputFile{one.items[0].text, one.items[1].text});
+    const std::string& hash = one.items[2].text;
+    std::from_chars(hash.data(), hash.data() + hash.size(), input.content, 16);
+  }
+  return inputs;
+}
+
+}  // namespace tether

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/yaml_tree.hpp"
+
+/// What the files that a case names hold. Results are kept as long as that is the same: names and dates tell nothing.
+namespace tether {
+
+/// A hash of what a file holds, and of what the files hold that a table (.csv) or series (.pvd) names; of a folder: of
+/// the names and contents of the files in it and in its folders. The hash of nothing if there is no such file.
+std::uint64_t hash_content(const std::filesystem::path& path);
+
+/// A file or folder that a value of a case names.
+struct InputFile {
+  std::string field;  ///< "observations.surfaces.ct.file"; of an item of a list, that of the list
+  std::string name;   ///< as the case has it
+  std::uint64_t content = 0;
+};
+
+/// All of them, in the order of the case. A word that happens to be the name of a file beside the case counts as one:
+/// what a program of somebody else reads is not known here.
+std::vector<InputFile> input_files(const std::filesystem::path& case_file);
+
+/// Those that were written down with `write_input_files`; nothing if the file is not there.
+std::optional<std::vector<InputFile>> read_input_files(const std::filesystem::path& file);
+void write_input_files(const std::filesystem::path& file, const std::vector<InputFile>& inputs);
+
+}  // namespace tether

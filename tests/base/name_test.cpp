@@ -1,0 +1,35 @@
+#include "common/base/name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace tether {
+namespace {
+
+TEST(Name, IsOfLettersDigitsAndAFewSigns) {
+  for (const char* good : {"spine", "S1", "z = 12 mm", "left (outer)", "a.b_c-d+e", "äußere Wand", "50%", "#3"})
+    EXPECT_TRUE(is_name(good)) << good;
+  for (const char* bad : {"", " spine", "spine ", "it's", "a, b", "a\nb", "a\tb", "\"a\"", "a`b`", "a\\b", "../a",
+                          "a;b", "$a", "a[mm]", "S'; system 'id'; set title 'q"})
+    EXPECT_FALSE(is_name(bad)) << bad;
+  EXPECT_TRUE(is_name(std::string(100, 'a')));
+  EXPECT_FALSE(is_name(std::string(101, 'a')));
+  EXPECT_FALSE(
+      is_name("Stra\xDF"
+              "e"))
+      << "Latin-1";
+}
+
+TEST(Utf8, IsWhatTheStandardSays) {
+  for (const char* good : {"", "abc", "ä", "€", "\xF0\x9F\x98\x80", "\xED\x9F\xBF", "\xEE\x80\x80", "\xF4\x8F\xBF\xBF"})
+    EXPECT_TRUE(is_utf8(good)) << good;
+  for (const char* bad : {"\x80", "\xC3", "\xC3(", "\xC0\xAF", "\xE0\x80\xAF", "\xE2\x82", "\xED\xA0\x80",
+                          "\xF0\x80\x80\xAF", "\xF4\x90\x80\x80", "\xFE", "\xFF"})
+    EXPECT_FALSE(is_utf8(bad));
+  EXPECT_EQ(first_line_not_utf8("a\nb\xE9\nc"), 2);
+  EXPECT_EQ(first_line_not_utf8("a\nb\nc"), 0);
+}
+
+}  // namespace
+}  // namespace tether

@@ -1,0 +1,63 @@
+#include "diagnosis/explanation/explained_steps.hpp"
+
+#include "tests/io/temporary_folder.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether steps are made anew, each seen by its own memory of the output folder.
+class ExplainedStepsTest : public ::testing::Test {
+ protected:
+  ExplainedStepsTest() {
+    fs::create_directories(folder / "out/model_0");
+    folder.file("frame.stl", "solid");
+    folder.file("frames.csv", "file, time [s]\nframe.stl, 0\n");
+    folder.file("case.yaml", "name: tube\nunits: cgs\nobservations: {surfaces: {ct: {file: frames.csv}}}\n");
+  }
+  bool is_made(std::uint64_t asked = 0) const {
+    bool made = false;
+    ExplainedSteps steps(folder / "out", true);
+    steps.make(
+        "model 0", folder / "case.yaml", "model_0", "comparison.json",
+        [&](bool) {
+          made = true;
+          folder.file("out/model_0/comparison.json", "{}");
+        },
+        asked);
+    return made;
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(ExplainedStepsTest, AreKeptForTheSameContent) {
+  EXPECT_TRUE(is_made());
+  EXPECT_FALSE(is_made());
+  const auto later = fs::file_time_type::clock::now() + std::chrono::hours(1);
+  for (const char* name : {"frame.stl", "frames.csv", "case.yaml"}) fs::last_write_time(folder / name, later);
+  EXPECT_FALSE(is_made()) << "dates tell nothing";
+}
+
+TEST_F(ExplainedStepsTest, AreMadeAnewForOtherContent) {
+  EXPECT_TRUE(is_made());
+  folder.file("frame.stl", "another solid");
+  fs::last_write_time(folder / "frame.stl", fs::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_TRUE(is_made()) << "a surface behind a table";
+  folder.file("frames.csv", "file, time [s]\nframe.stl, 0.1\n");
+  EXPECT_TRUE(is_made()) << "the table";
+  EXPECT_TRUE(is_made(1)) << "what else was asked";
+  fs::remove(folder / "out/model_0/comparison.json");
+  EXPECT_TRUE(is_made(1)) << "its result is gone";
+}
+
+TEST_F(ExplainedStepsTest, OfADamagedMemoryAreMadeAnew) {
+  for (const char* damaged : {"", "{", "[{}]", "{\"steps\": [{}]}", "null", "\xFF\xFE"}) {
+    folder.file("out/steps.json", damaged);
+    EXPECT_TRUE(is_made()) << damaged;
+    EXPECT_FALSE(is_made()) << damaged;
+  }
+}
+
+}  // namespace
+}  // namespace tether
