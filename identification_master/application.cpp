@@ -1,251 +1,28 @@
 #include "identification_master/application.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <iostream>
 
-#include "common/base/checked_file.hpp"
 #include "common/base/process.hpp"
-#include "common/base/progress_line.hpp"
-#include "common/config/case_essence.hpp"
-#include "common/config/echo.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/run.hpp"
-#include "common/protocol/signals.hpp"
 #include "common/protocol/socket_channel.hpp"
-#include "identification_master/checkpoint.hpp"
 #include "identification_master/estimate_files.hpp"
-#include "identification_master/group_pool.hpp"
 #include "identification_master/groups.hpp"
-#include "identification_master/identification_case.hpp"
-#include "identification_master/identified_case.hpp"
-#include "identification_master/sensitivity_tables.hpp"
+#include "identification_master/identification_job.hpp"
 #include "identification_master/serve_runs.hpp"
-#include "observation_manager/measurements/observed_case.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
 using protocol::Partner;
-using Clock = std::chrono::steady_clock;
-
-/// A case and what of it an identification reads.
-struct IdentifiedCase {
-  explicit IdentifiedCase(const fs::path& path) : file(path) {
-    file.read("mesh", mesh);
-    file.read("observations", observations);
-    file.read("identification", identification);
-    file.finish();
-    if (identification.parameters.empty())
-      throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
-  }
-  /// The wall's element does not matter: interface nodes are the same.
-  VesselMesh vessel() const { return load_mesh(mesh, file, WallElement::prism); }
-  LumenSurface lumen() const { return lumen_of(vessel()); }
-  std::size_t particles() const { return identification.parameters.size() + 1; }
-
-  CaseFile file;
-  MeshCase mesh;
-  ObservationsCase observations;
-  IdentificationCase identification;
-};
-
-IdentificationPlan plan_of(const IdentifiedCase& given, const CommandLine& command) {
-  const TimeCase& time = given.file.common().time;
-  IdentificationPlan plan;
-  plan.start = time.start;
-  plan.dt = time.step;
-  plan.steps = command.steps.value_or(time.steps());
-  plan.every_step = given.identification.observe != "frames";
-  plan.corrects = given.identification.observe != "never";
-  plan.reject_beyond = given.identification.reject_beyond;
-  plan.memory_time = given.identification.memory_time;
-  plan.largest_shift = given.identification.largest_shift;
-  return plan;
-}
 
 std::size_t groups_for(const IdentifiedCase& given, const CommandLine& command, const protocol::Session& session) {
   const int wanted = command.processes > 0 ? command.processes : given.identification.groups;
   return group_count({wanted, given.particles(), [&given] { return given.vessel(); }}, session);
 }
 
-std::string news(const Identification& now, const IdentifiedParameters& parameters) {
-  const EstimateRecord& last = now.last();
-  std::string text = fmt::format("t {:.4g} s ", last.time);
-  for (std::size_t i = 0; i < parameters.list().size(); ++i) {
-    const IdentifiedParameter& p = parameters.list()[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    const ValueEstimate value = estimate_of(p, last.mean(k), std::sqrt(last.covariance(k, k)));
-    text += fmt::format(" {} {:.3g} ({:.3g} .. {:.3g})", p.name, value.median, value.lower, value.upper);
-  }
-  return text;
-}
-
-/// Everything that a run and its continuation must have in common.
-std::uint64_t fingerprint_of(const IdentifiedCase& given, GroupPool& pool, const Observations& data) {
-  const CommonCase& common = given.file.common();
-  std::uint64_t hash = hash_values(pool.lumen(), data.content());
-  for (const std::string& section :
-       {pool.model().effective_case, echo_json("time", common.time), echo_json("image", common.image),
-        echo_json("observer", common.observer), echo_json("observations", given.observations),
-        echo_json("identification", given.identification)})
-    hash = hash_case(section, hash);
-  return hash;
-}
-
-/// What a reader of the estimate must know of the data behind it.
-std::vector<std::string> notices_of(const std::vector<EstimateRecord>& records) {
-  const DataTotals all = totals_of(records);
-  if (all.data == 0)
-    return {all.rejected > 0
-                ? "all data were rejected (identification.reject_beyond): the estimate is the prior"
-                : "no step met any data: the estimate is the prior; look at the times of frames and traces, at "
-                  "trust_distance, and at what is held out"};
-  if (all.tempered_steps == 0) return {};
-  return {fmt::format(
-      "{} of {} steps were tempered (identification.largest_shift): {:.3g} of {:.3g} independent data were used",
-      all.tempered_steps, records.size() - 1, all.used, all.data)};
-}
-
-SensitivityTables tables_of(const IdentifiedCase& given, const fs::path& output, const Observations& data,
-                            const DataPrecision& precision) {
-  std::vector<std::string> names;
-  for (const auto& [name, parameter] : given.identification.parameters) names.push_back(name);
-  return {output, data, given.lumen(), names, precision.deviations(), given.file.units()};
-}
-
-/// What was measured. Throws InputError if nothing of it may be learnt from, or the noise of what may is not stated.
-Observations data_of(const IdentifiedCase& given) {
-  Observations data = load_observations(given.observations, given.lumen(), given.file);
-  const std::vector<const Measurement*> all = data.all();
-  if (std::all_of(all.begin(), all.end(), [](const Measurement* source) { return source->facts().held_out; }))
-    throw input_error("{}: names no measurements to learn from{}", given.file.where("observations"),
-                      all.empty() ? "" : ": all of them are held out");
-  check_noise(data, given.file);
-  return data;
-}
-
-/// One identification from the launch of the groups to its files.
-class Job {
- public:
-  Job(IdentifiedCase& given, const CommandLine& command, GroupPool& pool, fs::path output)
-      : given_(given),
-        command_(command),
-        pool_(pool),
-        output_(std::move(output)),
-        data_(data_of(given)),
-        parameters_(given.identification, pool.model().parameters, given.file),
-        precision_(data_, pool.lumen(), given.file.common().time.step,
-                   {given.file.common().time.start, given.file.common().time.end}),
-        plan_(plan_of(given, command)),
-        filter_(plan_, parameters_, prepared(), data_, pool) {}
-
-  void run() {
-    begin();
-    begun_ = Clock::now();
-    groups_cpu_before_ = pool_.usage().cpu_seconds;
-    master_cpu_before_ = cpu_seconds();
-    ProgressLine progress(filter_.state().step, plan_.steps, command_.quiet);
-    try {
-      while (!filter_.is_done()) {
-        filter_.advance();
-        progress.show(filter_.state().step, news(filter_, parameters_));
-        if (filter_.state().step % given_.file.common().output.checkpoint_every == 0) save();
-      }
-    } catch (const protocol::Interrupted& interrupted) {
-      progress.end_line();
-      throw run_error("{} in step {}\n{}", interrupted.what(), filter_.state().step + 1, what_is_saved());
-    } catch (const RunError& error) {
-      progress.end_line();
-      throw run_error("{}\n{}", error.what(), what_is_saved());
-    }
-    save();
-    if (plan_.corrects)
-      write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
-    const std::vector<std::string> notices = notices_of(filter_.state().records);
-    write_estimate(output_ / "estimate.json", parameters_, filter_, facts(notices));
-    if (!command_.quiet)
-      for (const std::string& notice : notices) std::cout << notice << "\n";
-  }
-
- private:
-  const DataPrecision& prepared() {
-    if (!plan_.every_step) precision_.count_frames_whole();
-    return precision_;
-  }
-  void begin() {
-    fingerprint_ = fingerprint_of(given_, pool_, data_);
-    if (command_.resume) {
-      IdentificationCheckpoint checkpoint = read_checkpoint(output_, fingerprint_);
-      filter_.restore(std::move(checkpoint.state));
-      cost_before_ = checkpoint.cost;
-      saved_ = filter_.state().step;
-      mark_output(output_, command_.case_file);
-    }
-    if (!plan_.corrects) begin_sensitivities();
-    if (command_.quiet) return;
-    for (const std::string& notice : pool_.model().notices) std::cout << notice << "\n";
-    std::cout << fmt::format("{} parameters, {} particles on {} groups of processes\n", parameters_.list().size(),
-                             given_.particles(), pool_.size())
-              << std::flush;
-    if (const int last = given_.file.common().time.steps(); plan_.steps > last)
-      std::cout << fmt::format("--steps {}: beyond time.end, which {} steps reach\n", plan_.steps, last) << std::flush;
-  }
-  void begin_sensitivities() {
-    auto tables = std::make_shared<SensitivityTables>(tables_of(given_, output_, data_, precision_));
-    command_.resume ? tables->continue_from(filter_.last().time) : tables->begin();
-    filter_.report_sensitivities([tables](const StepSensitivities& step) { tables->add(step); });
-  }
-  void save() {
-    write_estimates(output_ / "estimate.csv", parameters_, filter_.state().records);
-    write_checkpoint(output_, fingerprint_, filter_.state(), cost());
-    saved_ = filter_.state().step;
-  }
-  std::string what_is_saved() const {
-    if (!saved_) return "No state is saved yet";
-    return fmt::format("The state after {} steps is in {}", *saved_, (output_ / "checkpoint").string());
-  }
-  /// Of these steps, and of those before a continuation.
-  IdentificationCost cost() {
-    IdentificationCost all = cost_before_;
-    all.wall_seconds += seconds_since(begun_);
-    all.cpu_seconds += pool_.usage().cpu_seconds - groups_cpu_before_;
-    all.master_cpu_seconds += cpu_seconds() - master_cpu_before_;
-    all.moved_values += parameters_.moved();
-    return all;
-  }
-  IdentificationFacts facts(const std::vector<std::string>& of_data) {
-    std::vector<std::string> notices = pool_.model().notices;
-    notices.insert(notices.end(), of_data.begin(), of_data.end());
-    const CommonCase& common = given_.file.common();
-    return {.case_name = common.name,
-            .title = common.title,
-            .case_file = fs::absolute(given_.file.path()).string(),
-            .groups = pool_.size(),
-            .cost = cost(),
-            .peak_memory_mb = pool_.usage().peak_memory_mb + peak_memory_mb(),
-            .notices = std::move(notices)};
-  }
-
-  IdentifiedCase& given_;
-  const CommandLine& command_;
-  GroupPool& pool_;
-  fs::path output_;
-  Observations data_;
-  IdentifiedParameters parameters_;
-  DataPrecision precision_;
-  IdentificationPlan plan_;
-  Identification filter_;
-  std::uint64_t fingerprint_ = 0;
-  std::optional<std::int64_t> saved_;
-  Clock::time_point begun_;
-  double groups_cpu_before_ = 0, master_cpu_before_ = 0;
-  IdentificationCost cost_before_;
-};
-
-void identify(const CommandLine& command, protocol::Session& session) {
+void run_identification(const CommandLine& command, protocol::Session& session) {
   IdentifiedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
   if (!command.resume) {
@@ -255,7 +32,7 @@ void identify(const CommandLine& command, protocol::Session& session) {
   const std::vector<Partner*> groups =
       launch_groups(groups_for(given, command, session), command.case_file, output, session);
   GroupPool pool(session, groups);
-  Job(given, command, pool, output).run();
+  identify(given, command, pool, output);
   for (Partner* group : groups) group->stop("the identification is done");
 }
 
@@ -263,7 +40,7 @@ void identify(const CommandLine& command, protocol::Session& session) {
 int run(const CommandLine& command) {
   return protocol::run_master("identification_master", [&command](protocol::Session& session) {
     const char* socket = std::getenv(protocol::run_service_socket);
-    socket == nullptr ? identify(command, session) : serve_runs(command, socket, session);
+    socket == nullptr ? run_identification(command, session) : serve_runs(command, socket, session);
   });
 }
 

@@ -2,23 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
 namespace tether {
 namespace {
 
-/// Characters that tables, plots and case files give a meaning of their own; control characters.
-bool is_special(char c) {
-  return std::string_view("\"'`,\\[]{}$#:").find(c) != std::string_view::npos || (static_cast<unsigned char>(c) < 32);
-}
-
 /// What is wrong with the names that a case gives its parameters; empty: nothing.
 std::string fault_of(const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    if (name.empty() || std::any_of(name.begin(), name.end(), is_special))
-      return fmt::format(
-          "the name \"{}\" holds a character that tables and plots cannot carry; take letters, digits, _", name);
   std::set<std::string> seen{"time",     "data",      "chi_square", "expected_chi_square",
                              "rejected", "tempering", "evaluations"};
   for (const std::string& column : columns_of(names))

@@ -3,9 +3,10 @@
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
+#include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
 #include "solid/case.hpp"
-#include "solid/effects_list.hpp"
+#include "solid/list_effects.hpp"
 #include "solid/server.hpp"
 #include "vessel/mesh_case.hpp"
 
@@ -64,7 +65,7 @@ Program solid_program() {
           .list_effects =
               [](const CommandLine& command) {
                 const WallCase wall(command.case_file);
-                return list_effects(wall.solid, wall.wall(), wall.file.units());
+                return json_of(list_effects(wall.solid, wall.wall(), wall.file.units()));
               },
           .run = run};
 }

@@ -4,8 +4,8 @@
 
 #include "common/base/error.hpp"
 #include "common/config/describe.hpp"
-#include "common/config/diagnosis_case.hpp"
 #include "common/protocol/programs.hpp"
+#include "diagnosis/evidence/diagnosis_case.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {

@@ -12,6 +12,7 @@
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
+#include "solid/results/effects_list.hpp"
 #include "twin/score.hpp"
 
 namespace tether {
@@ -31,6 +32,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"explain.json", schema<Explanation>}, {"steps.json", schema<StepsMade>},
       {"force.json", schema<ForceFound>},    {"estimate.json", schema<Estimate>},
       {"run.json", schema<MadeRun>},         {"score.json", schema<Score>},
+      {"effects.json", schema<EffectsList>},
   };
   return all;
 }

@@ -6,11 +6,11 @@
 #include <span>
 #include <utility>
 
-#include "common/base/coordinates.hpp"
 #include "common/base/effect.hpp"
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
 #include "common/mesh/topology.hpp"
+#include "vessel/coordinates.hpp"
 
 namespace tether {
 

@@ -4,10 +4,10 @@
 #include <charconv>
 #include <set>
 
-#include "common/base/coordinates.hpp"
 #include "common/base/error.hpp"
 #include "common/mesh/mesh.hpp"
 #include "common/mesh/topology.hpp"
+#include "vessel/coordinates.hpp"
 
 namespace tether {
 

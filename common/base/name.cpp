@@ -14,7 +14,7 @@ bool is_ascii(char c) {
 }
 
 bool may_stand_in_a_name(char c) {
-  constexpr std::string_view signs = " _-.+=:()#%";
+  constexpr std::string_view signs = " _-.+=()%";
   return !is_ascii(c) || std::isalnum(static_cast<unsigned char>(c)) != 0 || signs.find(c) != std::string_view::npos;
 }
 

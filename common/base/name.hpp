@@ -6,7 +6,7 @@ namespace tether {
 
 /// The rule for names that users give: regions, slices, points, outlets. They become columns of tables, labels of plots
 /// and parts of file names.
-inline constexpr std::string_view name_rule = "a name consists of letters, digits, spaces and _-.+=:()#%";
+inline constexpr std::string_view name_rule = "a name consists of letters, digits, spaces and _-.+=()%";
 
 /// Whether a text is such a name: not empty, of at most 100 bytes, without a space at either end, valid UTF-8.
 bool is_name(std::string_view text);

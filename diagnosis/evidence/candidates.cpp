@@ -2,30 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/base/error.hpp"
 #include "common/config/overlay.hpp"
 #include "common/config/rules.hpp"
+#include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
+#include "solid/results/effects_list.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 bool holds(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
 /// A generic direction is a candidate only if it is asked for.
-bool is_wanted(const Json& effect, const DiagnosisCase& diagnosis) {
-  const std::string type = effect["type"], part = effect["part"];
-  if (holds(diagnosis.exclude, type) || holds(diagnosis.exclude, part)) return false;
-  return diagnosis.candidates.empty() ? !effect["generic"].get<bool>() : holds(diagnosis.candidates, type);
+bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
+  if (holds(diagnosis.exclude, effect.type) || holds(diagnosis.exclude, effect.part)) return false;
+  return diagnosis.candidates.empty() ? !effect.generic : holds(diagnosis.candidates, effect.type);
 }
 
 /// A number of the model as an amplitude that is zero as the model is.
@@ -80,13 +79,14 @@ void check_known(const CaseFile& file, const std::string& field, const std::vect
 }
 
 /// Types of effects and parts of the wall. Numbers, which have a dot, are known when the model has announced them.
-void check_names(const CaseFile& file, const Json& catalogue, const DiagnosisCase& diagnosis) {
+void check_names(const CaseFile& file, const EffectsList& catalogue, const DiagnosisCase& diagnosis) {
   std::set<std::string> types, parts;
-  for (const char* list : {"possible", "present"})
-    for (const Json& effect : catalogue[list]) {
-      types.insert(effect["type"].get<std::string>());
-      if (effect["part"] != "") parts.insert(effect["part"].get<std::string>());
-    }
+  const auto note = [&](const auto& effect) {
+    types.insert(effect.type);
+    if (!effect.part.empty()) parts.insert(effect.part);
+  };
+  std::for_each(catalogue.possible.begin(), catalogue.possible.end(), note);
+  std::for_each(catalogue.present.begin(), catalogue.present.end(), note);
   check_known(file, "diagnosis.candidates", diagnosis.candidates, {types.begin(), types.end()});
   parts.merge(types);
   std::vector<std::string> words;
@@ -111,23 +111,15 @@ std::vector<std::string> not_recorded(const CaseFile& from, const Observations& 
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis) {
   const ChildEnd end = capture({{sibling("solid").string(), "--list-effects", file.path().string()}, {}});
   if (end.exit_code != exit_done) throw InputError(end.errors);
-  const Json list = Json::parse(end.output);
+  const auto list = record_of<EffectsList>(end.output, "solid --list-effects");
   check_names(file, list, diagnosis);
   std::vector<PlacedEffect> all;
-  for (const Json& effect : list["possible"]) {
-    if (!is_wanted(effect, diagnosis)) continue;
-    const std::string type = effect["type"], part = effect["part"];
-    all.push_back({"solid.effects." + type + (part.empty() ? "" : "_" + part), type, part, effect["meaning"], true,
-                   effect["required"], effect["variant_of"]});
-  }
-  for (const Json& effect : list["present"])
-    all.push_back({effect["path"],
-                   effect["type"],
-                   effect["part"],
-                   "An effect that the model has, at zero",
-                   false,
-                   {},
-                   effect["variant_of"]});
+  for (const PossibleEffect& e : list.possible)
+    if (is_wanted(e, diagnosis))
+      all.push_back({"solid.effects." + e.type + (e.part.empty() ? "" : "_" + e.part), e.type, e.part, e.meaning, true,
+                     e.required, e.variant_of});
+  for (const PresentEffect& e : list.present)
+    all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of});
   return all;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/config/case_file.hpp"
-#include "common/config/diagnosis_case.hpp"
+#include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 #include "diagnosis/evidence/sensitivities.hpp"
 

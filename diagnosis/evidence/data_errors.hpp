@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/base/units.hpp"
-#include "common/config/diagnosis_case.hpp"
+#include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 
 namespace tether {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/config/case_file.hpp"
-#include "common/config/diagnosis_case.hpp"
 #include "diagnosis/evidence/candidates.hpp"
+#include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
 #include "vessel/mesh_case.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/config/diagnosis_case.hpp"
+#include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 
 namespace tether {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/config/case_file.hpp"
-#include "common/config/diagnosis_case.hpp"
+#include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/model_runs.hpp"
 
 namespace tether {

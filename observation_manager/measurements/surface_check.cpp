@@ -9,11 +9,11 @@
 #include <map>
 #include <numeric>
 
-#include "common/base/coordinates.hpp"
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
 #include "common/mesh/topology.hpp"
 #include "observation_manager/measurements/self_intersection.hpp"
+#include "vessel/coordinates.hpp"
 
 namespace tether {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "common/protocol/in_process.hpp"
 #include "fluid/case.hpp"
 #include "tests/config/case_text.hpp"
 #include "tests/fluid/fluid_testing.hpp"
+#include "tests/protocol/in_process.hpp"
 
 namespace tether::fluid::testing {
 namespace {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.hpp"
-#include "common/protocol/in_process.hpp"
 #include "tests/fakes/fake_fluid.hpp"
 #include "tests/fakes/fake_solid.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "tests/protocol/in_process.hpp"
 
 namespace tether {
 namespace {

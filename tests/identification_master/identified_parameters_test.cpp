@@ -161,7 +161,7 @@ TEST_F(Parameters, NamesThatTablesAndPlotsCannotCarryAreRefused) {
     EXPECT_NE(told.find("case.yaml:"), std::string::npos) << told;
   };
   for (const char* name : {"'a\"b'", "'a,b'", "'a`b'", "'a[b]'"})
-    expect(fmt::format("    {}: {{of: [solid.a.stiffness]}}\n", name), "tables and plots cannot carry");
+    expect(fmt::format("    {}: {{of: [solid.a.stiffness]}}\n", name), "a name consists of");
   expect("    a: {of: [solid.a.stiffness]}\n    a.lower: {of: [solid.b.stiffness]}\n",
          "two columns of estimate.csv would be called \"a.lower\"");
   expect("    time: {of: [solid.a.stiffness]}\n", "two columns");

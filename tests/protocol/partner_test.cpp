@@ -4,9 +4,9 @@
 
 #include <thread>
 
-#include "common/protocol/in_process.hpp"
 #include "tests/fakes/fake_fluid.hpp"
 #include "tests/fakes/fake_solid.hpp"
+#include "tests/protocol/in_process.hpp"
 
 namespace tether::protocol {
 namespace {

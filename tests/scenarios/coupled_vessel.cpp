@@ -1,12 +1,12 @@
 #include "tests/scenarios/coupled_vessel.hpp"
 
 #include "common/config/case_file.hpp"
-#include "common/protocol/in_process.hpp"
 #include "fluid/case.hpp"
 #include "fluid/server.hpp"
 #include "fsi_master/coupling_case.hpp"
 #include "solid/case.hpp"
 #include "solid/server.hpp"
+#include "tests/protocol/in_process.hpp"
 #include "vessel/mesh_case.hpp"
 
 namespace tether {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "common/mesh/surface.hpp"
-#include "common/protocol/in_process.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
 #include "observation_manager/server.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "tests/protocol/in_process.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "tests/scenarios/coupled_vessel.hpp"
 #include "tests/scenarios/surface_file.hpp"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "common/protocol/in_process.hpp"
 #include "tests/fakes/fake_fluid.hpp"
 #include "tests/fakes/fake_solid.hpp"
+#include "tests/protocol/in_process.hpp"
 
 /// The conformance check passes the fakes, and finds each single fault at the right check and nowhere else.
 namespace tether::protocol {

@@ -17,7 +17,7 @@ install(FILES ${PROJECT_BINARY_DIR}/link/tether DESTINATION ${CMAKE_INSTALL_BIND
 # Codes of one's own: tether.h, its library, find_package(Tether) with the target Tether::client, the Python modules.
 install(TARGETS tether_client EXPORT TetherTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES common/protocol/tether.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES client/tether.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT TetherTargets NAMESPACE Tether:: DESTINATION ${package_dir})
 file(WRITE ${PROJECT_BINARY_DIR}/TetherConfig.cmake "include(\${CMAKE_CURRENT_LIST_DIR}/TetherTargets.cmake)\n")
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/TetherConfigVersion.cmake COMPATIBILITY SameMinorVersion)

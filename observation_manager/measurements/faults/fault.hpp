@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/config/diagnosis_case.hpp"
 #include "common/config/overlay.hpp"
+#include "observation_manager/measurements/faults/allowance.hpp"
 #include "observation_manager/measurements/kind.hpp"
 #include "observation_manager/measurements/triangle_surface.hpp"
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "client/tether.h"
 #include "common/protocol/launch.hpp"
 #include "common/protocol/serve.hpp"
-#include "common/protocol/tether.h"
 
 /// The C interface: plain structs in and out, the protocol's own code between.
 namespace tether::protocol {

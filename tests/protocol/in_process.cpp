@@ -1,4 +1,4 @@
-#include "common/protocol/in_process.hpp"
+#include "tests/protocol/in_process.hpp"
 
 #include <chrono>
 #include <condition_variable>
