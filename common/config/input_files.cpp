@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <set>
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
@@ -33,33 +34,23 @@ bool is_number(std::string_view text) {
   return error == std::errc{} && last == text.data() + text.size();
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r\"";
-  const auto first = text.find_first_not_of(blank);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
 /// The files that the cells of a table, or the attributes of a series, name.
-std::vector<fs::path> files_named_in(const fs::path& path) {
-  const std::string kind = path.extension().string();
-  if (kind != ".csv" && kind != ".pvd") return {};
-  const char separator = kind == ".csv" ? ',' : '"';
-  std::vector<fs::path> found;
+std::set<fs::path> files_named_in(const fs::path& path) {
+  if (path.extension() != ".csv" && path.extension() != ".pvd") return {};
+  constexpr std::string_view separators = ",\"\t\r";
+  std::set<fs::path> found;
   std::ifstream file(path);
-  for (std::string line, cell; std::getline(file, line);) {
+  for (std::string line; std::getline(file, line);)
     for (std::size_t begin = 0; begin < line.size();) {
-      const std::size_t end = std::min(line.find(separator, begin), line.size());
-      const std::string_view text = trimmed(std::string_view(line).substr(begin, end - begin));
+      const std::size_t end = std::min(line.find_first_of(separators, begin), line.size());
+      std::string text = line.substr(begin, end - begin);
+      text = text.substr(std::min(text.find_first_not_of(' '), text.size()));
+      text.resize(text.find_last_not_of(' ') + 1);
       begin = end + 1;
-      if (text.empty() || is_number(text)) continue;
       std::error_code none;
-      if (fs::path named = path.parent_path() / text; fs::is_regular_file(named, none))
-        found.push_back(std::move(named));
+      if (!text.empty() && !is_number(text) && fs::is_regular_file(path.parent_path() / text, none))
+        found.insert(path.parent_path() / text);
     }
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
@@ -114,25 +105,16 @@ std::vector<InputFile> input_files(const fs::path& case_file) {
 }
 
 void write_input_files(const fs::path& file, const std::vector<InputFile>& inputs) {
-  YamlNode list;
-  list.kind = YamlNode::Kind::list;
-  const auto scalar = [](std::string text) {
-    YamlNode node;
-    node.kind = YamlNode::Kind::scalar;
-    node.text = std::move(text);
-    return node;
-  };
+  using Kind = YamlNode::Kind;
+  const auto scalar = [](const std::string& text) { return YamlNode{Kind::scalar, {}, text, {}, {}}; };
+  YamlNode list{Kind::list, {}, {}, {}, {}};
   for (const InputFile& input : inputs) {
-    YamlNode one;
-    one.kind = YamlNode::Kind::list;
-    one.items = {scalar(input.field), scalar(input.name), scalar(fmt::format("{:016x}", input.content))};
-    list.items.push_back(std::move(one));
+    const std::string content = fmt::format("{:016x}", input.content);
+    list.items.push_back({Kind::list, {}, {}, {scalar(input.field), scalar(input.name), scalar(content)}, {}});
   }
-  YamlNode tree;
-  tree.kind = YamlNode::Kind::map;
-  tree.entries.push_back({"inputs", {}, std::move(list)});
   std::ofstream to(file);
-  to << "# Field, file, hash of its content when the run started.\n" << yaml_text(tree);
+  to << "# Field, file, hash of its content when the run started.\n"
+     << yaml_text({Kind::map, {}, {}, {}, {{"inputs", {}, list}}});
   if (!to.flush()) throw run_error("{}: cannot be written to", file.string());
 }
 
