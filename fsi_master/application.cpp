@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "common/base/child_process.hpp"
+#include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
+#include "common/config/case_tree.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
@@ -40,16 +42,33 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
   plan.checkpoint_every = common.output.checkpoint_every;
   plan.points = common.output.points;
   plan.velocity_points = master.flow.points();
+  plan.coupling = echo_json("coupling", master.coupling);
   plan.resume = command.resume;
   plan.quiet = command.quiet;
   return plan;
 }
 
-/// Without --resume nothing of an earlier run may be taken for this one's.
+/// What was made of a run: nothing of it may be taken for this one's.
+void remove_what_was_made_of_runs(const fs::path& output) {
+  for (const char* name :
+       {"comparison.json", "comparison.csv", "comparison_blood.csv", "wall.json", "plots", "report.html"})
+    fs::remove_all(output / name);
+}
+
+/// Without --resume nothing of an earlier run may be either.
 void remove_old_results(const fs::path& output) {
   for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "blood.velocity", "fluid.pvd", "solid.pvd",
                            "vtk", "checkpoint", "checkpoint.new", "checkpoint.previous"})
     fs::remove_all(output / name);
+  remove_what_was_made_of_runs(output);
+}
+
+/// The case and its files as they are now.
+MadeFrom made_from(const fs::path& case_file) {
+  MadeFrom from{case_text(case_file), {}, false};
+  for (const InputFile& input : input_files(case_file))
+    from.files.push_back({input.field, input.name, fmt::format("{:016x}", input.content)});
+  return from;
 }
 
 std::string own_sections(MasterCase& master) {
@@ -143,7 +162,7 @@ std::vector<std::string> cases_of(std::span<Partner> processes, const CaseFile& 
 }
 
 /// A direct run.
-void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
+void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
   const std::vector<std::string> notices = notices_of(processes, plan);
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
@@ -155,7 +174,10 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
   check_columns(master.flow, simulation.columns(), master.file);
   const auto before = costs(crew, processes);
   simulation.begin();
-  if (plan.resume) mark_output(plan.output, master.file.path());
+  if (plan.resume) {
+    mark_output(plan.output, master.file.path());
+    remove_what_was_made_of_runs(plan.output);
+  }
   simulation.run();
   RunFacts facts{master.file.common().name,
                  master.file.common().title,
@@ -164,9 +186,11 @@ void simulate(MasterCase& master, RunPlan plan, std::span<Partner> processes) {
                  costs(crew, processes),
                  merged_json({own_sections(master), fluid_case, solid_case}),
                  master.file.common().observer.largest_gain(),
-                 notices};
+                 notices,
+                 from};
   for (std::size_t i = 0; i < before.size(); ++i)
     facts.processes[i].loop_cpu_seconds = facts.processes[i].usage.cpu_seconds - before[i].usage.cpu_seconds;
+  check_held(plan.output);
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }
 
@@ -175,6 +199,7 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   MasterCase master(command.case_file);
   RunPlan plan = plan_of(master, command);
   plan.output = fs::absolute(claim_output(command, master.file));
+  const MadeFrom from = made_from(command.case_file);
   if (!plan.resume) {
     remove_old_results(plan.output);
     mark_output(plan.output, command.case_file);
@@ -182,7 +207,7 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   const bool observed = master.file.common().observer.is_on();
   const std::span<Partner> partners = session.launch(programs_of(master, observed), plan.output.string());
   for (Partner& partner : partners) partner.hello();
-  simulate(master, plan, partners);
+  simulate(master, plan, from, partners);
   for (Partner& partner : partners) partner.stop("the run is done");
 }
 

@@ -30,7 +30,7 @@ Checkpoint read_folder(const fs::path& folder) {
   c.fingerprint = master.fingerprint;
   std::vector<double> numbers;
   unpack(master, c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method, c.snapshot.coupling, numbers,
-         c.without_state);
+         c.without_state, c.coupling);
   auto next = numbers.begin();
   c.statistics.numbers([&](double& value) { value = next != numbers.end() ? *next++ : 0.0; });
   for (const auto& [name, state] :
@@ -56,7 +56,8 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   const auto write = [&](const char* name, const Bytes& bytes) {
     write_checked(fresh / name, checkpoint.fingerprint, checkpoint.step, bytes);
   };
-  write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state));
+  write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state,
+                             checkpoint.coupling));
   write("fluid.bin", packed(s.fluid));
   write("solid.bin", packed(s.solid));
   flush_to_disk(fresh);

@@ -16,6 +16,7 @@ struct Checkpoint {
   Snapshot snapshot;
   RunStatistics statistics;
   std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
+  std::string coupling;       ///< how its steps were coupled: the section of the case, JSON
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed

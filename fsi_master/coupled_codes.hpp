@@ -22,7 +22,7 @@ struct MasterCase {
     file.read("observations", observations);
     file.finish();
     flow = load_flow_observations(observations, file);
-    measures_lumen = observations.has_lumen_data();
+    measures_lumen = observations.has_distances();
   }
   CaseFile file;
   CouplingCase coupling;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "common/base/folder_lock.hpp"
 #include "common/protocol/signals.hpp"
 
 namespace tether {
@@ -60,6 +61,7 @@ void Simulation::begin() {
   const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
   loop_.restore(checkpoint.snapshot);
   statistics_ = checkpoint.statistics;
+  coupled_otherwise_ = checkpoint.coupling != plan_.coupling;
   saved_step_ = first_step_ = checkpoint.step;
   plan_.last_step = std::max(plan_.last_step, first_step_);
   series_.resume(checkpoint.step);
@@ -68,6 +70,7 @@ void Simulation::begin() {
 }
 
 void Simulation::advance(std::int64_t step) {
+  check_held(plan_.output);
   const auto begun = std::chrono::steady_clock::now();
   const StepRecord done = loop_.advance(step + 1, plan_.time_at(step), plan_.dt);
   for (const std::string& failure : done.failures)
@@ -160,7 +163,8 @@ void Simulation::save(std::int64_t step) {
   std::string without_state;
   if (!crew_.fluid.has_state()) without_state = crew_.fluid.name();
   if (!crew_.solid.has_state()) without_state += (without_state.empty() ? "" : " and ") + crew_.solid.name();
-  write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state});
+  const std::string coupling = coupled_otherwise_ ? "several" : plan_.coupling;
+  write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling});
   saved_step_ = step;
 }
 

@@ -21,6 +21,7 @@ struct RunPlan {
   int write_every = 10, checkpoint_every = 50;
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
+  std::string coupling;  ///< the section of the case, JSON; it may change at a continuation
   bool resume = false, quiet = false;
   bool write_series = true;               ///< the codes' files for viewing
   double image_pressure = 0;              ///< to which the run's pressures are relative
@@ -62,6 +63,8 @@ class Simulation {
   const RunStatistics& statistics() const { return statistics_; }
   const std::vector<FollowedNode>& followed() const { return followed_; }
   std::int64_t first_step() const { return first_step_; }
+  /// Whether steps before a continuation were coupled by other settings.
+  bool coupled_otherwise() const { return coupled_otherwise_; }
   const Observer* observer() const { return crew_.observer; }
   /// Of timeseries.csv.
   std::vector<Column> columns() const;
@@ -90,6 +93,7 @@ class Simulation {
   RunStatistics statistics_;
   Extent pressure_now_;
   std::int64_t first_step_ = 0;
+  bool coupled_otherwise_ = false;
   std::optional<std::int64_t> saved_step_;
   std::optional<ProgressLine> progress_;
 };

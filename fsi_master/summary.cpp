@@ -82,6 +82,8 @@ RunSummary summary_of(const Simulation& simulation, const RunFacts& facts) {
     summary.observer = work_of(observer->statistics(), facts.observer_gain, plan.units);
   summary.notices = facts.notices;
   summary.effective_case.text = facts.effective_case;
+  summary.made_from = facts.made_from;
+  summary.made_from.coupled_otherwise = simulation.coupled_otherwise();
   return summary;
 }
 

@@ -23,6 +23,7 @@ struct RunFacts {
   std::string effective_case;  ///< JSON
   double observer_gain = 0;    ///< the largest of any region [1/s]
   std::vector<std::string> notices;
+  MadeFrom made_from;
 };
 
 /// What was run, how it went and what it cost, in the case's units and in mmHg and mm.

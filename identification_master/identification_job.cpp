@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "common/base/checked_file.hpp"
+#include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
 #include "common/base/progress_line.hpp"
 #include "common/config/case_essence.hpp"
@@ -104,6 +105,7 @@ class Job {
     ProgressLine progress(filter_.state().step, plan_.steps, command_.quiet);
     try {
       while (!filter_.is_done()) {
+        check_held(output_);
         filter_.advance();
         progress.show(filter_.state().step, news(filter_, parameters_));
         if (filter_.state().step % given_.file.common().output.checkpoint_every == 0) save();

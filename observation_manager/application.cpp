@@ -23,7 +23,7 @@ std::string effective_section(ObservedCase& observed) {
 
 ObservationServer lumen_server(const CommandLine& command) {
   ObservedCase observed(command.case_file);
-  if (!observed.observations.has_lumen_data())
+  if (!observed.observations.has_distances())
     throw input_error("{}: names no surfaces or contours to compare the lumen with",
                       observed.file.where("observations"));
   const LumenSurface lumen = observed.lumen();

@@ -2,13 +2,15 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <set>
+#include <map>
+#include <optional>
 #include <thread>
 
 #include "common/base/error.hpp"
@@ -68,6 +70,21 @@ Lock wait_for_lock(int file) {
   }
 }
 
+/// Device and number of a file; nothing if it is not there.
+using Identity = std::optional<std::pair<dev_t, ino_t>>;
+
+Identity identity_of(const fs::path& path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return std::nullopt;
+  return std::pair(found.st_dev, found.st_ino);
+}
+
+/// The lock of each folder that is held, or used beside its holder.
+std::map<fs::path, Identity>& held() {
+  static std::map<fs::path, Identity> all;
+  return all;
+}
+
 }  // namespace
 
 std::string holder_name() {
@@ -76,24 +93,27 @@ std::string holder_name() {
 
 /// The file stays open, also in the programs that this process starts: the last of them frees the folder.
 void hold_folder(const fs::path& folder) {
-  static std::set<fs::path> held;
   const fs::path path = fs::canonical(folder) / folder_lock_name;
-  if (held.contains(path)) return;
+  if (held().contains(path)) return;
   const int file = open(path.c_str(), O_RDWR | O_CREAT, 0666);
   if (file < 0) throw input_error("{}: cannot be written to: {}", folder.string(), std::strerror(errno));
   const Lock lock = wait_for_lock(file);
-  if (lock == Lock::ours) {
-    write_holder(file);
-    held.insert(path);
-    return;
-  }
   const Holder other = read_holder(file);
-  close(file);
-  if (lock == Lock::taken && !is_from(other))
+  if (lock == Lock::taken && !is_from(other)) {
+    close(file);
     throw input_error(
         "{}: another run is writing to this folder: process {}{}; wait for it, end it, or choose another folder with "
         "--output",
         folder.string(), other.pid, other.is_here() ? "" : " on " + other.host);
+  }
+  if (lock == Lock::ours) write_holder(file);
+  held()[path] = identity_of(path);
+}
+
+void check_held(const fs::path& folder) {
+  const auto found = held().find(fs::weakly_canonical(folder) / folder_lock_name);
+  if (found != held().end() && identity_of(found->first) != found->second)
+    throw run_error("{}: was removed during the run, or another run has taken it", folder.string());
 }
 
 }  // namespace tether

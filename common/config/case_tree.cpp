@@ -1,6 +1,8 @@
 #include "common/config/case_tree.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "common/base/error.hpp"
 
@@ -102,6 +104,19 @@ std::vector<fs::path> files_of_case(const fs::path& file) {
   std::vector<fs::path> files;
   for (const YamlNode& tree : chain_of(file)) files.push_back(tree.place.file->path);
   return files;
+}
+
+std::string case_text(const fs::path& file) {
+  std::ostringstream text;
+  const std::vector<fs::path> files = files_of_case(file);
+  if (files.size() == 1) {
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+  for (std::size_t i = 1; i < files.size(); ++i)
+    text << "# Merged with " << fs::absolute(files[i]).lexically_normal().string() << "\n";
+  text << yaml_text(as_one_file(read_case_tree(file)));
+  return text.str();
 }
 
 YamlNode as_one_file(YamlNode tree) {

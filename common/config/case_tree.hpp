@@ -17,4 +17,7 @@ std::vector<std::filesystem::path> files_of_case(const std::filesystem::path& fi
 /// base are written relative to the case. Of a case without `base`, the same tree.
 YamlNode as_one_file(YamlNode tree);
 
+/// The case as one file: as it stands, or merged with what it builds on.
+std::string case_text(const std::filesystem::path& file);
+
 }  // namespace tether

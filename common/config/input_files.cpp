@@ -1,6 +1,7 @@
 #include "common/config/input_files.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fstream>
 #include <set>
@@ -14,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t begin_of_hash = 14695981039346656037ull;
 constexpr int folders_deep = 1;  ///< those of meshes have their surfaces one below
 
 std::uint64_t hash_text(std::string_view text, std::uint64_t seed) {
@@ -36,8 +38,10 @@ bool is_number(std::string_view text) {
 
 /// The files that the cells of a table, or the attributes of a series, name.
 std::set<fs::path> files_named_in(const fs::path& path) {
-  if (path.extension() != ".csv" && path.extension() != ".pvd") return {};
-  constexpr std::string_view separators = ",\"\t\r";
+  std::string kind = path.extension().string();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (kind != ".csv" && kind != ".pvd") return {};
+  constexpr std::string_view separators = ",\"'\t\r";
   std::set<fs::path> found;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
@@ -66,18 +70,18 @@ std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) 
   return hash;
 }
 
-/// A folder that the case stands in holds anything.
-bool may_be_input(const fs::path& path, const fs::path& folder) {
+/// Of a folder that the case stands in, which may hold results as well, the files alone.
+std::uint64_t content_for(const fs::path& path, const fs::path& case_folder) {
   std::error_code none;
-  if (fs::is_regular_file(path, none)) return true;
-  if (!fs::is_directory(path, none)) return false;
-  const fs::path from_it = fs::canonical(folder, none).lexically_relative(fs::canonical(path, none));
-  return !from_it.empty() && *from_it.begin() == "..";
+  const fs::path from_it = fs::canonical(case_folder, none).lexically_relative(fs::canonical(path, none));
+  const bool holds_case = fs::is_directory(path, none) && !from_it.empty() && *from_it.begin() != "..";
+  return holds_case ? hash_folder(path, begin_of_hash, 0) : hash_content(path);
 }
 
 void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<InputFile>& found) {
-  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && may_be_input(folder / node.text, folder))
-    found.push_back({field, node.text, hash_content(folder / node.text)});
+  std::error_code none;
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::exists(folder / node.text, none))
+    found.push_back({field, node.text, content_for(folder / node.text, folder)});
   for (const YamlNode& item : node.items) gather(item, field, folder, found);
   for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);
 }
@@ -85,11 +89,10 @@ void gather(const YamlNode& node, const std::string& field, const fs::path& fold
 }  // namespace
 
 std::uint64_t hash_content(const fs::path& path) {
-  constexpr std::uint64_t begin = 14695981039346656037ull;
   std::error_code none;
-  if (fs::is_directory(path, none)) return hash_folder(path, begin, folders_deep);
+  if (fs::is_directory(path, none)) return hash_folder(path, begin_of_hash, folders_deep);
   if (!fs::is_regular_file(path, none)) return 0;
-  std::uint64_t hash = hash_file(path, begin);
+  std::uint64_t hash = hash_file(path, begin_of_hash);
   for (const fs::path& named : files_named_in(path))
     hash = hash_file(named, hash_text(named.filename().string(), hash));
   return hash;
@@ -102,35 +105,6 @@ std::vector<InputFile> input_files(const fs::path& case_file) {
     if (entry.value.kind != YamlNode::Kind::scalar)
       gather(entry.value, entry.key, fs::absolute(case_file).parent_path(), found);
   return found;
-}
-
-void write_input_files(const fs::path& file, const std::vector<InputFile>& inputs) {
-  using Kind = YamlNode::Kind;
-  const auto scalar = [](const std::string& text) { return YamlNode{Kind::scalar, {}, text, {}, {}}; };
-  YamlNode list{Kind::list, {}, {}, {}, {}};
-  for (const InputFile& input : inputs) {
-    const std::string content = fmt::format("{:016x}", input.content);
-    list.items.push_back({Kind::list, {}, {}, {scalar(input.field), scalar(input.name), scalar(content)}, {}});
-  }
-  std::ofstream to(file);
-  to << "# Field, file, hash of its content when the run started.\n"
-     << yaml_text({Kind::map, {}, {}, {}, {{"inputs", {}, list}}});
-  if (!to.flush()) throw run_error("{}: cannot be written to", file.string());
-}
-
-std::optional<std::vector<InputFile>> read_input_files(const fs::path& file) {
-  if (!fs::exists(file)) return std::nullopt;
-  const YamlNode tree = read_yaml(file);
-  const YamlNode* list = tree.find("inputs");
-  if (list == nullptr) return std::nullopt;
-  std::vector<InputFile> inputs;
-  for (const YamlNode& one : list->items) {
-    if (one.items.size() != 3) throw input_error("{}: must have three items", one.place.text());
-    InputFile& input = inputs.emplace_back(InputFile{one.items[0].text, one.items[1].text});
-    const std::string& hash = one.items[2].text;
-    std::from_chars(hash.data(), hash.data() + hash.size(), input.content, 16);
-  }
-  return inputs;
 }
 
 }  // namespace tether

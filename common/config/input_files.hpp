@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +23,5 @@ struct InputFile {
 /// All of them, in the order of the case. A word that happens to be the name of a file beside the case counts as one:
 /// what a program of somebody else reads is not known here.
 std::vector<InputFile> input_files(const std::filesystem::path& case_file);
-
-/// Those that were written down with `write_input_files`; nothing if the file is not there.
-std::optional<std::vector<InputFile>> read_input_files(const std::filesystem::path& file);
-void write_input_files(const std::filesystem::path& file, const std::vector<InputFile>& inputs);
 
 }  // namespace tether

@@ -5,8 +5,8 @@
 
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/base/name.hpp"
 #include "common/config/case_tree.hpp"
-#include "common/config/input_files.hpp"
 
 namespace tether {
 namespace {
@@ -46,17 +46,6 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
   throw input_error("{}: holds the results of the case '{}'; {}", folder.string(), owner ? owner->text : "?", way_out);
 }
 
-/// The case as one file: as it stands, or merged with what it builds on.
-void copy_case(const fs::path& case_file, const std::vector<fs::path>& files, std::ostream& to) {
-  if (files.size() == 1) {
-    to << std::ifstream(case_file).rdbuf();
-    return;
-  }
-  for (std::size_t i = 1; i < files.size(); ++i)
-    to << "# Merged with " << fs::absolute(files[i]).lexically_normal().string() << "\n";
-  to << yaml_text(as_one_file(read_case_tree(case_file)));
-}
-
 }  // namespace
 
 fs::path output_of(const CommandLine& command, const CaseFile& file) {
@@ -64,6 +53,8 @@ fs::path output_of(const CommandLine& command, const CaseFile& file) {
 }
 
 void hold_output(const fs::path& folder) {
+  if (!is_utf8(fs::absolute(folder).string()))
+    throw input_error("{}: its path is not UTF-8, as results must be, which name it", folder.string());
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw input_error("{}: cannot be made: {}", folder.string(), error.message());
@@ -82,11 +73,10 @@ fs::path claim_output(const CommandLine& command, const CaseFile& file) {
 }
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {
-  write_input_files(folder / inputs_as_run, input_files(case_file));
   std::ofstream to(folder / case_as_run);
   to << copy_of << fs::absolute(case_file).lexically_normal().string() << as_it_was
-     << " when the run started. Its paths are relative to that file.\n";
-  copy_case(case_file, files_of_case(case_file), to);
+     << " when the run started. Its paths are relative to that file.\n"
+     << case_text(case_file);
   if (!to.flush()) throw run_error("{}: cannot be written to", folder.string());
 }
 

@@ -8,8 +8,6 @@ namespace tether {
 /// The file in an output folder that says whose results it holds: a copy of the case,
 /// merged with what it builds on.
 inline constexpr const char* case_as_run = "case_as_run.yaml";
-/// Beside it: what the files that the case names held.
-inline constexpr const char* inputs_as_run = "inputs_as_run.yaml";
 
 /// Where a run's results are, or will be: --output, or out/NAME.
 std::filesystem::path output_of(const CommandLine& command, const CaseFile& file);

@@ -42,11 +42,10 @@ void Problems::throw_if_any() {
   std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
     return std::pair(a.first.file->depth, a.first.line) < std::pair(b.first.file->depth, b.first.line);
   });
-  constexpr std::size_t most_told = 50;
   std::vector<std::string> lines;
   for (const auto& [place, text] : found_)
     if (lines.size() < most_told) lines.push_back(fmt::format("{}: {}", place.text(), text));
-  if (found_.size() > most_told) lines.push_back(fmt::format("and {} more like these", found_.size() - most_told));
+  if (are_many()) lines.push_back(fmt::format("and {} more like these", found_.size() - most_told));
   if (!lines.empty()) throw input_error("{}", fmt::join(lines, "\n"));
 }
 
@@ -293,7 +292,7 @@ void Reader::report_unknown(const Section& section) {
     if (std::find(section.known.begin(), section.known.end(), entry.key) != section.known.end()) continue;
     const auto elsewhere = section.inapplicable.find(entry.key);
     if (elsewhere != section.inapplicable.end() && is_moot(elsewhere->second, entry)) continue;
-    const std::string near = nearest(entry.key, section.known);
+    const std::string near = problems_.are_many() ? "" : nearest(entry.key, section.known);
     std::string rule = "unknown field";
     if (elsewhere != section.inapplicable.end())
       rule = only_with(elsewhere->second);

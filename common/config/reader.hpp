@@ -13,11 +13,14 @@ class Problems {
  public:
   void add(const YamlPlace& place, const std::string& text) { found_.emplace_back(place, text); }
   bool empty() const { return found_.empty(); }
+  /// More than anybody reads: only their number is told.
+  bool are_many() const { return found_.size() > most_told; }
   /// Throws InputError with one line "file:line: text" per problem, in the order of the file, a file before the one
   /// that it builds on.
   void throw_if_any();
 
  private:
+  static constexpr std::size_t most_told = 50;
   std::vector<std::pair<YamlPlace, std::string>> found_;
 };
 

@@ -47,7 +47,7 @@ std::vector<std::string> before_any_physics(const Comparison& comparison) {
   return all;
 }
 
-/// Of surfaces and contours, traces and velocities.
+/// Of all that was measured.
 std::vector<std::string> findings(const Comparison& comparison) {
   std::vector<std::string> all;
   for (const SourceDiscrepancy& source : comparison.sources) {
@@ -61,6 +61,8 @@ std::vector<std::string> findings(const Comparison& comparison) {
   for (const TraceDiscrepancy& trace : comparison.traces) all.push_back(sentence_of(trace, comparison.units));
   for (const VelocityDiscrepancy& velocity : comparison.velocities)
     for (std::string& sentence : sentences_of(velocity, comparison.units)) all.push_back(std::move(sentence));
+  for (const OtherDiscrepancy& other : comparison.others)
+    for (std::string& sentence : sentences_of(other)) all.push_back(std::move(sentence));
   return all;
 }
 

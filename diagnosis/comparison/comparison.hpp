@@ -47,7 +47,7 @@ std::vector<std::string> first_look_of(const Comparison& comparison);
 /// comparison.csv and comparison_blood.csv (docs/comparison.md), in the case's units. Throw RunError if they cannot be
 /// written.
 void write_csv(const std::filesystem::path& path, const Comparison& comparison);
-/// Traces and velocities.
+/// Traces, velocities and kinds without a form of their own.
 void write_blood_csv(const std::filesystem::path& path, const Comparison& comparison);
 
 }  // namespace tether

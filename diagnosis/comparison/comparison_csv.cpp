@@ -52,15 +52,15 @@ struct BloodValues {
   std::optional<double> time;  ///< none: over all
   bool held_out = false;
   int used = 0, excluded = 0;
-  double rms = 0, largest = 0, measured = 0;
-  std::optional<double> bias, effective, z;
+  double rms = 0, largest = 0;
+  std::optional<double> measured, bias, effective, z;
 };
 
 std::string blood_row(const BloodSource& source, const BloodValues& v) {
   const auto optional = [](const std::optional<double>& x) { return x ? fmt::format("{:.9g}", *x) : std::string(); };
-  return fmt::format("{},{},{},{},{},{},{},{:.9g},{:.9g},{},{:.9g},{},{:.9g},{}\n", cell(source.name), source.kind,
+  return fmt::format("{},{},{},{},{},{},{},{:.9g},{:.9g},{},{},{},{:.9g},{}\n", cell(source.name), source.kind,
                      source.unit, optional(v.time), v.held_out ? 1 : 0, v.used, v.excluded, v.rms, v.largest,
-                     optional(v.bias), v.measured, optional(v.effective), source.deviation, optional(v.z));
+                     optional(v.bias), optional(v.measured), optional(v.effective), source.deviation, optional(v.z));
 }
 
 double rms_of(const std::vector<double>& values) {
@@ -108,6 +108,15 @@ std::string rows_of(const VelocityDiscrepancy& velocity) {
   return rows;
 }
 
+std::string rows_of(const OtherDiscrepancy& other) {
+  const BloodSource source{other.name, other.kind, other.unit, other.noise.deviation};
+  std::string rows;
+  for (const bool held_out : {false, true})
+    if (const OtherStatistics& s = held_out ? other.held_out : other.training; s.used > 0)
+      rows += blood_row(source, {{}, held_out, s.used, 0, s.rms, s.largest, {}, s.bias, {}, {}});
+  return rows;
+}
+
 }  // namespace
 
 void write_blood_csv(const std::filesystem::path& path, const Comparison& comparison) {
@@ -116,6 +125,7 @@ void write_blood_csv(const std::filesystem::path& path, const Comparison& compar
       << "source,kind,unit,time [s],held_out,values,excluded,l2,linf,bias,l2_measured,effective_observations,noise,z\n";
   for (const TraceDiscrepancy& trace : comparison.traces) file << rows_of(trace);
   for (const VelocityDiscrepancy& velocity : comparison.velocities) file << rows_of(velocity);
+  for (const OtherDiscrepancy& other : comparison.others) file << rows_of(other);
   file.flush();
   if (!file) throw run_error("{} cannot be written", path.string());
 }

@@ -7,7 +7,6 @@
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/input_files.hpp"
-#include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "fsi_master/results/run_summary.hpp"
 
@@ -51,12 +50,13 @@ std::string section_of(const InputFile& input) {
 }
 
 /// The first file of the case that holds something else than when the run started; empty if there is none.
-std::string first_changed_file(const std::vector<InputFile>& now, const std::vector<InputFile>& then,
+std::string first_changed_file(const std::vector<InputFile>& now, const std::vector<ReadFile>& then,
                                const YamlNode& tree) {
   for (const InputFile& input : now) {
     if (!has_effect(section_of(input), tree)) continue;
-    const bool same = std::any_of(then.begin(), then.end(), [&](const InputFile& before) {
-      return before.field == input.field && before.name == input.name && before.content == input.content;
+    const std::string content = fmt::format("{:016x}", input.content);
+    const bool same = std::any_of(then.begin(), then.end(), [&](const ReadFile& before) {
+      return before.field == input.field && before.name == input.name && before.content == content;
     });
     if (!same) return input.name;
   }
@@ -70,17 +70,19 @@ RunSummary summary_in(const fs::path& output) {
 }  // namespace
 
 std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& file, int steps) {
-  for (const char* name : {case_as_run, "summary.json", "lumen.motion", "timeseries.csv"})
+  for (const char* name : {"summary.json", "lumen.motion", "timeseries.csv"})
     if (!fs::exists(output / name)) return fmt::format("{} holds no finished run", output.string());
-  const YamlNode now = as_one_file(read_case_tree(file.path())), then = read_yaml(output / case_as_run);
+  const RunSummary summary = summary_in(output);
+  const YamlNode now = as_one_file(read_case_tree(file.path())), then = yaml_value(summary.made_from.case_text);
   if (const std::string section = first_difference(now, then); !section.empty())
     return fmt::format("the run in {} had another '{}'", output.string(), section);
-  const auto held = read_input_files(output / inputs_as_run);
-  if (!held) return fmt::format("the run in {} does not say what its files held", output.string());
-  if (const std::string file_name = first_changed_file(input_files(file.path()), *held, now); !file_name.empty())
-    return fmt::format("{} is not as it was for the run in {}", file_name, output.string());
-  if (const std::int64_t made = summary_in(output).steps; made < steps)
-    return fmt::format("the run in {} ended after {} of {} steps", output.string(), made, steps);
+  if (summary.made_from.coupled_otherwise)
+    return fmt::format("the run in {} was continued with another 'coupling'", output.string());
+  if (const std::string changed = first_changed_file(input_files(file.path()), summary.made_from.files, now);
+      !changed.empty())
+    return fmt::format("{} is not as it was for the run in {}", changed, output.string());
+  if (summary.steps < steps)
+    return fmt::format("the run in {} ended after {} of {} steps", output.string(), summary.steps, steps);
   return std::nullopt;
 }
 

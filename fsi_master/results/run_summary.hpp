@@ -86,6 +86,32 @@ struct ObserverWork {
   }
 };
 
+/// A file that a case names.
+struct ReadFile {
+  static constexpr const char* type_name = "read_file";
+  std::string field, name, content;
+
+  static void fields(auto& self, auto&& field) {
+    field("field", self.field, "of the case");
+    field("name", self.name, "as the case has it");
+    field("content", self.content, "a hash of what it held when the run started");
+  }
+};
+
+/// Of what a run is the result: whoever uses it again asks whether that is still the same.
+struct MadeFrom {
+  static constexpr const char* type_name = "made_from";
+  std::string case_text;
+  std::vector<ReadFile> files;
+  bool coupled_otherwise = false;
+
+  static void fields(auto& self, auto&& field) {
+    field("case", self.case_text, "the case as one file, YAML");
+    field("files", self.files, "that it names");
+    field("coupled_otherwise", self.coupled_otherwise, "some of its steps, before a continuation");
+  }
+};
+
 /// summary.json: what was run, how it went and what it cost.
 struct RunSummary {
   static constexpr const char* type_name = "run_summary";
@@ -109,6 +135,7 @@ struct RunSummary {
   std::vector<std::string> notices;
   std::map<std::string, std::string> versions;
   JsonTree effective_case;
+  MadeFrom made_from;
 
   static void fields(auto& self, auto&& field) {
     field("case", self.case_name, "its name");
@@ -139,6 +166,7 @@ struct RunSummary {
     field("notices", self.notices, "of the programs");
     field("versions", self.versions, "of the programs");
     field("effective_case", self.effective_case, "the case with all defaults");
+    field("made_from", self.made_from, "of what it is the result");
   }
 };
 

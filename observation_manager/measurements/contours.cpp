@@ -21,6 +21,7 @@ const MeasurementKind kinds::contours{
     .formats = "one .csv with a row for each point: slice, frame, time, x, y, z, and contour and closed if needed",
     .fallible = fallible::image,
     .on_lumen = true,
+    .pulls_wall = true,
     .section = section_of<SlicesCase, kinds::contours>};
 
 }  // namespace tether

@@ -58,6 +58,7 @@ struct MeasurementKind {
   Fallible fallible;
   /// Whether it is compared with the moving lumen, by observation_manager; else with what the run says of the blood.
   bool on_lumen;
+  bool pulls_wall = false;  ///< whether it is distances, by which a state observer may pull the wall: a LumenSeries
   std::unique_ptr<KindSection> (*section)();
   /// Reads and checks what a section names. Throws InputError "file:line: ..." or that names the field.
   void (*load)(const KindSection& section, const CaseFile& file, FlowObservations& to) = nullptr;

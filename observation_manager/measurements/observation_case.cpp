@@ -48,9 +48,9 @@ StatedErrors ObservationsCase::errors_of(const std::string& field) const {
   throw std::logic_error(field + ": no such source");
 }
 
-bool ObservationsCase::has_lumen_data() const {
+bool ObservationsCase::has_distances() const {
   return std::any_of(sections_.begin(), sections_.end(),
-                     [](const auto& section) { return section->kind().on_lumen && !section->names().empty(); });
+                     [](const auto& section) { return section->kind().pulls_wall && !section->names().empty(); });
 }
 
 }  // namespace tether

@@ -44,7 +44,8 @@ class ObservationsCase {
   ObservationsCase(ObservationsCase&&) = default;
   ObservationsCase& operator=(ObservationsCase) = delete;
   void declare(Fields& f);
-  bool has_lumen_data() const;
+  /// Whether there is anything that may pull the wall.
+  bool has_distances() const;
   /// Of a source by its place in the case: "observations.surfaces.ct". Throws std::logic_error if there is none.
   StatedErrors errors_of(const std::string& field) const;
   const std::vector<std::unique_ptr<KindSection>>& sections() const { return sections_; }

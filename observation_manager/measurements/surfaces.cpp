@@ -22,6 +22,7 @@ const MeasurementKind kinds::surfaces{
     .formats = "one surface a frame in .vtp, .stl, .ply or .vtk; a list of them in .pvd or .csv",
     .fallible = fallible::image,
     .on_lumen = true,
+    .pulls_wall = true,
     .section = section_of<SurfacesCase, kinds::surfaces>};
 
 }  // namespace tether

@@ -85,6 +85,23 @@ TEST(FolderLock, IsSharedWithProgramsThatTheHolderStarts) {
   EXPECT_EQ(child.result(), held);
 }
 
+TEST(FolderLock, IsMissedWhenItsFolderIsGoneOrAnothers) {
+  const TemporaryFolder folder;
+  const std::filesystem::path own = folder / "own";
+  Other holder([&] {
+    std::filesystem::create_directories(own);
+    hold_folder(own);
+    const bool is_there = message_of([&] { check_held(own); }) == "accepted";
+    std::filesystem::remove_all(own);
+    const bool is_gone = message_of([&] { check_held(own); }) != "accepted";
+    std::filesystem::create_directories(own);
+    std::ofstream(own / folder_lock_name) << "another";
+    const bool is_anothers = message_of([&] { check_held(own); }) != "accepted";
+    return is_there && is_gone && is_anothers ? 7 : 0;
+  });
+  EXPECT_EQ(holder.result(), 7);
+}
+
 /// A run whose front-end was killed is still writing.
 TEST(FolderLock, LastsAsLongAsAProgramThatTheHolderStarted) {
   const TemporaryFolder folder;

@@ -10,8 +10,10 @@ namespace {
 TEST(Name, IsOfLettersDigitsAndAFewSigns) {
   for (const char* good : {"spine", "S1", "z = 12 mm", "left (outer)", "a.b_c-d+e", "äußere Wand", "50%"})
     EXPECT_TRUE(is_name(good)) << good;
-  for (const char* bad : {"", " spine", "spine ", "it's", "a, b", "a\nb", "a\tb", "\"a\"", "a`b`", "a\\b", "../a",
-                          "a;b", "$a", "a[mm]", "#3", "a: b", "S'; system 'id'; set title 'q"})
+  for (const char* bad : {"",         " spine", "spine ", "it's", "a, b",
+                          "a\nb",     "a\tb",   "\"a\"",  "a`b`", "a\\b",
+                          "../a",     "a;b",    "$a",     "..",   "a\u2028b",
+                          "a\u0085b", "a[mm]",  "#3",     "a: b", "S'; system 'id'; set title 'q"})
     EXPECT_FALSE(is_name(bad)) << bad;
   EXPECT_TRUE(is_name(std::string(100, 'a')));
   EXPECT_FALSE(is_name(std::string(101, 'a')));

@@ -33,9 +33,11 @@ TEST_F(InputFiles, CountWithTheFilesThatTheyName) {
   write_file("data/2.vtp", "two");
   write_file("data/list.csv", "file, time [s]\na b.vtp, 0\n\"2.vtp\", 0.1\n");
   write_file("data/list.pvd", "<DataSet timestep=\"0\" file=\"2.vtp\"/>\n");
+  write_file("data/LIST.PVD", "<DataSet timestep='0' file='2.vtp'/>\n");
   EXPECT_TRUE(changes("data/list.csv", "data/a b.vtp", "other"));
   EXPECT_TRUE(changes("data/list.csv", "data/2.vtp", "other"));
   EXPECT_TRUE(changes("data/list.pvd", "data/2.vtp", "yet another"));
+  EXPECT_TRUE(changes("data/LIST.PVD", "data/2.vtp", "and another"));
   EXPECT_FALSE(changes("data/list.csv", "data/3.vtp", "not named"));
 }
 
@@ -53,18 +55,22 @@ TEST_F(InputFiles, AreThoseThatACaseNames) {
   write_file("base.yaml", "name: tube\nfluid: {inlets: {inlet: {curve: base.csv}}, wall: [flow.csv, other.csv]}\n");
   const fs::path file = write_file("over.yaml", "base: base.yaml\nname: tube\nmesh: {folder: mesh, here: .}\n");
   const std::vector<InputFile> found = input_files(file);
-  ASSERT_EQ(found.size(), 3U);
+  ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].field + " " + found[0].name, "fluid.inlets.inlet.curve base.csv");
   EXPECT_EQ(found[1].field + " " + found[1].name, "fluid.wall flow.csv");
-  EXPECT_EQ(found[2].field + " " + found[2].name, "mesh.folder mesh") << "a folder that holds the case is no input";
-  const fs::path record = test_folder() / "inputs.yaml";
-  write_input_files(record, found);
-  const auto again = read_input_files(record);
-  ASSERT_TRUE(again);
-  ASSERT_EQ(again->size(), 3U);
-  EXPECT_EQ((*again)[1].field + " " + (*again)[1].name, "fluid.wall flow.csv");
-  EXPECT_EQ((*again)[1].content, found[1].content);
-  EXPECT_FALSE(read_input_files(test_folder() / "none.yaml"));
+  EXPECT_EQ(found[2].field + " " + found[2].name, "mesh.folder mesh");
+  EXPECT_EQ(found[3].field + " " + found[3].name, "mesh.here .");
+}
+
+/// Results may stand below the case; surfaces that a pattern finds may stand beside it.
+TEST_F(InputFiles, OfTheCasesOwnFolderAreThoseBesideIt) {
+  const fs::path file = write_file("case.yaml", "name: tube\nobservations: {folder: ., pattern: 'frame_*.vtp'}\n");
+  const auto content = [&] { return input_files(file).front().content; };
+  const std::uint64_t before = content();
+  write_file("mesh/result.csv", "made");
+  EXPECT_EQ(content(), before);
+  write_file("frame_1.vtp", "surface");
+  EXPECT_NE(content(), before);
 }
 
 /// What names a run: moved files are the same, changed ones are not.

@@ -66,7 +66,7 @@ TEST_F(Output, ResumedTableDropsLaterRowsAndGoesOn) {
 }
 
 Checkpoint some_checkpoint(std::int64_t step) {
-  Checkpoint c{step, 77, {{1, 2.5}, {3}, {0.1, 0.2}, {4, 5}, "iqn_ils", {6}}, {}, ""};
+  Checkpoint c{step, 77, {{1, 2.5}, {3}, {0.1, 0.2}, {4, 5}, "iqn_ils", {6}}, {}, "", "{}"};
   c.statistics.evaluations.add(3);
   c.statistics.pressure.add(1e4);
   c.statistics.wall_seconds = 0.125;
@@ -85,6 +85,7 @@ TEST_F(Output, CheckpointIsReadBackExactly) {
   EXPECT_EQ(read.statistics.evaluations.max, 3);
   EXPECT_EQ(read.statistics.pressure.min, 1e4);
   EXPECT_EQ(read.statistics.wall_seconds, 0.125);
+  EXPECT_EQ(read.coupling, "{}");
 }
 
 TEST_F(Output, TheCheckpointBeforeIsKeptAndFoundIfTheNewestIsMissing) {
