@@ -1,5 +1,5 @@
 #include "common/base/checked_file.hpp"
-#include "common/config/case_essence.hpp"
+#include "common/config/input_files.hpp"
 #include "fsi_master/checkpoint.hpp"
 
 namespace tether {

@@ -1,8 +1,8 @@
 #include "identification_master/serve_runs.hpp"
 
 #include "common/base/error.hpp"
-#include "common/config/case_essence.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/guard.hpp"
 #include "common/protocol/job.hpp"

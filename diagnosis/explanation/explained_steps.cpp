@@ -12,7 +12,6 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/progress_line.hpp"
-#include "common/config/case_essence.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/input_files.hpp"
 #include "common/io/record_file.hpp"

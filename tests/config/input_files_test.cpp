@@ -1,6 +1,5 @@
 #include "common/config/input_files.hpp"
 
-#include "common/config/case_essence.hpp"
 #include "tests/config/case_text.hpp"
 
 namespace tether {
