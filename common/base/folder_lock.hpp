@@ -11,8 +11,7 @@ namespace tether {
 /// nothing is held. Throws InputError, naming the other process, if the folder is another's, or cannot be written to.
 void hold_folder(const std::filesystem::path& folder);
 
-/// Throws RunError if this process holds the folder, or uses it beside its holder, and it was removed or taken by
-/// another.
+/// Throws RunError if a folder that this process holds, or uses beside its holder, was removed or taken by another.
 void check_held(const std::filesystem::path& folder);
 
 /// In the environment of programs that work in folders which this process holds: its name.

@@ -61,7 +61,8 @@ std::set<fs::path> files_named_in(const fs::path& path) {
 
 std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) {
   std::vector<fs::path> inside;
-  for (const auto& entry : fs::directory_iterator(folder)) inside.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied))
+    inside.push_back(entry.path());
   std::sort(inside.begin(), inside.end());
   for (const fs::path& path : inside) {
     hash = hash_text(path.filename().string(), hash);

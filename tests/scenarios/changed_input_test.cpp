@@ -50,6 +50,18 @@ TEST_F(ChangedInput, IsNoContinuation) {
   EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
 }
 
+/// What was made of the run before goes with it; what another verb made stays.
+TEST_F(ChangedInput, LeavesNoComparisonOfTheRunBefore) {
+  ASSERT_EQ(simulate(1).exit_code, 0);
+  for (const char* name : {"comparison.json", "plots/comparison_ct.png", "plots/estimate.png", "estimate.json"})
+    folder.file("out/" + std::string(name), "old");
+  ASSERT_EQ(simulate(1).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "out/comparison.json"));
+  EXPECT_FALSE(fs::exists(folder / "out/plots/comparison_ct.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/plots/estimate.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/estimate.json"));
+}
+
 TEST_F(ChangedInput, TwoRunsDoNotShareAFolder) {
   auto first = std::async(std::launch::async, [&] { return simulate(100000); });
   while (!fs::exists(folder / "out/checkpoint") &&
