@@ -238,7 +238,7 @@ class Client {
 
   void refuse(const std::string& message) {
     master().send(pack(Failure{message, true}));
-    master().close();
+    master().close(exit_run_failed);
     stage_ = Stage::over;
   }
 
@@ -286,7 +286,7 @@ class Client {
       if (std::get<Stop>(message_).abrupt)
         master().flush();
       else
-        master().close();
+        master().close(exit_done);
     }
     link_.reset();
     return session_.end(exit_done);

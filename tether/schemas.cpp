@@ -39,6 +39,11 @@ const std::vector<ResultSchema>& result_schemas() {
 
 int print_schema(int argc, char** argv) {
   const std::string file = argc > 0 ? argv[0] : "";
+  if (file == "--help") {
+    std::cout << "tether schema [FILE]: prints the JSON schema of a file of results, such as diagnosis.json; without a "
+                 "name, the names of all\n";
+    return exit_done;
+  }
   for (const ResultSchema& one : result_schemas())
     if (file.empty())
       std::cout << one.file << "\n";

@@ -10,7 +10,7 @@ namespace tether {
 
 Answer answer_of(const TwinCase& given) {
   Answer answer;
-  answer.verdict = *from_word<Verdict>(given.hidden.verdict);  // one of the words that a case may have
+  answer.verdict = given.hidden.verdict;
   answer.truth = given.truth.string();
   answer.seed = given.seed;
   answer.noise = given.noise.deviation;

@@ -28,15 +28,13 @@ void HiddenEffectCase::declare(Fields& f) {
 }
 
 void HiddenCase::declare(Fields& f) {
-  f.choice("verdict", verdict,
-           {{"nothing_missing", "the model lacks nothing"},
-            {"missing", "the model lacks the effects below"},
-            {"ambiguous", "these data cannot tell the effects below apart"},
-            {"not_in_catalogue", "the model lacks something that the catalogue does not have"},
-            {"undecided", "these data cannot tell"}},
-           "what a diagnosis should say");
+  std::string word = word_of(verdict);
+  std::vector<Word> words;
+  for (const auto& known : words_of<Verdict>) words.push_back({known.word, known.meaning});
+  f.choice("verdict", word, words, "what a diagnosis should say");
+  verdict = *from_word<Verdict>(word);  // one of them, or the default
   f.groups("effects", effects, "effects that the truth has and the model lacks, by name");
-  const bool named = verdict == "missing" || verdict == "ambiguous";
+  const bool named = verdict == Verdict::missing || verdict == Verdict::ambiguous;
   f.check(named == !effects.empty(), "verdict",
           "must be 'missing' or 'ambiguous' with effects, and another one without");
 }

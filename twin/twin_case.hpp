@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/config/fields.hpp"
+#include "diagnosis/results/verdict.hpp"
 #include "observation_manager/measurements/observation_case.hpp"
 
 /// The section `twin` of a case: which run the data are made from, and what is done to them.
@@ -32,7 +33,7 @@ struct HiddenEffectCase {
 
 /// The answer.
 struct HiddenCase {
-  std::string verdict = "missing";
+  Verdict verdict = Verdict::missing;
   Named<HiddenEffectCase> effects;
   void declare(Fields& f);
 };

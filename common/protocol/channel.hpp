@@ -46,8 +46,9 @@ class Channel {
   virtual bool has_packet() = 0;
   /// Waits until what was sent has left this process.
   virtual void flush() = 0;
-  /// The orderly end: both ends call it after the last packet. Without it the channel is abandoned.
-  virtual void close() = 0;
+  /// The orderly end: both ends call it after the last packet. Without it the channel is abandoned. If the other end
+  /// does not call it for long, this process ends with the exit code.
+  virtual void close(int exit_code) = 0;
 
   Peer& peer() { return peer_; }
   const Peer& peer() const { return peer_; }

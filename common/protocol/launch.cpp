@@ -229,7 +229,7 @@ int Session::end(int exit_code) {
   const bool orderly = all([](const Partner* p) { return p->is_idle() || p->is_finished(); });
   for (Partner* partner : partners) finish_if_idle(*partner, !orderly);
   if (orderly && all([](const Partner* p) { return p->is_finished(); }))
-    for (Partner* partner : partners) partner->close();
+    for (Partner* partner : partners) partner->close(exit_code);
   std::vector<Peer> peers;
   for (const Partner* partner : partners) peers.push_back(partner->peer());
   parts_->groups.clear();

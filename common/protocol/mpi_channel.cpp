@@ -6,7 +6,7 @@
 namespace tether::protocol {
 
 namespace {
-constexpr double close_limit = 3;  // seconds that the other end may take for the same call
+constexpr double close_limit = 5;  // seconds that the other end may take for the same call
 /// MPI sees what lies in a socket at the second probe. Not many more: on a busy machine each gives the core away.
 constexpr int rounds_of_progress = 4;
 }  // namespace
@@ -61,11 +61,11 @@ Packet MpiChannel::take(MPI_Message message, const MPI_Status& status) {
   return packet;
 }
 
-void MpiChannel::close() {
+void MpiChannel::close(int exit_code) {
   flush();
   watch_.release(peer());
-  const Guard deadline(0.5, [](double seconds) {
-    if (seconds > close_limit) end_job(exit_run_failed);
+  const Guard deadline(0.5, [exit_code](double seconds) {
+    if (seconds > close_limit) end_job(exit_code);
   });
   check_mpi(MPI_Comm_disconnect(&communicator_), "MPI_Comm_disconnect");
 }

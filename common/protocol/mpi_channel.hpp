@@ -21,7 +21,7 @@ class MpiChannel final : public Channel {
   Packet receive(double limit) override;
   bool has_packet() override;
   void flush() override;
-  void close() override;
+  void close(int exit_code) override;
 
  private:
   bool probe(int tag, MPI_Message& message, MPI_Status& status) const;

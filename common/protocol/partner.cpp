@@ -11,7 +11,7 @@ const Hello& Partner::hello(double limit) {
     throw PeerSilent(peer(), limit, " (TETHER_SETUP_LIMIT=SECONDS lets it take longer)");
   }
   if (!holds<Hello>(packet)) {
-    close();
+    close(exit_run_failed);
     reject(packet, Hello::message_name);
   }
   hello_ = unpack<Hello>(packet);
@@ -25,15 +25,15 @@ void Partner::finish(const Stop& stop, double limit) {
   if (!holds<Ready>(packet)) reject(packet, Ready::message_name);
 }
 
-void Partner::close() {
+void Partner::close(int exit_code) {
   if (stage_ == Stage::closed) return;
-  channel_->close();
+  channel_->close(exit_code);
   stage_ = Stage::closed;
 }
 
 void Partner::stop(const std::string& reason) {
   finish({reason});
-  close();
+  close(exit_done);
 }
 
 void Partner::post(const char* request_name, Packet packet) {

@@ -50,8 +50,8 @@ class Partner {
   bool has_replied() const { return stage_ == Stage::busy && channel_->has_packet(); }
   /// The last request: lets the partner write what is open, at most `limit` seconds long.
   void finish(const Stop& stop, double limit = infinite);
-  /// After `finish`: both ends of the channel close.
-  void close();
+  /// After `finish`: both ends of the channel close; see Channel.
+  void close(int exit_code);
   /// Finish and close.
   void stop(const std::string& reason);
 

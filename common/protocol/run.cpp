@@ -53,7 +53,7 @@ int run_either(const std::string& role, const std::function<void(Session&)>& as_
 
 void refuse(Channel& master) {
   master.send(pack(current_failure()));
-  master.close();
+  master.close(exit_run_failed);
 }
 
 }  // namespace detail

@@ -62,7 +62,7 @@ void serve(Channel& master, const Hello& hello, Handler& handler) {
   if (unpack<Stop>(request).abrupt)
     master.flush();
   else
-    master.close();
+    master.close(exit_done);
 }
 
 }  // namespace tether::protocol

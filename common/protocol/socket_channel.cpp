@@ -65,10 +65,10 @@ bool wait_for_bytes(int descriptor, double limit) {
 }  // namespace
 
 SocketChannel::~SocketChannel() {
-  close();
+  close(exit_done);
 }
 
-void SocketChannel::close() {
+void SocketChannel::close(int) {
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = -1;
 }

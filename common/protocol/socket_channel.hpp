@@ -24,7 +24,7 @@ class SocketChannel final : public Channel {
   Packet receive(double limit) override;
   bool has_packet() override;
   void flush() override {}
-  void close() override;
+  void close(int exit_code) override;
   /// Whether the other end is closed: its process has ended, or the channel has.
   bool is_left() const;
 

@@ -10,8 +10,8 @@
 
 namespace tether {
 
-Misfit misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
-                 const std::vector<Eigen::Index>& rows) {
+std::optional<Misfit> misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
+                                const std::vector<Eigen::Index>& rows) {
   double squares = 0, precision = 0, count = 0;
   for (const auto& part : evidence.parts())
     if (evidence.fallible(part).in_place)
@@ -21,7 +21,8 @@ Misfit misfit_of(const EffectProblem& problem, const Evidence& evidence, const V
           precision += problem.precision(i);
           count += problem.independent(i);
         }
-  return precision > 0 ? Misfit{std::sqrt(squares / precision), std::sqrt(squares / count)} : Misfit{};
+  if (!(precision > 0)) return std::nullopt;
+  return Misfit{std::sqrt(squares / precision), std::sqrt(squares / count)};
 }
 
 std::optional<Gain> gain_between(const EffectProblem& problem, const VectorXd& before, const VectorXd& after) {
@@ -41,8 +42,8 @@ std::vector<std::string> odd_frames(const Evidence& evidence, const EffectProble
     if (!evidence.fallible(part).in_place) continue;
     std::vector<Eigen::Index> rows(static_cast<std::size_t>(part.count));
     std::iota(rows.begin(), rows.end(), part.first);
-    if (const Misfit misfit = misfit_of(problem, evidence, residual, rows); misfit.in_noise > 0)
-      off.emplace_back(misfit.in_noise, &part);
+    if (const auto misfit = misfit_of(problem, evidence, residual, rows); misfit && misfit->in_noise > 0)
+      off.emplace_back(misfit->in_noise, &part);
   }
   if (off.size() < few) return {};
   std::vector<double> sizes;

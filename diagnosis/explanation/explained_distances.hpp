@@ -6,9 +6,9 @@
 
 namespace tether {
 
-/// How far the data on the lumen among these rows are from a run.
-Misfit misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
-                 const std::vector<Eigen::Index>& rows);
+/// How far the data on the lumen among these rows are from a run; nothing if there are none.
+std::optional<Misfit> misfit_of(const EffectProblem& problem, const Evidence& evidence, const VectorXd& residual,
+                                const std::vector<Eigen::Index>& rows);
 
 /// The gain on held-out data between two runs; nothing if hardly any are held out.
 std::optional<Gain> gain_between(const EffectProblem& problem, const VectorXd& before, const VectorXd& after);

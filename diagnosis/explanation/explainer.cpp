@@ -134,7 +134,7 @@ class Explainer {
 
   void set_misfit(PathModel& model, const VectorXd& residual) const {
     model.told.training = misfit_of(problem_, *evidence_, residual, problem_.training);
-    if (!problem_.held_out.empty()) model.told.held_out = misfit_of(problem_, *evidence_, residual, problem_.held_out);
+    model.told.held_out = misfit_of(problem_, *evidence_, residual, problem_.held_out);
   }
 
   /// What the case itself wants to be identified comes first: an effect must show beyond it. Kept if it is better.

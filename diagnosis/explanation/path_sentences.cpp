@@ -44,6 +44,9 @@ std::string headline_of(const ExplanationPath& path) {
 
 std::string held_out_sentence(const ExplanationPath& path) {
   const ExplainedModel &first = path.models.front().told, &last = path.models[path.best].told;
+  if (!first.held_out || !last.held_out)
+    return fmt::format("Held-out data: {:.0f} % less misfit ({:.0f} .. {:.0f})", 100 * path.held_out->value,
+                       100 * path.held_out->lower, 100 * path.held_out->upper);
   return fmt::format(
       "Held-out frames: {:.2g} mm away from the model as given, {:.2g} mm from the one with what was added: {:.0f} % "
       "less "

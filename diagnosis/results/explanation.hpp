@@ -25,8 +25,7 @@ struct ExplainedModel {
   bool accepted = true;
   std::optional<Objection> objection;
   std::string reason;
-  Misfit training;
-  std::optional<Misfit> held_out;
+  std::optional<Misfit> training, held_out;
   std::optional<Gain> gain;
 
   static void fields(auto& self, auto&& field) {
@@ -40,8 +39,8 @@ struct ExplainedModel {
     field("accepted", self.accepted, "better than the model before it");
     field("objection", self.objection, "why not");
     field("reason", self.reason, "the same in words");
-    field("training", self.training, "distance on training frames");
-    field("held_out", self.held_out, "distance on held-out frames");
+    field("training", self.training, "distance of the lumen on training frames; null: none shows it");
+    field("held_out", self.held_out, "the same on held-out frames");
     field("held_out_gain", self.gain, "on held-out data, against the model before it");
   }
 };

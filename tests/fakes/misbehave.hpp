@@ -31,6 +31,7 @@ inline void misbehave(const std::string& role, const std::string& point) {
     if (option(role, fault) == point) stamp();
   if (option(role, "kill") == point) std::raise(SIGKILL);
   if (option(role, "exit") == point) std::_Exit(0);
+  if (option(role, "linger") == point) std::this_thread::sleep_for(std::chrono::seconds(8));
   if (option(role, "hang") == point) std::this_thread::sleep_for(std::chrono::hours(1));
   if (option(role, "refuse") == point) throw input_error("case.yaml:7: {}.density: -1 g/cm3: must be positive", role);
   if (option(role, "fail") == point) throw run_error("element 12 is inverted");

@@ -1,8 +1,16 @@
+#include <mpi.h>
+
 #include "common/protocol/run.hpp"
 #include "tests/fakes/fake_solid.hpp"
 #include "tests/fakes/misbehave.hpp"
 
 using namespace tether;
+
+/// A machine so busy that this process takes leave late.
+extern "C" int MPI_Comm_disconnect(MPI_Comm* communicator) {
+  fakes::misbehave("solid", "leave");
+  return PMPI_Comm_disconnect(communicator);
+}
 
 int main() {
   fakes::misbehave("solid", "start");

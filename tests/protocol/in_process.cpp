@@ -44,7 +44,7 @@ class ThreadChannel final : public Channel {
   Packet receive(double limit) override { return in_->pop(peer(), limit); }
   bool has_packet() override { return in_->has_packet(); }
   void flush() override {}
-  void close() override {}
+  void close(int) override {}
 
  private:
   std::shared_ptr<Queue> out_, in_;

@@ -19,7 +19,7 @@ class DirectChannel final : public Channel {
   Packet receive(double) override { return std::move(reply_); }
   bool has_packet() override { return true; }
   void flush() override {}
-  void close() override {}
+  void close(int) override {}
 
  private:
   std::function<Packet(const Packet&)> answer_;

@@ -106,7 +106,7 @@ std::string Examiner::usage() {
 std::string Examiner::stop() {
   const Peer peer = partner_.peer();
   partner_.finish({"the check is over"}, 10);
-  partner_.close();
+  partner_.close(exit_run_failed);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [start] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

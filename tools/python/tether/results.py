@@ -45,7 +45,7 @@ class Record:
 
 
 class Table(list):
-    """A list of records."""
+    """A list of records, or an empty list."""
 
     def frame(self):
         """As a pandas DataFrame; objects within a record become columns like amplitude.value."""
@@ -59,8 +59,16 @@ def _wrapped(value):
         return _unpacked(value) if set(value) == {"shape", "float32"} else Record(value)
     if isinstance(value, list):
         items = [_wrapped(item) for item in value]
-        return Table(items) if items and all(isinstance(item, Record) for item in items) else items
+        return Table(items) if all(isinstance(item, Record) for item in items) else items
     return value
+
+
+def _of(things, kind, wanted, name_of):
+    """The one with this name or number. Raises KeyError with what there is."""
+    names = [name_of(thing) for thing in things]
+    if wanted in names:
+        return things[names.index(wanted)]
+    raise KeyError(f"no {kind} {wanted!r}; there {'are: ' + ', '.join(map(str, names)) if names else 'is none'}")
 
 
 def _plain(value):
@@ -106,7 +114,7 @@ class Result(Record):
         if self._file != "explain.json":
             return self
         number = self["best"] if model is None else model
-        return Result(self._folder / next(m["run"] for m in self["models"] if m["number"] == number))
+        return Result(self._folder / _of(self["models"], "model", number, lambda m: m["number"])["run"])
 
     def comparison(self, model=None):
         """comparison.json of the run."""
@@ -123,11 +131,14 @@ class Result(Record):
         region    its name; None: the whole wall
         frame     number of the moment among those of the source, in the order of time
         source    number or name of the source of measurements
+
+        Raises KeyError if there is no such region, frame or source.
         """
         wall = self.wall(model)
-        sources = wall["sources"]
-        chosen = sources[source] if isinstance(source, int) else next(s for s in sources if s["name"] == source)
-        values = chosen["moments"][frame]["distances"].ravel()
+        sources = list(enumerate(wall["sources"]))
+        name_of = (lambda s: s[0]) if isinstance(source, int) else (lambda s: s[1]["name"])
+        moments = list(enumerate(_of(sources, "source", source, name_of)[1]["moments"]))
+        values = _of(moments, "frame", frame, lambda m: m[0])[1]["distances"].ravel()
         if region is None:
             return values
         if region not in wall["regions"]:
