@@ -17,6 +17,7 @@
 
 #include "diagnosis/evidence/diagnosed_case.hpp"
 #include "diagnosis/evidence/living_runs.hpp"
+#include "diagnosis/evidence/whitening.hpp"
 #include "diagnosis/search/diagnosis_report.hpp"
 #include "diagnosis/search/effect_search.hpp"
 #include "twin/noise.hpp"
@@ -39,7 +40,9 @@ struct Surrogate {
         runs(quiet(), folder / "candidates.yaml", folder),
         sensitivities(sensitivities_of(runs, varied_numbers(runs.parameters(), given.diagnosis, given.file))),
         evidence(given.data, given.lumen, sensitivities.motions.front()),
-        problem(problem_of(given, evidence, sensitivities, catalogue_of(given.file, given.diagnosis))) {
+        as_measured(problem_of(given, evidence, sensitivities, catalogue_of(given.file, given.diagnosis))),
+        whitening(evidence, as_measured),
+        problem(whitening(as_measured)) {
     const DiagnosisCase& d = given.diagnosis;
     settings = {d.alpha, d.unexplained, 0, d.most, d.refinements, d.confirmed};
     const std::vector<TestedEffect> effects =
@@ -57,7 +60,7 @@ struct Surrogate {
 
   /// Errors of surfaces and traces, and of what the model takes for known.
   VectorXd errors(std::uint64_t seed) const {
-    VectorXd all(problem.residual.size());
+    VectorXd all(as_measured.residual.size());
     std::map<std::size_t, std::vector<const Evidence::Part*>> of_source;
     for (const auto& part : evidence.parts()) of_source[part.source].push_back(&part);
     for (const auto& [source, parts] : of_source) {
@@ -79,8 +82,8 @@ struct Surrogate {
     Random random(seed * 64 + 63, 0);
     for (Index k = 0; k < problem.allowed.cols(); ++k)
       if (std::isfinite(problem.allowed_deviation(k)))
-        all += allowed_share * problem.allowed_deviation(k) * random.normal() * problem.allowed.col(k);
-    return all;
+        all += allowed_share * problem.allowed_deviation(k) * random.normal() * as_measured.allowed.col(k);
+    return whitening(all);
   }
 
   VectorXd amplitudes(const std::vector<std::pair<std::size_t, double>>& hidden) const {
@@ -114,6 +117,8 @@ struct Surrogate {
   LivingRuns runs;
   Sensitivities sensitivities;
   Evidence evidence;
+  EffectProblem as_measured;
+  Whitening whitening;
   EffectProblem problem;
   SearchSettings settings;
   std::vector<double> visible;
@@ -268,7 +273,7 @@ std::string name_of(const Candidate& candidate) {
 
 /// A bulge of the data that no candidate makes: around half the vessel's height, twice a beat.
 VectorXd stranger(const Surrogate& surrogate, double size) {
-  VectorXd all = VectorXd::Zero(surrogate.problem.residual.size());
+  VectorXd all = VectorXd::Zero(surrogate.as_measured.residual.size());
   const auto& places = surrogate.evidence.places();
   const double low = places.row(2).minCoeff(), high = places.row(2).maxCoeff();
   for (const auto& part : surrogate.evidence.parts())
@@ -277,7 +282,7 @@ VectorXd stranger(const Surrogate& surrogate, double size) {
       const Vec3 n = surrogate.evidence.normals().col(i);
       all(i) = size * std::sin(15.2 * part.time) * std::exp(-30 * std::pow(z - 0.5, 2)) * std::max(0.0, n(1));
     }
-  return all;
+  return surrogate.whitening(all);
 }
 
 std::vector<Scenario> scenarios(const Surrogate& s) {

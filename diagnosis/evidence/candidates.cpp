@@ -27,14 +27,16 @@ bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
   return diagnosis.candidates.empty() ? !effect.generic : holds(diagnosis.candidates, effect.type);
 }
 
-/// A number of the model as an amplitude that is zero as the model is.
+/// A number of the model as an amplitude that is zero as the model is. What can be absent, as a spring can, adds up:
+/// its prior is the same whether the model has some of it or none.
 Amplitude amplitude_of(const protocol::ParameterInfo& p) {
   const bool is_absent = p.value == p.absent;
   Amplitude amplitude{p.name, p.meaning, p.unit, is_absent && p.value == p.lower, {}, p.value, {}};
   amplitude.lower = p.lower;
   amplitude.upper = p.upper;
-  amplitude.doubles = p.transform.starts_with("log") && p.value > 0;
-  if (is_absent)
+  const bool adds_up = p.absent == 0 && p.scale > 0;
+  amplitude.doubles = p.transform.starts_with("log") && p.value > 0 && !adds_up;
+  if (is_absent || adds_up)
     amplitude.scale = amplitude.doubles ? std::log2(1 + p.scale / p.value) : p.scale;
   else
     amplitude.scale = amplitude.doubles && p.transform == "log" ? p.prior_deviation / std::log(2.0) : p.prior_deviation;

@@ -6,7 +6,7 @@
 namespace tether {
 namespace {
 
-constexpr double farthest = 4;  ///< in scales: beyond, a number is that of no patient, and the model breaks
+constexpr double farthest = 10;  ///< doublings: a thousandfold is no longer the same model
 
 }  // namespace
 
@@ -15,9 +15,8 @@ double Amplitude::limited(double amplitude) const {
   const double most = std::isfinite(upper) ? upper - 0.01 * (upper - base) : upper;
   double low = least - base, high = most - base;
   if (doubles) {
-    const double far = scale > 0 ? farthest * scale : infinite;
-    low = least > 0 ? std::max(-far, std::log2(least / base)) : -far;
-    high = std::min(far, std::log2(most / base));
+    low = least > 0 ? std::max(-farthest, std::log2(least / base)) : -farthest;
+    high = std::min(farthest, std::log2(most / base));
   }
   return std::clamp(amplitude, std::min(low, 0.0), std::max(high, 0.0));
 }

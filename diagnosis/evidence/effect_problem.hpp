@@ -19,8 +19,8 @@ struct Amplitude {
   double base = 0;                             ///< value of the model
   bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
   double lower = -infinite, upper = infinite;  ///< of the value
-  /// The admissible one that is nearest: its value is short of the bounds by a hundredth of the way from the base; of
-  /// what doubles, it is not beyond four times the scale.
+  /// The admissible one that is nearest: its value is short of the bounds by a hundredth of the way from the base; what
+  /// doubles does so ten times at most.
   double limited(double amplitude) const;
   double value(double amplitude) const;  ///< of the admissible one
 };

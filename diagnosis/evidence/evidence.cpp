@@ -50,6 +50,7 @@ void Evidence::add_datum(const Datum& datum, double deviation) {
   precision_.push_back(datum.independent / std::pow(deviation, 2));  // (K.5)
   held_out_.push_back(datum.held_out);
   region_.push_back(datum.region);
+  component_.push_back(datum.component);
   normal_list_.push_back(datum.normal);
   place_list_.push_back(datum.position);
   along_.push_back(along_vessel(datum));

@@ -47,7 +47,10 @@ class Evidence {
   /// Of the data on the lumen, how far along the vessel they are: 0 at an inlet, 1 at an outlet. Else zero.
   const std::vector<double>& along() const { return along_; }
   const std::vector<std::string>& region_names() const { return region_names_; }
-  Noise noise(const Part& part) const { return source(part).facts().noise; }
+  /// Of the data, which component of a vector they are.
+  const std::vector<int>& components() const { return component_; }
+  Noise noise(const Part& part) const { return noise_of(part.source); }
+  Noise noise_of(std::size_t source) const { return sources_[source]->facts().noise; }
 
  private:
   void add(std::size_t number, const MeasuredPart& measured, const FinishedMotion& base);
@@ -64,7 +67,7 @@ class Evidence {
   std::vector<Part> parts_;
   std::vector<double> residual_, precision_, independent_, along_, curvature_, times_;
   std::vector<bool> held_out_;
-  std::vector<int> region_, block_;
+  std::vector<int> region_, component_, block_;
   std::vector<Vec3> normal_list_, place_list_;
   Eigen::Matrix3Xd normals_, places_;
   int blocks_ = 0;

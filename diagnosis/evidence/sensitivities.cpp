@@ -17,10 +17,10 @@ bool is_among(const std::string& name, const Words& words) {
   return std::find(words.begin(), words.end(), name) != words.end();
 }
 
-/// The value a step away: of what is absent by its scale, of the others by their prior. Toward the other side if this
-/// one is not admissible; nothing if neither is, or if the model does not say how far is far.
+/// The value a step away: of what is or can be absent by its scale, of the others by their prior. Toward the other side
+/// if this one is not admissible; nothing if neither is, or if the model does not say how far is far.
 std::optional<double> stepped(const ParameterInfo& p, double step) {
-  const bool is_absent = p.value == p.absent, is_log = p.transform.starts_with("log");
+  const bool is_absent = p.value == p.absent || (p.absent == 0 && p.scale > 0), is_log = p.transform.starts_with("log");
   for (const double side : {step, -step}) {
     double value = p.value + side * (is_absent ? p.scale : p.prior_deviation);
     if (!is_absent && is_log)

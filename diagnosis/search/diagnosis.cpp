@@ -54,9 +54,11 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   const Sensitivities sensitivities =
       sensitivities_of(runs, varied_numbers(runs.parameters(), given.diagnosis, given.file));
   const Evidence evidence(given.data, given.lumen, sensitivities.motions.front());
-  report.problem = problem_of(given, evidence, sensitivities, effects);
-  add_refined(report.problem, evidence, refined);
-  Trials trials(report.problem, evidence, sensitivities.motions.front(), runs);
+  EffectProblem problem = problem_of(given, evidence, sensitivities, effects);
+  add_refined(problem, evidence, refined);
+  const Whitening whitening(evidence, problem);
+  report.problem = whitening(std::move(problem));
+  Trials trials(report.problem, evidence, whitening, sensitivities.motions.front(), runs);
   report.found = search_effects(report.problem, search_settings(given.diagnosis, settings),
                                 [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); });
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, runs.columns());

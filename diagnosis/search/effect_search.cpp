@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/search/refinement.hpp"
 
 namespace tether {
@@ -18,18 +19,21 @@ constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr double the_same = 0.99;   ///< cosine
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 
-constexpr double worth_runs = 4;  ///< misfit beyond noise, in the deviations that noise gives it
-constexpr double doubtful = 3;    ///< the same: by chance once in some hundred cases
-constexpr double noteworthy = 2;  ///< of what an error is allowed
-constexpr double strained = 2.5;  ///< the same: a few allowed errors are well seen, each by chance once in eighty cases
-constexpr double unexplainable = 6;      ///< the same: neither noise nor errors allowed do that
+constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
+constexpr double noteworthy = 2;         ///< of what an error is allowed
+constexpr double unexplainable = 6;      ///< misfit beyond noise, as above: neither noise nor errors allowed do that
 constexpr double mostly = 0.5;           ///< of the information on an effect, beside accepted ones
 constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
 
 class Search {
  public:
   Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at)
-      : problem_(problem), settings_(settings), residual_at_(residual_at), plain_(problem), foretold_(problem) {
+      : problem_(problem),
+        counted_(counted(problem)),
+        settings_(settings),
+        residual_at_(residual_at),
+        plain_(problem),
+        foretold_(counted_) {
     now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
     result_.independent = problem.independent(problem.training).sum();
     rival_of_.resize(problem.candidates.size());
@@ -60,8 +64,7 @@ class Search {
   bool is_worth_more(const TestedEffect& a, const TestedEffect& b) const { return worth_of(a) > worth_of(b); }
 
   double dispersion(const VectorXd& residual) const {
-    const VectorXd r = refitted(residual)(problem_.training), w = problem_.precision(problem_.training);
-    return std::max(1.0, r.dot(w.cwiseProduct(r)) / result_.independent);
+    return std::max(1.0, plain_.counted_misfit(residual) / result_.independent);
   }
 
   /// Accepted, or refused since something was accepted last.
@@ -135,7 +138,7 @@ class Search {
 
   /// By so many of the deviations that noise gives the misfit.
   bool is_far_beyond_noise(double deviations) const {
-    return now_misfit() > result_.independent + deviations * std::sqrt(2 * result_.independent);
+    return plain_.counted_misfit(now_.residual) > result_.independent + deviations * std::sqrt(2 * result_.independent);
   }
 
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
@@ -180,9 +183,10 @@ class Search {
       if (one.hope() > best + hopeless) one.give_up();
   }
 
+  /// Of the held-out data that count.
   std::vector<int> held_out_blocks() const {
     std::vector<int> block;
-    for (const Index i : problem_.held_out) block.push_back(problem_.block[static_cast<std::size_t>(i)]);
+    for (const Index i : counted_.held_out) block.push_back(problem_.block[static_cast<std::size_t>(i)]);
     return block;
   }
 
@@ -196,9 +200,10 @@ class Search {
   }
 
   std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
-    if (problem_.held_out.size() < 2) return std::nullopt;
-    return gain_of(problem_.precision(problem_.held_out), held_out_blocks(), before(problem_.held_out),
-                   after(problem_.held_out), problem_.independent(problem_.held_out).sum());
+    const auto& rows = counted_.held_out;
+    if (rows.size() < 2) return std::nullopt;
+    return gain_of(problem_.precision(rows), held_out_blocks(), before(rows), after(rows),
+                   problem_.independent(rows).sum());
   }
 
   /// The same, or if that is not sure of what the training data and the allowed errors do not foretell.
@@ -206,7 +211,7 @@ class Search {
     const auto plain = held_out_gain(refitted(before), refitted(after));
     if (!plain || plain->positive >= sure) return plain;
     return gain_in_misfit(held_out_blocks(), foretold_.misfit(before), foretold_.misfit(after),
-                          problem_.independent(problem_.held_out).sum());
+                          problem_.independent(counted_.held_out).sum());
   }
 
   /// Probability that noise makes the gain of one of so many candidates as large.
@@ -264,7 +269,7 @@ class Search {
       effect.held_out = confirmation(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
-      effect.rival = chosen && one != chosen && !was_refused(effect.candidate) && is_rival(*one, *chosen);
+      effect.rival = chosen && one != chosen && !was_too_weak(effect.candidate) && is_rival(*one, *chosen);
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
@@ -297,9 +302,10 @@ class Search {
     return step;
   }
 
-  bool was_refused(std::size_t candidate) const {
-    return std::any_of(result_.path.begin(), result_.path.end(),
-                       [&](const SearchStep& step) { return step.candidate == candidate && !step.accepted(); });
+  bool was_too_weak(std::size_t candidate) const {
+    return std::any_of(result_.path.begin(), result_.path.end(), [&](const SearchStep& step) {
+      return step.candidate == candidate && step.objection == Objection::too_weak;
+    });
   }
 
   /// What is known of an effect now; `visible` stays what it was without any other.
@@ -355,14 +361,20 @@ class Search {
     return all;
   }
 
-  /// Whether the data at hand or those held out, given these, are off by more than chance would have it, or an allowed
-  /// error would have to be larger than it is by chance.
+  /// Whether the data at hand or those held out, given these, are off by more than chance would have it, in all or in a
+  /// pattern, or an allowed error would have to be larger than it is by chance: four questions, of which chance answers
+  /// any with yes in a share of alpha.
   bool is_doubtful() const {
-    if (!result_.strained.empty() && result_.strained.front().deviations > strained) return true;
-    if (result_.after.p < settings_.alpha || is_far_beyond_noise(doubtful)) return true;
-    if (problem_.held_out.size() < 2) return false;
-    const double count = problem_.independent(problem_.held_out).sum();
-    return foretold_.misfit(now_.residual).sum() > count + doubtful * std::sqrt(2 * count);
+    const double each = settings_.alpha / 4, much = normal_quantile(1 - each);
+    if (result_.after.p < each || is_far_beyond_noise(much)) return true;
+    const auto named = problem_.allowed_names.size() -
+                       std::count(problem_.allowed_names.begin(), problem_.allowed_names.end(), std::string{});
+    if (!result_.strained.empty() &&
+        2 * static_cast<double>(named) * normal_tail(result_.strained.front().deviations) < each)
+      return true;
+    if (counted_.held_out.size() < 2) return false;
+    const double count = problem_.independent(counted_.held_out).sum();
+    return foretold_.misfit(now_.residual).sum() > count + much * std::sqrt(2 * count);
   }
 
   void judge() {
@@ -410,6 +422,7 @@ class Search {
   }
 
   const EffectProblem& problem_;
+  EffectProblem counted_;
   const SearchSettings& settings_;
   const ResidualAt& residual_at_;
   Trained plain_;

@@ -1,5 +1,6 @@
 #include "diagnosis/search/effect_tests.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +11,10 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// What is seen only at so many times the size that it may have is not tested: it could be named by chance only.
+/// A difference of the misfits of two effects that tells them apart with 80 % probability (D.15).
+constexpr double tells = 12;
+
+/// What is seen only at so many times the size that it may have could be named by chance only.
 constexpr double beyond_patients = 5;
 
 std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
@@ -30,6 +34,15 @@ double probability(double gain, const std::vector<bool>& one_sided) {
   return any ? one_sided_tail(gain, n) : chi_square_tail(gain, n);  // (D.10)
 }
 
+/// Of each amplitude while the others of the effect are free; infinite where the data say nothing of it.
+VectorXd deviations_of(const MatrixXd& information) {
+  const VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const MatrixXd one = MatrixXd::Identity(scale.size(), scale.size());
+  constexpr double unseen = 1e-10;  // of the information: amplitudes that do the same are known together only
+  const MatrixXd covariance = (scale.asDiagonal() * information * scale.asDiagonal() + unseen * one).ldlt().solve(one);
+  return scale.cwiseProduct(covariance.diagonal().cwiseSqrt());
+}
+
 TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores& scores, double count) {
   const std::vector<Index>& own = problem.candidates[number].amplitudes;
   const MatrixXd information = scores.information(own, own);
@@ -44,7 +57,7 @@ TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores
   if (own.size() == 1 && scores.response(own[0]) < 0)
     effect.z = scores.response(own[0]) / std::sqrt(spread * information(0, 0));
   effect.amplitudes = fit.amplitudes;
-  effect.deviations = information.diagonal().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
+  effect.deviations = deviations_of(information);
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double size = effect.amplitudes(static_cast<Index>(k));
     if (problem.amplitudes[static_cast<std::size_t>(own[k])].limited(size) != size) effect.at_limit = true;
@@ -112,12 +125,10 @@ std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& s
     TestedEffect& effect = all.emplace_back(test(problem, i, scores, count));
     effect.visible = visible(problem, scores, problem.candidates[i].amplitudes.front(), alpha);
     effect.testable = is_testable(problem, scores, i, alpha);
-    if (effect.testable) p.push_back(effect.p);
+    p.push_back(effect.p);
   }
   const std::vector<double> q = holm(p);
-  auto next = q.begin();
-  for (TestedEffect& effect : all)
-    if (effect.testable) effect.q = *next++;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].q = q[i];
   return all;
 }
 
@@ -127,7 +138,7 @@ double worth(const EffectProblem& problem, const TestedEffect& effect, double co
   double price = static_cast<double>(own.size()) * std::log(count);
   for (std::size_t k = 0; k < own.size(); ++k)
     if (const double scale = problem.amplitudes[static_cast<std::size_t>(own[k])].scale; scale > 0)
-      price += std::pow(effect.amplitudes(static_cast<Index>(k)) / (beyond_patients * scale), 2);
+      price += 2 * std::log1p(std::abs(effect.amplitudes(static_cast<Index>(k))) / scale);  // log-uniform
   return gain - price;
 }
 
@@ -171,7 +182,8 @@ void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem
     for (TestedEffect* other : order) {
       if (other == first || other->group >= 0 || other->accepted) continue;
       const double c = cosine(problem, scores, *first, *other);
-      if (rival_of[other->candidate] != first->candidate && std::abs(c) <= 0.9) continue;
+      if (rival_of[other->candidate] != first->candidate && (c * c <= 0.5 || first->gain * (1 - c * c) >= tells))
+        continue;
       other->group = groups;
       other->cosine = c;
       any = true;

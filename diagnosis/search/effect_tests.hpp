@@ -42,7 +42,7 @@ VectorXd as_in_patients(const EffectProblem& problem, const TestedEffect& effect
 double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b);
 
 /// Evidence less what so many amplitudes cost with `count` independent data (BIC), and what their sizes cost if they
-/// are normal numbers with five times the scale that they may have in a patient as deviation. (D.10)
+/// may be of any order of magnitude beyond the scale that they may have in a patient. (D.10)
 double worth(const EffectProblem& problem, const TestedEffect& effect, double count);
 
 /// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.11)

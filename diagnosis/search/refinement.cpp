@@ -7,6 +7,7 @@
 namespace tether {
 namespace {
 
+constexpr double larger = 2.5;    ///< gain at the right amplitude over that of first order: 2.3 was seen (decision 90)
 constexpr double too_little = 1;  ///< of the misfit, to run once more
 constexpr double farthest = 0.7;  ///< logarithm by which an accepted effect's factor moves at most in a step
 
@@ -129,7 +130,7 @@ void Refinement::take(const VectorXd& residual) {
 }
 
 double Refinement::hope() const {
-  return begun() ? best_ - expected_ : start_ - 1.2 * expected_;
+  return begun() ? best_ - expected_ : start_ - larger * expected_;
 }
 
 AmplitudeState Refinement::state() const {

@@ -27,8 +27,8 @@ class Refinement {
   VectorXd amplitudes() const { return at(next_, next_others_); }
   /// The run at `amplitudes` left this residual; NaN: it failed.
   void take(const VectorXd& residual);
-  /// The smallest misfit so far, and the one that it may come down to: before any run a fifth more is hoped for than
-  /// first order promises.
+  /// The smallest misfit so far, and the one that it may come down to: before any run more is hoped for than first
+  /// order promises.
   double best() const { return best_; }
   double hope() const;
   void give_up() { done_ = true; }

@@ -30,7 +30,7 @@ std::string without_dots(std::string name) {
 /// The prior: what was found, and how sure that is, at least a factor of the square root of two either way.
 void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValue& found) {
   const std::string path = "identification.parameters." + without_dots(amplitude.name);
-  const bool positive = amplitude.doubles || amplitude.one_sided;
+  const bool positive = amplitude.doubles || amplitude.one_sided || (amplitude.lower == 0 && amplitude.base > 0);
   overlay.values.push_back({path + ".of", "[" + amplitude.name + "]"});
   overlay.values.push_back({path + ".transform", positive ? "log2" : "linear"});
   overlay.values.push_back({path + ".mean", number_text(found.value)});

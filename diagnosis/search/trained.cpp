@@ -3,20 +3,23 @@
 namespace tether {
 namespace {
 
-MatrixXd columns_of(const EffectProblem& problem, const MatrixXd& free) {
-  MatrixXd columns(problem.training.size(), problem.allowed.cols() + free.cols());
-  columns << problem.allowed(problem.training, Eigen::all), free(problem.training, Eigen::all);
-  return columns;
-}
+using Rows = std::vector<Eigen::Index>;
 
-VectorXd deviations_of(const EffectProblem& problem, const MatrixXd& free) {
-  VectorXd deviations(problem.allowed.cols() + free.cols());
+AllowedErrors allowed_errors(const EffectProblem& problem, const MatrixXd& free, const Rows& rows) {
+  MatrixXd columns(rows.size(), problem.allowed.cols() + free.cols());
+  columns << problem.allowed(rows, Eigen::all), free(rows, Eigen::all);
+  VectorXd deviations(columns.cols());
   deviations << problem.allowed_deviation, VectorXd::Constant(free.cols(), infinite);
-  return deviations;
+  return {problem.precision(rows), columns, deviations};
 }
 
-std::vector<Eigen::Index> all_rows(const EffectProblem& problem) {
-  std::vector<Eigen::Index> rows = problem.training;
+Rows counted_of(const EffectProblem& problem, Rows rows) {
+  std::erase_if(rows, [&](Eigen::Index i) { return !(problem.independent(i) > 0); });
+  return rows;
+}
+
+Rows all_rows(const EffectProblem& problem) {
+  Rows rows = problem.training;
   rows.insert(rows.end(), problem.held_out.begin(), problem.held_out.end());
   return rows;
 }
@@ -25,7 +28,9 @@ std::vector<Eigen::Index> all_rows(const EffectProblem& problem) {
 
 Trained::Trained(const EffectProblem& problem, const MatrixXd& free)
     : rows_(problem.training),
-      allowed_(problem.precision(problem.training), columns_of(problem, free), deviations_of(problem, free)) {}
+      counted_rows_(counted_of(problem, problem.training)),
+      allowed_(allowed_errors(problem, free, rows_)),
+      counted_(allowed_errors(problem, free, counted_rows_)) {}
 
 Trained::Trained(const EffectProblem& problem) : Trained(problem, MatrixXd(problem.residual.size(), 0)) {}
 
@@ -34,15 +39,28 @@ double Trained::misfit(const VectorXd& residual) const {
   return r.dot(allowed_(r).col(0));
 }
 
+double Trained::counted_misfit(const VectorXd& residual) const {
+  const VectorXd r = residual(counted_rows_);
+  return r.dot(counted_(r).col(0));
+}
+
 Scores Trained::scores(const MatrixXd& changes, const VectorXd& residual) const {
-  return scores_of(allowed_, rows(changes), rows(residual));
+  Scores scores = scores_of(allowed_, rows(changes), rows(residual));
+  scores.misfit = counted_misfit(residual);
+  return scores;
+}
+
+EffectProblem counted(EffectProblem problem) {
+  problem.training = counted_of(problem, problem.training);
+  problem.held_out = counted_of(problem, problem.held_out);
+  return problem;
 }
 
 Foretold::Foretold(const EffectProblem& problem)
     : problem_(problem),
       trained_(problem),
       rows_(all_rows(problem)),
-      everywhere_(problem.precision(rows_), problem.allowed(rows_, Eigen::all), problem.allowed_deviation) {}
+      everywhere_(allowed_errors(problem, MatrixXd(problem.residual.size(), 0), rows_)) {}
 
 /// With the conditional mean taken off, the held-out part u has the precision M_hh, and M_hh u is that part of M r.
 VectorXd Foretold::misfit(const VectorXd& residual) const {

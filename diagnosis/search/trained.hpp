@@ -16,15 +16,20 @@ class Trained {
   const AllowedErrors& allowed() const { return allowed_; }
   /// r'M r of a residual on all rows.
   double misfit(const VectorXd& residual) const;
+  /// The same of the data that count as independent ones, of which noise makes as much as there are.
+  double counted_misfit(const VectorXd& residual) const;
   /// The amplitudes of the problem's allowed errors that the training part of a residual on all rows shows [k].
   VectorXd amplitudes(const VectorXd& residual) const { return allowed_.amplitudes(rows(residual)); }
-  /// S'M S and S'M r of changes and a residual on all rows.
+  /// S'M S and S'M r of changes and a residual on all rows, with the counted misfit.
   Scores scores(const MatrixXd& changes, const VectorXd& residual) const;
 
  private:
-  std::vector<Eigen::Index> rows_;
-  AllowedErrors allowed_;
+  std::vector<Eigen::Index> rows_, counted_rows_;
+  AllowedErrors allowed_, counted_;
 };
+
+/// The problem of the data that count as independent ones alone.
+EffectProblem counted(EffectProblem problem);
 
 /// Held-out data as training data and allowed errors foretell them: what they still miss. (D.13)
 class Foretold {

@@ -12,8 +12,9 @@ using Index = Eigen::Index;
 
 }  // namespace
 
-Trials::Trials(const EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base, ModelRuns& runs)
-    : problem_(problem), evidence_(evidence), runs_(runs) {
+Trials::Trials(const EffectProblem& problem, const Evidence& evidence, const Whitening& whitening,
+               const FinishedMotion& base, ModelRuns& runs)
+    : problem_(problem), evidence_(evidence), whitening_(whitening), base_(evidence.problem().residual), runs_(runs) {
   known_[NamedValues{}] = Trial{base, problem.residual};
 }
 
@@ -58,7 +59,7 @@ void Trials::provide(const MatrixXd& amplitudes) {
   }
   if (wanted.empty()) return;
   const std::vector<FinishedMotion> motions = runs_.make(wanted);
-  const MatrixXd residuals = residuals_of(evidence_, motions, problem_.residual);
+  const MatrixXd residuals = whitening_(residuals_of(evidence_, motions, base_));
   for (std::size_t k = 0; k < wanted.size(); ++k)
     known_[wanted[k].values] = Trial{motions[k], residuals.col(static_cast<Index>(k))};
 }

@@ -3,14 +3,16 @@
 #include <map>
 
 #include "diagnosis/evidence/diagnosed_case.hpp"
+#include "diagnosis/evidence/whitening.hpp"
 
 namespace tether {
 
 /// Runs of the model at finite amplitudes, each made once.
 class Trials {
  public:
-  /// base: the run of the model as it is, at which the problem was posed.
-  Trials(const EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base, ModelRuns& runs);
+  /// problem: of the whitened data. base: the run of the model as it is, at which the problem was posed.
+  Trials(const EffectProblem& problem, const Evidence& evidence, const Whitening& whitening, const FinishedMotion& base,
+         ModelRuns& runs);
 
   /// The residuals with these amplitudes, a column each; errors of the data are added to first order, which is exact
   /// for most. NaN where the model does not come to its end.
@@ -30,6 +32,8 @@ class Trials {
 
   const EffectProblem& problem_;
   const Evidence& evidence_;
+  const Whitening& whitening_;
+  VectorXd base_;  ///< data minus the model as it is, not whitened [n]
   ModelRuns& runs_;
   std::map<NamedValues, Trial> known_;
   int count_ = 0;

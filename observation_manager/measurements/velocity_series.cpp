@@ -82,13 +82,15 @@ std::vector<Datum> VelocitySeries::data(const FinishedMotion& run, const Measure
                        independent_points() / static_cast<double>(points_.cols());
   std::vector<Datum> all;
   for (Eigen::Index point = 0; point < points_.cols(); ++point)
-    for (const double now : difference.col(point)) {
+    for (Eigen::Index component = 0; component < difference.rows(); ++component) {
+      const double now = difference(component, point);
       const bool is_seen = !std::isnan(now);
       all.push_back({.residual = is_seen ? now : 0,
                      .is_seen = is_seen,
                      .independent = is_seen ? share : 0,
                      .time = part.time,
                      .held_out = part.frame.held_out,
+                     .component = static_cast<int>(component),
                      .patch = patch_of(point),
                      .position = points_.col(point)});
     }

@@ -17,6 +17,7 @@ inline Parameter stiffness_parameter(const char* meaning, double scale = 1e6) {
           .scale = scale};
 }
 
+/// scale: pushes as hard as a spring of soft tissue that goes to and fro once a second [Pa s/m].
 inline Parameter damping_parameter(const char* meaning) {
   return {.name = "damping",
           .meaning = meaning,
@@ -26,7 +27,7 @@ inline Parameter damping_parameter(const char* meaning) {
           .absent = 0.0,
           .transform = Transform::log2,
           .prior_deviation = 1.0,
-          .scale = 1e4};
+          .scale = 1e5};
 }
 
 }  // namespace tether

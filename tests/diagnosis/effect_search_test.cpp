@@ -237,8 +237,9 @@ TEST(EffectSearch, HeldOutDataDecide) {
   EXPECT_EQ(result.path[0].objection, Objection::not_confirmed);
 }
 
-/// One that follows the noise of the training data fits them best, and fails on the others.
-TEST(EffectSearch, TriesTheNextIfHeldOutDataObject) {
+/// One that follows the noise of the training data fits them best, and fails on the others. It stays a rival: held-out
+/// data, of which there are few, refuse the right one too at times.
+TEST(EffectSearch, TriesTheNextIfHeldOutDataObjectAndForgetsNone) {
   std::mt19937_64 generator(23);
   EffectProblem problem = band();
   const VectorXd errors = noise(generator);
@@ -251,7 +252,9 @@ TEST(EffectSearch, TriesTheNextIfHeldOutDataObject) {
   EXPECT_EQ(result.path[0].candidate, 8U);
   EXPECT_EQ(result.path[0].objection, Objection::not_confirmed);
   EXPECT_EQ(result.path[1].candidate, 2U);
-  EXPECT_EQ(result.verdict, Verdict::missing);
+  EXPECT_EQ(result.effects.front().candidate, 2U);
+  EXPECT_TRUE(result.effects.front().accepted);
+  EXPECT_EQ(result.verdict, Verdict::ambiguous);
 }
 
 /// To first order an input that may be anything does nearly what the effect does; at the size of the truth it does not.

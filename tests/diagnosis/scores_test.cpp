@@ -61,8 +61,8 @@ TEST(Amplitude, StaysShortOfItsBounds) {
   EXPECT_NEAR(bounded.value(-5), 0.02, 1e-12);
   const Amplitude doubling{"factor", "", "1", false, 0.5, 3, true};
   EXPECT_DOUBLE_EQ(doubling.value(1), 6);
-  EXPECT_DOUBLE_EQ(doubling.value(9), 12) << "four times the scale";
-  EXPECT_DOUBLE_EQ(doubling.limited(-9), -2);
+  EXPECT_DOUBLE_EQ(doubling.value(9), 3 * 512) << "however much that is in scales";
+  EXPECT_DOUBLE_EQ(doubling.limited(-19), -10) << "a thousandth";
   const Amplitude both{"factor", "", "1", false, 0.5, 3, true, 1, 6};
   EXPECT_DOUBLE_EQ(both.value(9), 6 - 0.03);
   EXPECT_DOUBLE_EQ(both.value(-9), 1.02);
