@@ -139,7 +139,7 @@ class Collector {
   void take_force(const std::string& name) {
     document_["force"] = read_result<ForceFound>(folder_ / name);
     const fs::path run = fs::path(name).parent_path() / "run";
-    if (fs::exists(folder_ / run / "comparison.json")) take_run("with the force that is missing", run.string());
+    if (fs::exists(folder_ / run / "comparison.json")) take_run("with the force that is missing", run.string(), true);
   }
 
   /// What the whole is called and what it says.
@@ -150,7 +150,7 @@ class Collector {
     if (document_["title"] == "") document_["title"] = document_["case"];
   }
 
-  void take_run(const std::string& label, const std::string& name) {
+  void take_run(const std::string& label, const std::string& name, bool forced = false) {
     const fs::path folder = folder_ / name;
     const Json comparison = read_result<ComparisonResult>(folder / "comparison.json");
     if (comparison.is_null()) {
@@ -162,6 +162,7 @@ class Collector {
     shown_.push_back({label, folder, comparison});
     document_["runs"].push_back({{"label", label},
                                  {"folder", name},
+                                 {"forced", forced},
                                  {"mm", units.to_mm(1)},
                                  {"clinical", clinical_units(units)},
                                  {"comparison", regions_only(comparison)}});

@@ -3,7 +3,6 @@
 #include <fmt/chrono.h>
 
 #include <chrono>
-#include <fstream>
 
 #include "common/base/built_from.hpp"
 #include "common/config/case_tree.hpp"
@@ -52,14 +51,8 @@ std::string date_now() {
 }
 
 std::optional<fs::path> case_of_results(const fs::path& folder) {
-  constexpr std::string_view before = "# Copy of ", after = " as it was";
-  std::ifstream mark(folder / case_as_run);
-  std::string line;
-  std::getline(mark, line);
-  const auto end = line.find(after);
-  if (!line.starts_with(before) || end == std::string::npos) return std::nullopt;
-  fs::path file = line.substr(before.size(), end - before.size());
-  if (!fs::is_regular_file(file)) return std::nullopt;
+  std::optional<fs::path> file = owner_of(folder);
+  if (file && !fs::is_regular_file(*file)) return std::nullopt;
   return file;
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the layering of the sources: each room includes only the rooms below it, programs never include each other, headers
+"""Checks the layering of the sources: each room includes only the rooms below it that tools/rooms.txt grants it, and all of those, programs never include each other, headers
 include each other without a cycle, heavy third-party headers stay in .cpp files, and only common/protocol speaks MPI.
 
 Usage: check_includes.py [ROOT]. Prints one line per violation and returns 1 if there is any."""
@@ -45,6 +45,17 @@ def forbidden(includes, rooms):
                 yield f"{source}:{line}: only common/protocol speaks MPI"
 
 
+def granted_for_nothing(includes, rooms):
+    used = {room: set() for room in rooms}
+    for source, lines in includes.items():
+        if room := room_of(source, rooms):
+            used[room] |= {room_of(target, rooms) for _, quoted, target in lines if quoted}
+    for room, below in rooms.items():
+        for other in below:
+            if other not in used[room]:
+                yield f"tools/rooms.txt: {room} does not include {other}"
+
+
 def cycles(includes):
     """Each cycle of includes once, by depth-first search."""
     state, path = {}, []
@@ -70,7 +81,7 @@ def main():
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
     rooms = read_rooms(root)
     includes = includes_of(root, rooms)
-    violations = [*forbidden(includes, rooms), *cycles(includes)]
+    violations = [*forbidden(includes, rooms), *granted_for_nothing(includes, rooms), *cycles(includes)]
     print("\n".join(violations) if violations else f"{len(includes)} sources, layering as it should be")
     return 1 if violations else 0
 

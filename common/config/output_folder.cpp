@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view copy_of = "# Copy of ", as_it_was = " as it was";
+constexpr std::string_view case_file_key = "# case_file: ";  ///< first line of a mark
 constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
 
 bool is_empty_but_for_lock(const fs::path& folder) {
@@ -31,22 +31,23 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
   }
   const YamlNode marker = read_yaml(folder / case_as_run);
   const YamlNode* owner = marker.find("name");
-  std::ifstream copy(folder / case_as_run);
-  std::string first;
-  std::getline(copy, first);
-  const bool same_file =
-      first.find(" " + fs::absolute(case_file).lexically_normal().string() + " ") != std::string::npos;
-  if (owner && owner->text == name && same_file) return;
+  const std::optional<fs::path> whose = owner_of(folder);
+  if (owner && owner->text == name && whose == fs::absolute(case_file).lexically_normal()) return;
   if (owner && owner->text == name)
     throw input_error("{}: holds the results of another case file of the name '{}'{}; {}", folder.string(), name,
-                      first.starts_with(copy_of)
-                          ? " (" + first.substr(copy_of.size(), first.find(as_it_was) - copy_of.size()) + ")"
-                          : "",
-                      way_out);
+                      whose ? " (" + whose->string() + ")" : "", way_out);
   throw input_error("{}: holds the results of the case '{}'; {}", folder.string(), owner ? owner->text : "?", way_out);
 }
 
 }  // namespace
+
+std::optional<fs::path> owner_of(const fs::path& folder) {
+  std::ifstream mark(folder / case_as_run);
+  std::string first;
+  std::getline(mark, first);
+  if (!first.starts_with(case_file_key)) return std::nullopt;
+  return first.substr(case_file_key.size());
+}
 
 fs::path output_of(const CommandLine& command, const CaseFile& file) {
   return command.output.empty() ? fs::path("out") / file.common().name : command.output;
@@ -74,8 +75,8 @@ fs::path claim_output(const CommandLine& command, const CaseFile& file) {
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {
   std::ofstream to(folder / case_as_run);
-  to << copy_of << fs::absolute(case_file).lexically_normal().string() << as_it_was
-     << " when the run started. Its paths are relative to that file.\n"
+  to << case_file_key << fs::absolute(case_file).lexically_normal().string()
+     << "\n# A copy of it as it was when the run started, with what it builds on; paths are relative to it.\n"
      << case_text(case_file);
   if (!to.flush()) throw run_error("{}: cannot be written to", folder.string());
 }

@@ -9,6 +9,9 @@ namespace tether {
 /// merged with what it builds on.
 inline constexpr const char* case_as_run = "case_as_run.yaml";
 
+/// The case file whose results a folder holds; nothing if it does not say. It need not exist any more.
+std::optional<std::filesystem::path> owner_of(const std::filesystem::path& folder);
+
 /// Where a run's results are, or will be: --output, or out/NAME.
 std::filesystem::path output_of(const CommandLine& command, const CaseFile& file);
 

@@ -53,7 +53,9 @@ struct Session::Parts {
 
 namespace {
 
-constexpr double finish_limit = 2, leave_limit = 5, finalize_limit = 5;  // seconds
+/// Seconds. MPI_Finalize waits for all processes of an mpirun line, on a machine however busy: if one of them ends
+/// without it, mpirun says that the job failed.
+constexpr double finish_limit = 2, leave_limit = 5, finalize_limit = 20;
 
 /// The processes of this program: all that were spawned together, or one part of an MPMD line.
 MPI_Comm own_processes(bool spawned) {

@@ -104,7 +104,7 @@ SourceDiscrepancy compare(const LumenSeries& data, const std::vector<std::string
   result.noise = data.settings().noise;
   result.series = data.series_names();
   result.regions = region_names;
-  result.notes = data.notes();
+  result.notes = told(data.notes());
   result.moments = moments_of(data, run, result.outside);
   Grouped training(data, region_names.size()), held_out = training;
   for (Moment& moment : result.moments) {

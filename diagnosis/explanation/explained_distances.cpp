@@ -34,7 +34,7 @@ std::optional<Gain> gain_between(const EffectProblem& problem, const VectorXd& b
 }
 
 std::vector<std::string> odd_frames(const Evidence& evidence, const EffectProblem& problem, const VectorXd& residual,
-                                    const std::vector<std::string>& known) {
+                                    const std::vector<FrameOfSource>& known) {
   constexpr double much = 2;  // times the median, and the noise
   constexpr std::size_t few = 4;
   std::vector<std::pair<double, const Evidence::Part*>> off;
@@ -52,7 +52,8 @@ std::vector<std::string> odd_frames(const Evidence& evidence, const EffectProble
   const double median = sizes[sizes.size() / 2];
   std::vector<std::string> all;
   for (const auto& [size, part] : off) {
-    const bool is_known = std::find(known.begin(), known.end(), frame_text(evidence, *part)) != known.end();
+    const FrameOfSource frame{evidence.field_of(*part), part->frame.label};
+    const bool is_known = std::find(known.begin(), known.end(), frame) != known.end();
     if (!is_known && size > much * std::max(1.0, median))
       all.push_back(fmt::format(
           "Look at the{} frame of {} at {:.3g} s: {:.1f} times the noise off the last model, most frames {:.1f}",

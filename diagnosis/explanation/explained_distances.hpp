@@ -13,9 +13,12 @@ std::optional<Misfit> misfit_of(const EffectProblem& problem, const Evidence& ev
 /// The gain on held-out data between two runs; nothing if hardly any are held out.
 std::optional<Gain> gain_between(const EffectProblem& problem, const VectorXd& before, const VectorXd& after);
 
+/// One frame of a source, by the section of the case and its number.
+using FrameOfSource = std::pair<std::string, double>;
+
 /// A sentence for each frame, held out or not, that lies off a model much farther than most, and beyond noise; not for
-/// those that are known to be wrong ("ct, 0.26 s").
+/// those that are known to be wrong.
 std::vector<std::string> odd_frames(const Evidence& evidence, const EffectProblem& problem, const VectorXd& residual,
-                                    const std::vector<std::string>& known);
+                                    const std::vector<FrameOfSource>& known);
 
 }  // namespace tether

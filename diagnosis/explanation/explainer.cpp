@@ -269,12 +269,13 @@ class Explainer {
     model.told.identification = folder;
   }
 
-  /// Places in time of single frames that diagnoses found wrong.
-  std::vector<std::string> wrong_frames() const {
-    std::vector<std::string> all;
+  /// Single frames that diagnoses found wrong.
+  std::vector<FrameOfSource> wrong_frames() const {
+    std::vector<FrameOfSource> all;
     for (const PathModel& model : path_.models)
       if (model.diagnosis)
-        for (const Finding& error : accepted_of(*model.diagnosis, true)) all.push_back(error.where);
+        for (const Finding& error : accepted_of(*model.diagnosis, true))
+          if (error.source && error.frame) all.emplace_back(*error.source, *error.frame);
     return all;
   }
 

@@ -48,6 +48,7 @@ struct Finding {
   std::optional<std::string> parameter;
   std::string where, meaning;
   CandidateKind kind = CandidateKind::effect;
+  std::optional<std::string> source;
   std::optional<double> frame;
   bool accepted = false, rival = false, testable = true;
   double z = 0, p = 1, q = 1;
@@ -65,6 +66,7 @@ struct Finding {
     field("where", self.where, "region of the wall, opening, or source and time of the data; empty: everywhere");
     field("meaning", self.meaning, "of the effect");
     field("kind", self.kind, "what it changes");
+    field("source", self.source, "of an error of the data, their section in the case");
     field("frame", self.frame, "of an error of one frame its number, as the case counts them");
     field("accepted", self.accepted, "the data ask for it");
     field("rival", self.rival, "these data cannot tell it from an accepted one");

@@ -47,6 +47,7 @@ Finding finding_of(const EffectProblem& problem, const TestedEffect& effect) {
   finding.where = candidate.where;
   finding.meaning = candidate.meaning;
   finding.kind = candidate.kind;
+  finding.source = if_any(candidate.data.field);
   finding.frame = if_known(candidate.data.frame);
   finding.accepted = effect.accepted;
   finding.rival = effect.rival;

@@ -197,7 +197,7 @@ void keep_wanted(std::vector<Drawn>& drawn, const SlicesCase& given) {
 }  // namespace
 
 std::vector<ContourTrack> read_contour_tracks(const SlicesCase& given, const UnitSystem& units,
-                                              std::vector<std::string>& notes) {
+                                              std::vector<Note>& notes) {
   std::vector<Drawn> drawn = Table(given, units).drawn();
   keep_wanted(drawn, given);
   check_frames(drawn, given);
@@ -215,7 +215,7 @@ std::vector<ContourTrack> read_contour_tracks(const SlicesCase& given, const Uni
     if (track == tracks.end()) track = tracks.insert(tracks.end(), {name, planes.at(one.slice), {}, {}, {}});
     add(*track, one, given, repeated);
   }
-  if (repeated > 0) notes.push_back(fmt::format("{} points that repeat the one before are left out", repeated));
+  if (repeated > 0) notes.push_back({"", fmt::format("{} points that repeat the one before are left out", repeated)});
   return tracks;
 }
 

@@ -12,6 +12,6 @@ namespace tether {
 /// unit, one of times that are fractions, unknown slices or held-out frames, rows of a contour apart, frames without
 /// one time or of equal times, too few points, a slice that is not flat, a contour that crosses itself.
 std::vector<ContourTrack> read_contour_tracks(const SlicesCase& given, const UnitSystem& units,
-                                              std::vector<std::string>& notes);
+                                              std::vector<Note>& notes);
 
 }  // namespace tether

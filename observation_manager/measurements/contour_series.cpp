@@ -24,7 +24,7 @@ double separation(const Contour& contour, const CutPiece& piece, const SlicePlan
 }  // namespace
 
 ContourSeries::ContourSeries(SourceSettings settings, std::vector<ContourTrack> tracks, int samples_per_contour,
-                             const LumenSurface& lumen, std::vector<std::string> notes)
+                             const LumenSurface& lumen, std::vector<Note> notes)
     : settings_(std::move(settings)),
       tracks_(std::move(tracks)),
       samples_(samples_per_contour),
@@ -52,7 +52,7 @@ double ContourSeries::observed_length(std::size_t t, const LumenSurface& lumen) 
 void ContourSeries::orient(std::size_t t, const LumenSurface& lumen) {
   ContourTrack& track = tracks_[t];
   const std::vector<CutStation> places = stations(lumen.points, t);
-  if (places.empty()) notes_.push_back(fmt::format("{}: its plane misses the imaged lumen", track.name));
+  if (places.empty()) notes_.push_back({track.name, "its plane misses the imaged lumen"});
   for (Contour& contour : track.contours) {
     if (contour.closed()) continue;
     double agreement = 0;

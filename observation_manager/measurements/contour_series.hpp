@@ -25,7 +25,7 @@ class ContourSeries : public LumenSeries {
   /// An open contour is turned so that the imaged `lumen` lies on its left. A track whose plane misses the imaged lumen
   /// is noted.
   ContourSeries(SourceSettings settings, std::vector<ContourTrack> tracks, int samples_per_contour,
-                const LumenSurface& lumen, std::vector<std::string> notes = {});
+                const LumenSurface& lumen, std::vector<Note> notes = {});
 
   std::vector<Sample> observe(const Points& x, double time) const override;
   std::vector<Sample> observe(const Points& x, const Frame& frame) const override;
@@ -35,11 +35,11 @@ class ContourSeries : public LumenSeries {
   const MeasurementKind& kind() const override { return kinds::contours; }
   const SourceSettings& settings() const override { return settings_; }
   std::uint64_t content() const override;
-  const std::vector<std::string>& notes() const override { return notes_; }
+  const std::vector<Note>& notes() const override { return notes_; }
   const std::vector<ContourTrack>& tracks() const { return tracks_; }
   /// Of the piece of the lumen at x that a track is compared with; 0 if its plane misses it [length].
   double cut_length(const Points& x, std::size_t track) const;
-  void note(std::string what) { notes_.push_back(std::move(what)); }
+  void note(Note what) { notes_.push_back(std::move(what)); }
 
  private:
   std::vector<CutStation> stations(const Points& x, std::size_t track) const;
@@ -54,7 +54,7 @@ class ContourSeries : public LumenSeries {
   std::vector<double> length_;
   int samples_;
   std::vector<Triangle> triangles_;
-  std::vector<std::string> notes_;
+  std::vector<Note> notes_;
 };
 
 }  // namespace tether

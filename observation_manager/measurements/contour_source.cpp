@@ -50,8 +50,8 @@ int common_power(const ContourSeries& series, const LumenSurface& lumen) {
 }
 
 /// Throws InputError if the contours are elsewhere, or in another unit. Notes of slices that are far from the model.
-std::vector<std::string> check_overlap(const ContourSeries& series, const LumenSurface& lumen, double reach,
-                                       const SlicesCase& given) {
+std::vector<Note> check_overlap(const ContourSeries& series, const LumenSurface& lumen, double reach,
+                                const SlicesCase& given) {
   const auto refused = [&](const std::string& why) {
     return input_error("{}: does not overlap the model: {}; {}", given.file.string(), why,
                        placement(points_of(series.tracks()), lumen.points));
@@ -69,19 +69,19 @@ std::vector<std::string> check_overlap(const ContourSeries& series, const LumenS
   const auto most = *std::max_element(best.begin(), best.end());
   if (!most) throw refused("no slice cuts the model's lumen");
   if (*most < least_share) throw refused(share_text(*most, reach) + ", at least half must in one frame");
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   for (std::size_t t = 0; t < best.size(); ++t)
     if (best[t] && *best[t] < least_share)
-      notes.push_back(fmt::format("{}: at most {}", series.tracks()[t].name, share_text(*best[t], reach)));
+      notes.push_back({series.tracks()[t].name, "at most " + share_text(*best[t], reach)});
   for (const auto& [frame, share] : far)
     if (const auto t = static_cast<std::size_t>(frame.series); *best[t] >= least_share)
       notes.push_back(
-          fmt::format("{} at {:.4g}: only {}", series.tracks()[t].name, frame.time, share_text(share, reach)));
+          {fmt::format("{} at {:.4g}", series.tracks()[t].name, frame.time), "only " + share_text(share, reach)});
   return notes;
 }
 
 std::unique_ptr<LumenSeries> load(const SlicesCase& given, const LumenSurface& lumen, const LumenSource& source) {
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   note_corrections(notes, given.data, source.file);
   std::vector<ContourTrack> tracks = read_contour_tracks(given, source.file.units(), notes);
   const double period = given.beat.value_or(given.period.value_or(0));
@@ -95,8 +95,7 @@ std::unique_ptr<LumenSeries> load(const SlicesCase& given, const LumenSurface& l
   check_range(first, last, period, source);
   auto series = std::make_unique<ContourSeries>(settings_of(given.data, period, lumen, source), std::move(tracks),
                                                 given.samples, lumen, std::move(notes));
-  for (std::string& note : check_overlap(*series, lumen, reach_of(given.data, lumen), given))
-    series->note(std::move(note));
+  for (Note& note : check_overlap(*series, lumen, reach_of(given.data, lumen), given)) series->note(std::move(note));
   return series;
 }
 

@@ -33,6 +33,23 @@ double total_weight(const std::vector<Sample>& samples) {
 
 }  // namespace
 
+std::vector<std::string> told(const std::vector<Note>& notes) {
+  std::vector<std::pair<Note, int>> said;  // first, how many more
+  for (const Note& note : notes) {
+    const auto known = std::find_if(said.begin(), said.end(), [&](const auto& s) { return s.first.text == note.text; });
+    if (known == said.end())
+      said.emplace_back(note, 0);
+    else
+      ++known->second;
+  }
+  std::vector<std::string> all;
+  for (const auto& [first, more] : said) {
+    const std::string others = more > 0 ? fmt::format(" and {} more", more) : "";
+    all.push_back(first.of.empty() ? first.text : first.of + others + ": " + first.text);
+  }
+  return all;
+}
+
 Sample between(const Sample& before, const Sample& after, double share) {
   Sample sample = before.excluded != Exclusion::none ? before : after;
   sample.distance = (1 - share) * before.distance + share * after.distance;  // (O.3)

@@ -24,6 +24,15 @@ struct SourceSettings {
   double outward = 0;  ///< added to distances: the data are too far inward by it [length]
 };
 
+/// What was found of one file or contour, or of the whole source.
+struct Note {
+  std::string of;  ///< empty: the source
+  std::string text;
+};
+
+/// What is said of several files in the same words, once: "lumen_0.stl and 9 more: ...".
+std::vector<std::string> told(const std::vector<Note>& notes);
+
 /// Measurements of the moving lumen: surfaces, or contours in slices.
 class LumenSeries : public Measurement {
  public:
@@ -39,8 +48,8 @@ class LumenSeries : public Measurement {
   /// What a sample's weight is: 2 an area, 1 a length.
   virtual int sample_dimension() const = 0;
   virtual const SourceSettings& settings() const = 0;
-  /// What was found and done on loading, one line each: data left out, surfaces turned, holes.
-  virtual const std::vector<std::string>& notes() const = 0;
+  /// What was found and done on loading: data left out, surfaces turned, holes.
+  virtual const std::vector<Note>& notes() const = 0;
 
   MeasurementFacts facts() const override;
   std::vector<MeasuredPart> parts(const FinishedMotion& run) const override;

@@ -60,10 +60,11 @@ bool holds(const std::vector<double>& numbers, double number) {
 }
 
 /// What the case takes off the data.
-void note_corrections(std::vector<std::string>& notes, const LumenDataCase& data, const CaseFile& file) {
+void note_corrections(std::vector<Note>& notes, const LumenDataCase& data, const CaseFile& file) {
   for (std::string& note : data.correction.faults.notes(file.units().symbol(dimension::length)))
-    notes.push_back(std::move(note));
-  if (!data.left_out.empty()) notes.push_back(fmt::format("left out: frames {:g}", fmt::join(data.left_out, ", ")));
+    notes.push_back({"", std::move(note)});
+  if (!data.left_out.empty())
+    notes.push_back({"", fmt::format("left out: frames {:g}", fmt::join(data.left_out, ", "))});
 }
 
 void check_range(double first, double last, double period, const LumenSource& source) {

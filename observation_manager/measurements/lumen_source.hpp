@@ -19,7 +19,7 @@ SourceSettings settings_of(const LumenDataCase& data, double period, const Lumen
 bool holds(const std::vector<double>& numbers, double number);
 
 /// What the case takes off the data.
-void note_corrections(std::vector<std::string>& notes, const LumenDataCase& data, const CaseFile& file);
+void note_corrections(std::vector<Note>& notes, const LumenDataCase& data, const CaseFile& file);
 
 /// A series that does not repeat must have something to say during the run. Throws InputError.
 void check_range(double first, double last, double period, const LumenSource& source);

@@ -37,27 +37,6 @@ void check_overlaps(Observations& data, const LumenSurface& lumen, const CaseFil
     if (source->velocity_points().cols() > 0) check_overlap(*source, closed, file, data.flow_notes);
 }
 
-/// What is said of several files in the same words, once: "lumen_0.stl and 9 others: ...".
-std::vector<std::string> merged(const std::vector<std::string>& notes) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> said;  // words, files
-  for (const std::string& note : notes) {
-    const auto colon = note.find(": ");
-    const std::string file = colon == std::string::npos ? "" : note.substr(0, colon),
-                      words = colon == std::string::npos ? note : note.substr(colon + 2);
-    const auto known = std::find_if(said.begin(), said.end(), [&](const auto& s) { return s.first == words; });
-    if (known == said.end())
-      said.push_back({words, {file}});
-    else
-      known->second.push_back(file);
-  }
-  std::vector<std::string> all;
-  for (const auto& [words, files] : said) {
-    const std::string others = files.size() > 1 ? fmt::format(" and {} more", files.size() - 1) : "";
-    all.push_back(files.front().empty() ? words : files.front() + others + ": " + words);
-  }
-  return all;
-}
-
 }  // namespace
 
 std::vector<const Measurement*> Observations::all() const {
@@ -80,7 +59,7 @@ std::vector<Sample> Observations::observe(const Points& x, double time) const {
 std::vector<std::string> Observations::notes() const {
   std::vector<std::string> all;
   for (const auto& series : lumen)
-    for (const std::string& note : merged(series->notes())) all.push_back(series->settings().name + ": " + note);
+    for (const std::string& note : told(series->notes())) all.push_back(series->settings().name + ": " + note);
   all.insert(all.end(), flow_notes.begin(), flow_notes.end());
   return all;
 }

@@ -20,8 +20,7 @@ void exclude(Sample& sample, Exclusion why) {
 }  // namespace
 
 SurfaceSeries::SurfaceSeries(SourceSettings settings, std::vector<SurfaceFrame> frames,
-                             const std::vector<bool>& held_out, const LumenSurface& lumen,
-                             std::vector<std::string> notes)
+                             const std::vector<bool>& held_out, const LumenSurface& lumen, std::vector<Note> notes)
     : settings_(std::move(settings)),
       times_(times_of(frames), settings_.period, settings_.time_tolerance, held_out),
       frames_(std::move(frames)),

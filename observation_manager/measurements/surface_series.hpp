@@ -22,7 +22,7 @@ class SurfaceSeries : public LumenSeries {
  public:
   /// `frames` in the order of their times, checked (surface_check.hpp). Weights are areas of the imaged `lumen`.
   SurfaceSeries(SourceSettings settings, std::vector<SurfaceFrame> frames, const std::vector<bool>& held_out,
-                const LumenSurface& lumen, std::vector<std::string> notes = {});
+                const LumenSurface& lumen, std::vector<Note> notes = {});
 
   std::vector<Sample> observe(const Points& x, double time) const override;
   std::vector<Sample> observe(const Points& x, const Frame& frame) const override;
@@ -33,7 +33,7 @@ class SurfaceSeries : public LumenSeries {
   const TriangleSurface& surface(const Frame& frame) const { return frames_[frame.number].surface; }
   const SourceSettings& settings() const override { return settings_; }
   std::uint64_t content() const override;
-  const std::vector<std::string>& notes() const override { return notes_; }
+  const std::vector<Note>& notes() const override { return notes_; }
 
  private:
   std::vector<Sample> against(const Points& x, std::size_t frame) const;
@@ -49,7 +49,7 @@ class SurfaceSeries : public LumenSeries {
   FrameTimes times_;
   std::vector<SurfaceFrame> frames_;
   VectorXd areas_;
-  std::vector<std::string> notes_;
+  std::vector<Note> notes_;
   mutable std::map<std::size_t, FrameTree> trees_;  ///< of the two frames in use
 };
 

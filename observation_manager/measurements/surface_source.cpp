@@ -79,7 +79,7 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
   const std::vector<double> labels = drop_left_out(files, given.data, source);
   const double scale = units.quantity("1 " + given.unit, dimension::length), period = given.period.value_or(0);
   std::vector<SurfaceFrame> frames;
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   note_corrections(notes, given.data, source.file);
   std::vector<bool> held_out;
   const std::vector<Opening> openings = openings_of(lumen);
@@ -95,7 +95,7 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
     open_ends(checked, openings);
     const bool must_be_near = &timed == &files.back() && best < least_share;
     best = std::max(best, checked_placing(name, checked, lumen, reach, must_be_near));
-    for (const std::string& note : checked.notes) notes.push_back(timed.file.filename().string() + ": " + note);
+    for (const std::string& note : checked.notes) notes.push_back({timed.file.filename().string(), note});
     held_out.push_back(holds(given.data.held_out, label));
     frames.push_back({timed.time, std::move(checked.surface), std::move(checked.flawed), label});
   }

@@ -204,7 +204,7 @@ TEST(ContourSeries, OfAnArcObservesOnlyBesideIt) {
 TEST(ContourSeries, SaysWhenASliceMissesTheModel) {
   const ContourSeries data = series(cylinder(), plane(Vec3(0, 0, 7), Vec3(0, 0, 1)), {0}, {circle({0, 0}, 1.1, 90)});
   ASSERT_EQ(data.notes().size(), 1U);
-  EXPECT_EQ(data.notes()[0], "slice 1: its plane misses the imaged lumen");
+  EXPECT_EQ(told(data.notes()), std::vector<std::string>{"slice 1: its plane misses the imaged lumen"});
   const std::vector<Sample> samples = data.observe(cylinder().points, data.frames()[0]);
   ASSERT_EQ(samples.size(), 40U);
   for (const Sample& s : samples) {

@@ -222,7 +222,7 @@ TEST_F(Load, TakesKnownErrorsOff) {
       ++compared;
     }
   EXPECT_GT(compared, 90);
-  EXPECT_EQ(mended.lumen[0]->notes()[0], "corrected: turned by 2.86 degrees");
+  EXPECT_EQ(mended.lumen[0]->notes()[0].text, "corrected: turned by 2.86 degrees");
   EXPECT_EQ(message("  surfaces: {ct: {file: wrong.stl, unit: cm, correction: {rotation: [0, 0, 3]}}}\n"),
             "case.yaml:5: observations.surfaces.ct.correction.rotation: must be below 45 degrees; it is in radians");
   EXPECT_EQ(

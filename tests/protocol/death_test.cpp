@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"alone_hangs_setting_up", Start::alone, "solid.hang=hello", silent, 1},
                       Case{"alone_failure", Start::alone, "solid.fail=SolidEvaluate", failed, 1},
                       Case{"alone_input", Start::alone, "solid.refuse=hello", refused, 2},
-                      Case{"alone_leaves_late", Start::alone, "solid.linger=leave", "", 0},
+                      Case{"alone_hangs_leaving", Start::alone, "solid.hang=leave", "", 0},
                       Case{"alone_master", Start::alone, "master.kill=step1", "", 137},
                       Case{"mpirun_none", Start::mpirun, "", "", 0},
                       Case{"mpirun_at_start", Start::mpirun, "solid.kill=start", before_mpi, 137},

@@ -121,8 +121,7 @@ TEST_F(Collect, ADiagnosisAndItsCase) {
   write("diagnosis.json", diagnosis);
   write("tube/flow.csv", "t, q\n");
   write("tube/case.yaml", "name: tube\nfluid: {curve: flow.csv}\ntwin: {seed: 7}\n");
-  write("case_as_run.yaml", fmt::format("# Copy of {} as it was when the run started.\nname: tube\n",
-                                        (folder / "tube/case.yaml").string()));
+  write("case_as_run.yaml", fmt::format("# case_file: {}\nname: tube\n", (folder / "tube/case.yaml").string()));
   const Json report = document();
   EXPECT_EQ(report["verdict"], "nothing_missing");
   const Json provenance = report["provenance"];

@@ -97,9 +97,12 @@ TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
                                  "for wanted in [dict(region='x'), dict(frame=99), dict(source='x'), dict(model=7)]:\n"
                                  "    try: found.distances(**wanted)\n"
                                  "    except KeyError as error: print('there are: ' in str(error))\n"
-                                 "print(len(found.models[0].added), type(found.models[0].added).__name__)\n",
+                                 "print(len(found.models[0].added), type(found.models[0].added).__name__)\n"
+                                 "table = found.effects.frame()\n"
+                                 "print(table['amplitude.value'][0] == found.effects[0].amplitude.value)\n"
+                                 "print(found.wall().triangles.size % 3, found.wall().region.ndim)\n",
                                  output().string())),
-      "missing visco_elastic 2 explain.json\nTrue\nTrue\nTrue\nTrue\nTrue\n0 Table\n");
+      "missing visco_elastic 2 explain.json\nTrue\nTrue\nTrue\nTrue\nTrue\n0 Table\nTrue\n0 1\n");
 
   fs::remove(output() / "model_1/comparison.json");  // as if it had been interrupted there
   const auto identified = fs::last_write_time(output() / "identification_1/estimate.json");

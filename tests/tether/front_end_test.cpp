@@ -41,7 +41,7 @@ time [s],fluid.outlet.flow [cm3/s],fluid.outlet.pressure [g/(cm s2)],point.middl
 0.2,2,2000,0.2,3
 end
 cp summary_of_two_steps.json results/summary.json
-(echo "# Copy of $PWD/case.yaml as it was when the run started."; cat case.yaml) >results/case_as_run.yaml
+(echo "# case_file: $PWD/case.yaml"; cat case.yaml) >results/case_as_run.yaml
 )sh";
 
 /// A folder with the front-end, a case, and the programs that a test makes up.

@@ -15,12 +15,19 @@ fluid: common/base common/mesh
 fluid/inner: common/base fluid
 solid: common/base
 """
+USES = {  # of all that the list grants
+    "common/mesh/use.cpp": '#include "common/base/use.hpp"\n',
+    "common/protocol/use.cpp": '#include "common/base/use.hpp"\n',
+    "fluid/use.cpp": '#include "common/base/use.hpp"\n#include "common/mesh/use.hpp"\n',
+    "fluid/inner/use.cpp": '#include "common/base/use.hpp"\n#include "fluid/use.hpp"\n',
+    "solid/use.cpp": '#include "common/base/use.hpp"\n',
+}
 CHECK = pathlib.Path(__file__).resolve().parents[2] / "tools" / "check_includes.py"
 
 
 def check(files):
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in {"tools/rooms.txt": ROOMS, **files}.items():
+        for name, text in {"tools/rooms.txt": ROOMS, **USES, **files}.items():
             path = pathlib.Path(folder) / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
@@ -65,6 +72,9 @@ class CheckIncludes(unittest.TestCase):
     def test_inner_room(self):
         self.assertEqual(check({"fluid/inner/a.cpp": '#include "fluid/b.hpp"\n#include "common/mesh/c.hpp"\n'}),
                          (1, "fluid/inner/a.cpp:2: fluid/inner must not include common/mesh (common/mesh/c.hpp)"))
+
+    def test_granted_for_nothing(self):
+        self.assertEqual(check({"solid/use.cpp": ""}), (1, "tools/rooms.txt: solid does not include common/base"))
 
     def test_list_goes_upward(self):
         code, _ = check({"tools/rooms.txt": "a: b\nb:\n"})

@@ -44,9 +44,9 @@ function errorCharts(runs, index) {
     ["held_out", "Held-out frames: never shown to the model"],
   ];
   const shown = kinds
-    .map(([kind, title]) => ({ title, rows: errorRows(sources, runs, kind) }))
+    .map(([kind, title]) => ({ kind, title, rows: errorRows(sources, runs, kind) }))
     .filter((k) => k.rows.length);
-  if (!shown.some((k) => k.title.startsWith("Held"))) shown[0].title = "All frames (none were held out)";
+  if (!shown.some((k) => k.kind === "held_out")) shown[0].title = "All frames (none were held out)";
   const deviation = runs[0].mm * sources[0].noise.deviation;
   const largest = Math.max(
     ...shown.flatMap((k) => k.rows.flatMap((r) => [...r.bars.map((b) => b.value), r.mark ? r.mark.value : 0])),

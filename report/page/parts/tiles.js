@@ -29,7 +29,7 @@ function distanceTile(report, kind, name) {
   if (!found.length) return null;
   const [before, after] = found.map((w) => millimetres(w.run.mm * w.group.l2));
   const sigmas = found.filter((w) => w.group.in_noise).map((w) => fixed(w.group.in_noise.l2, 1));
-  const forced = found.length > 1 && found[1].run.folder.startsWith("force") ? ", with the missing force" : "";
+  const forced = found.length > 1 && found[1].run.forced ? ", with the missing force" : "";
   return tile(
     name,
     [...change(before, after), " mm"],

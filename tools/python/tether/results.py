@@ -1,7 +1,7 @@
 """Results of Tether as Python objects.
 
 What a file holds is what its schema says (docs/schema): an object has an attribute for each field, a list of objects is
-a Table, packed numbers are numpy arrays. A folder of results is loaded by `load`.
+a Table, numbers in lists or packed are numpy arrays. A folder of results is loaded by `load`.
 """
 
 import base64
@@ -48,7 +48,7 @@ class Table(list):
     """A list of records, or an empty list."""
 
     def frame(self):
-        """As a pandas DataFrame; objects within a record become columns like amplitude.value."""
+        """As a pandas DataFrame (where pandas is installed: python3-pandas); objects within a record become columns like amplitude.value."""
         import pandas
 
         return pandas.json_normalize([_plain(record) for record in self])
@@ -58,9 +58,18 @@ def _wrapped(value):
     if isinstance(value, dict):
         return _unpacked(value) if set(value) == {"shape", "float32"} else Record(value)
     if isinstance(value, list):
+        if value and _are_numbers(value):
+            return numpy.array(value)
         items = [_wrapped(item) for item in value]
         return Table(items) if all(isinstance(item, Record) for item in items) else items
     return value
+
+
+def _are_numbers(value):
+    """A list of numbers, or of lists of equally many."""
+    rows = [row if isinstance(row, list) else [row] for row in value]
+    return (len({(isinstance(row, list), len(full)) for row, full in zip(value, rows)}) == 1 and
+            all(type(number) in (int, float) for row in rows for number in row))
 
 
 def _of(things, kind, wanted, name_of):
@@ -74,6 +83,8 @@ def _of(things, kind, wanted, name_of):
 def _plain(value):
     if isinstance(value, Record):
         return {name: _plain(item) for name, item in value._values.items()}
+    if isinstance(value, numpy.ndarray):
+        return value.tolist()
     return [_plain(item) for item in value] if isinstance(value, list) else value
 
 
@@ -143,7 +154,7 @@ class Result(Record):
             return values
         if region not in wall["regions"]:
             raise KeyError(f"no region {region!r}; there are: {', '.join(wall['regions'])}")
-        return values[numpy.asarray(wall["region"]) == wall["regions"].index(region)]
+        return values[wall["region"] == wall["regions"].index(region)]
 
 
 def load(folder):
