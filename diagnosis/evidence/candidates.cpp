@@ -175,6 +175,7 @@ void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& 
     candidate_of(problem, amplitude, is_absent, effects).amplitudes.push_back(problem.changes.cols());
     append_columns(problem.changes, change / step);
     problem.amplitudes.push_back(amplitude);
+    problem.amplitudes.back().step = step;
   }
 }
 

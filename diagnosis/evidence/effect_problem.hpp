@@ -19,6 +19,7 @@ struct Amplitude {
   double base = 0;                             ///< value of the model
   bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
   double lower = -infinite, upper = infinite;  ///< of the value
+  double step = 0;                             ///< of the run that showed what it does; 0: to first order
   /// The admissible one that is nearest: its value is short of the bounds by a hundredth of the way from the base; what
   /// doubles does so ten times at most.
   double limited(double amplitude) const;
@@ -71,6 +72,7 @@ struct EffectProblem {
   VectorXd independent;    ///< how many independent data each is [n]
   std::vector<int> block;  ///< of each: a patch of a frame, alike in its errors
   std::vector<Eigen::Index> training, held_out;
+  std::vector<Eigen::Index> sealed;  ///< of those held out: whole sources, which name nothing
 
   MatrixXd changes;  ///< S [n x q]
   std::vector<Amplitude> amplitudes;
@@ -79,7 +81,9 @@ struct EffectProblem {
   VectorXd allowed_deviation;              ///< [k]
   std::vector<std::string> allowed_names;  ///< of those that a person may look after, else empty [k]
   std::vector<AllowedRun> allowed_runs;
-  MatrixXd patterns;  ///< [n x g]
+  MatrixXd patterns;            ///< [n x g]
+  VectorXd pattern_deviation;   ///< of what the model itself may not do [g]
+  std::vector<Eigen::Index> allowed_patterns;  ///< the same among `allowed`
   std::vector<Pattern> pattern_names;
 };
 

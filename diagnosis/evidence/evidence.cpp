@@ -137,8 +137,10 @@ EffectProblem Evidence::problem() const {
   problem.block = block_;
   for (const Part& part : parts_)
     for (Eigen::Index i = part.first; i < part.first + part.count; ++i)
-      if (precision_[static_cast<std::size_t>(i)] > 0)
+      if (precision_[static_cast<std::size_t>(i)] > 0) {
         (held_out_[static_cast<std::size_t>(i)] ? problem.held_out : problem.training).push_back(i);
+        if (source(part).facts().held_out) problem.sealed.push_back(i);
+      }
   problem.changes.resize(n, 0);
   problem.allowed.resize(n, 0);
   problem.patterns.resize(n, 0);

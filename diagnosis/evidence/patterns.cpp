@@ -39,7 +39,11 @@ void add_patterns(EffectProblem& problem, const Evidence& evidence, const Allowa
     append_columns(problem.patterns, column.values);
     const std::string region = number >= 0 ? evidence.region_names()[static_cast<std::size_t>(number)] : "wall";
     problem.pattern_names.push_back({region, time < start - 0.5 ? undefined : time, static_cast<Pattern::Form>(form)});
+    problem.pattern_deviation.conservativeResize(problem.patterns.cols());
+    problem.pattern_deviation.tail(1).setConstant(column.deviation);
+    const auto before = problem.allowed.cols();
     allow(problem, column.values, column.deviation, "");
+    if (problem.allowed.cols() > before) problem.allowed_patterns.push_back(before);
   }
 }
 

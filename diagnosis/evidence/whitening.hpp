@@ -23,7 +23,7 @@ class Whitening {
   /// Data that err together in space: a component of a frame, or values of a record, either used or held out.
   struct Group {
     std::vector<Eigen::Index> rows;
-    bool held_out = false;
+    bool held_out = false, sealed = false;
     std::size_t source = 0;
     int series = 0, component = 0;
     MatrixXd modes;          ///< [k x rows]

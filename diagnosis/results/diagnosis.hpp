@@ -8,6 +8,7 @@
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
+#include "diagnosis/results/probability_table.hpp"
 #include "diagnosis/results/statement.hpp"
 
 namespace tether {
@@ -90,6 +91,7 @@ struct Diagnosis {
   std::string case_name, title;
   double alpha = 0.05, independent_data = 0, dispersion = 1;
   bool doubtful = false;
+  ProbabilityTable table;
   std::vector<Finding> effects;
   MatrixXd look_alike;
   std::optional<Gain> held_out;
@@ -112,6 +114,7 @@ struct Diagnosis {
     field("independent_data", self.independent_data, "number of independent training data");
     field("dispersion", self.dispersion, "misfit left per independent datum; intervals are widened by its root");
     field("doubtful", self.doubtful, "more is left than noise and errors allowed make by chance");
+    field("table", self.table, "how probable each explanation is");
     field("effects", self.effects, "accepted ones first, then by their evidence");
     field("look_alike", self.look_alike, "cosines of what the first of `effects` change, each with each other");
     field("held_out", self.held_out, "on held-out data, by all that was accepted");

@@ -20,6 +20,7 @@ inline constexpr auto words_of<Verdict> = std::to_array<WordOf<Verdict>>({
 enum class Objection {
   too_weak,
   breaks_down,
+  not_sure,
   not_confirmed,
   lack_of_fit_stays,
   beyond_its_limit,
@@ -30,6 +31,7 @@ template <>
 inline constexpr auto words_of<Objection> = std::to_array<WordOf<Objection>>({
     {Objection::too_weak, "too_weak", "the misfit does not fall by enough"},
     {Objection::breaks_down, "breaks_down", "the model breaks down with it"},
+    {Objection::not_sure, "not_sure", "something else is not improbable enough"},
     {Objection::not_confirmed, "not_confirmed", "held-out data do not confirm it"},
     {Objection::lack_of_fit_stays, "lack_of_fit_stays", "the lack of fit does not fall"},
     {Objection::beyond_its_limit, "beyond_its_limit", "it would have to be larger than it may be"},

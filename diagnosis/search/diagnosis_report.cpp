@@ -1,5 +1,7 @@
 #include "diagnosis/search/diagnosis_report.hpp"
 
+#include "diagnosis/search/probability_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -158,6 +160,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.independent_data = found.independent;
   d.dispersion = found.dispersion;
   d.doubtful = found.doubtful;
+  d.table = table_of(problem, found.weighed);
   for (const TestedEffect& effect : found.effects) {
     d.effects.push_back(finding_of(problem, effect));
     d.detectable.push_back(detectable_of(problem, effect));

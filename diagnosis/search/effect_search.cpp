@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/search/refinement.hpp"
@@ -18,12 +19,12 @@ constexpr double sure = 0.95;       ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr double the_same = 0.99;   ///< cosine
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
+constexpr int rounds = 5;           ///< of runs, before what they tell is taken as it is
+constexpr double even = 0.5;        ///< probability of a group that is tried
+constexpr double likely = 0.05;     ///< share of a group's member that is a rival of the first
 
-constexpr double worth_runs = 4;         ///< misfit beyond noise, in the deviations that noise gives it
 constexpr double noteworthy = 2;         ///< of what an error is allowed
 constexpr double unexplainable = 6;      ///< misfit beyond noise, as above: neither noise nor errors allowed do that
-constexpr double mostly = 0.5;           ///< of the information on an effect, beside accepted ones
-constexpr double hardly_retained = 0.5;  ///< of the information on an effect, beside errors allowed
 
 class Search {
  public:
@@ -44,6 +45,7 @@ class Search {
     const Scores scores = plain_.scores(problem_.changes, problem_.residual);
     result_.effects = test_all(problem_, scores, settings_.alpha, result_.independent);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
+    weigh();
     while (add_one()) continue;
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
@@ -67,13 +69,6 @@ class Search {
     return std::max(1.0, plain_.counted_misfit(residual) / result_.independent);
   }
 
-  /// Accepted, or refused since something was accepted last.
-  bool was_tried(std::size_t candidate) const {
-    bool tried = false;
-    for (const SearchStep& step : result_.path)
-      tried = step.candidate == candidate || (tried && (!step.accepted() || is_accepted(candidate)));
-    return tried || is_refused(candidate);
-  }
   bool is_refused(std::size_t candidate) const {
     const auto& own = problem_.candidates[candidate].amplitudes;
     return std::any_of(own.begin(), own.end(), [&](Index i) {
@@ -90,48 +85,38 @@ class Search {
     return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
   }
 
-  std::vector<TestedEffect> untried(const Trained& trained) const {
-    std::vector<TestedEffect> all =
+  /// How probable each explanation is; what matters to that and was not run at its size is run.
+  void weigh() {
+    std::vector<bool> left_out;
+    for (std::size_t c = 0; c < problem_.candidates.size(); ++c) left_out.push_back(is_refused(c));
+    for (int round = 0; true; ++round) {
+      const SetEvidence evidence(problem_, shown_);
+      const Posterior posterior = posterior_of(problem_, evidence, left_out);
+      const MatrixXd wanted = wanted_runs(problem_, evidence, posterior);
+      result_.weighed = weighed(problem_, evidence, posterior);
+      if (wanted.cols() == 0 || round == rounds) return;
+      const MatrixXd residuals = residual_at_(wanted);
+      for (Index k = 0; k < wanted.cols(); ++k) shown_.push_back({wanted.col(k), residuals.col(k)});
+    }
+  }
+
+  /// The most probable group that was not tried yet; null if none is as probable as not.
+  const WeighedGroup* next_group() {
+    for (std::size_t g = 0; g < result_.weighed.groups.size(); ++g)
+      if (result_.weighed.groups[g].probability >= even && tried_.insert(g).second) return &result_.weighed.groups[g];
+    return nullptr;
+  }
+
+  /// Its members that are likely, at their most probable amplitudes.
+  std::vector<TestedEffect> likely_of(const WeighedGroup& group, const Trained& trained) const {
+    const std::vector<TestedEffect> tested =
         test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
-    std::erase_if(all, [&](const TestedEffect& e) { return was_tried(e.candidate); });
-    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return is_worth_more(a, b); });
-    return all;
-  }
-
-  /// What the data ask for beside what was accepted, the strongest first.
-  std::vector<TestedEffect> wanted(const Trained& trained) const {
-    std::vector<TestedEffect> all = untried(trained);
-    std::erase_if(all,
-                  [&](const TestedEffect& e) { return e.q >= level() || (!asks_for_more() && !is_other_effect(e)); });
-    if (static_cast<int>(all.size()) > settings_.confirmed) all.resize(static_cast<std::size_t>(settings_.confirmed));
-    return all;
-  }
-
-  /// Where what was accepted leaves nothing but noise: a further error of the data is what the first did not quite
-  /// take.
-  bool is_other_effect(const TestedEffect& effect) const {
-    return is_other(effect) && (now_.accepted.empty() || problem_.candidates[effect.candidate].takes_runs());
-  }
-
-  /// Whether most of what it does is not what the accepted effects do, whose law and amplitude may not be quite right.
-  bool is_other(const TestedEffect& effect) const {
-    const auto alone = std::find_if(result_.effects.begin(), result_.effects.end(),
-                                    [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
-    return effect.retained > mostly * alone->retained;
-  }
-
-  /// Effects that first order cannot judge, since numbers that may be anything were fitted without them, and do for
-  /// small amplitudes what they do: as large as a patient may have them.
-  std::vector<TestedEffect> unsure(const Trained& trained) const {
-    if ((problem_.allowed_deviation.array() < infinite).all()) return {};
-    std::vector<TestedEffect> all = untried(trained);
-    std::erase_if(all, [&](const TestedEffect& e) {
-      return problem_.candidates[e.candidate].kind != Candidate::Kind::effect || e.q < settings_.alpha || !e.testable ||
-             e.retained > hardly_retained;
-    });
-    for (TestedEffect& effect : all) {
-      effect.amplitudes = as_in_patients(problem_, effect);
-      effect.gain = now_misfit();
+    std::vector<TestedEffect> all;
+    for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
+      if (group.shares[k] < likely) continue;
+      TestedEffect& effect = all.emplace_back(*std::find_if(
+          tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members[k]; }));
+      if (std::isfinite(group.amplitudes[k])) effect.amplitudes(0) = group.amplitudes[k];
     }
     return all;
   }
@@ -222,7 +207,7 @@ class Search {
 
   /// Why the data at hand and those held out do not ask for the effect; none if they do.
   std::optional<Objection> objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
-    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= level())
+    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha)
       return Objection::too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && effect.held_out && effect.held_out->positive < sure) return Objection::not_confirmed;
@@ -233,34 +218,29 @@ class Search {
 
   /// One step of the search; false when it is over.
   bool add_one() {
-    const Trained trained(problem_, now_.changes);
-    const std::vector<TestedEffect> strongest = wanted(trained);
-    const bool refit_first = added() > 0 && !asks_for_more();
-    if (refit_first || added() == settings_.most) {
-      result_.more = !strongest.empty();
-      if (result_.more || refit_first) return false;
+    const WeighedGroup* group = next_group();
+    if (!group) return false;
+    if (added() == settings_.most) {
+      result_.more = group->probability >= sure;
+      return false;
     }
-    std::vector<Refinement> all = refined(strongest, trained);
-    if (asks_for_more() && is_far_beyond_noise(worth_runs))
-      for (Refinement& one : refined(unsure(trained), trained)) all.push_back(std::move(one));
-    return settle(all);
+    const Trained trained(problem_, now_.changes);
+    settle(refined(likely_of(*group, trained), trained), *group);
+    return true;
   }
 
-  /// Accepts the best that nothing speaks against; notes those that these data cannot tell from it. False if none is.
-  bool settle(const std::vector<Refinement>& all) {
+  /// Accepts the most probable of a group that nothing speaks against; notes those that these data cannot tell from it.
+  void settle(const std::vector<Refinement>& all, const WeighedGroup& group) {
     std::vector<const Refinement*> order;
     for (const Refinement& one : all)
       if (one.begun()) order.push_back(&one);
     if (order.empty() && !all.empty() && all.front().runs() > 0) result_.path.push_back(broken(all.front()));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](const auto* a, const auto* b) { return is_worth_more(a->effect(), b->effect()); });
     const AmplitudeState before = now_;
     const Refinement* chosen = nullptr;
     for (const Refinement* one : order) {
-      if (!is_rival(*one, *order.front())) break;
-      const SearchStep& step = result_.path.emplace_back(attempt(*one));
+      const SearchStep& step = result_.path.emplace_back(attempt(*one, group));
       if (step.accepted()) chosen = one;
-      if (step.accepted() || step.objection == Objection::too_weak) break;
+      if (step.accepted()) break;
     }
     const double spread = dispersion((chosen ? chosen->state() : before).residual);
     for (const Refinement* one : order) {
@@ -269,20 +249,14 @@ class Search {
       effect.held_out = confirmation(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
-      effect.rival = chosen && one != chosen && !was_too_weak(effect.candidate) && is_rival(*one, *chosen);
+      effect.rival = chosen && one != chosen && !was_too_weak(effect.candidate);
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
-    if (!chosen) return false;
+    if (!chosen) return;
     now_ = chosen->state();
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
-    return true;
-  }
-
-  /// Whether the data at hand cannot tell it from the better one.
-  bool is_rival(const Refinement& one, const Refinement& better) const {
-    return worth_of(one.effect()) >= worth_of(better.effect()) - convincing * dispersion(better.state().residual);
   }
 
   /// The model could not be run with any of its amplitudes.
@@ -292,13 +266,14 @@ class Search {
   }
 
   /// What comes of adding it.
-  SearchStep attempt(const Refinement& one) const {
+  SearchStep attempt(const Refinement& one, const WeighedGroup& group) const {
     const VectorXd residual = one.state().residual;
     TestedEffect effect = one.effect();
     effect.held_out = confirmation(now_.residual, residual);
     SearchStep step{
         effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
     step.objection = objection(effect, dispersion(residual), step.left);
+    if (!step.objection && group.probability < sure) step.objection = Objection::not_sure;
     return step;
   }
 
@@ -336,12 +311,6 @@ class Search {
   double strict() const { return settings_.alpha / 5; }
   /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
   bool leaves_something() const { return result_.after.p < strict() || is_far_beyond_noise(unexplainable); }
-  /// Whether more is missing whatever the candidates say, or nothing was found yet.
-  bool asks_for_more() const {
-    return now_.accepted.empty() ? result_.before.excess >= settings_.enough : leaves_something();
-  }
-  /// Of tests. Where what was accepted leaves nothing but noise, another effect must stand out from that.
-  double level() const { return asks_for_more() ? settings_.alpha : strict(); }
   /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
     const double removed = plain_.misfit(problem_.residual) - now_misfit();
@@ -430,6 +399,8 @@ class Search {
   AmplitudeState now_;
   SearchResult result_;
   std::vector<std::size_t> rival_of_;
+  std::vector<ShownRun> shown_;
+  std::set<std::size_t> tried_;  ///< groups
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "diagnosis/results/diagnosis.hpp"
 #include "diagnosis/search/effect_tests.hpp"
+#include "diagnosis/search/posterior.hpp"
 
 namespace tether {
 
@@ -27,6 +28,7 @@ struct SearchStep {
 
 struct SearchResult {
   Verdict verdict = Verdict::undecided;
+  Weighed weighed;                    ///< how probable each explanation is
   std::vector<TestedEffect> effects;  ///< accepted ones first, then by their evidence
   MatrixXd cosines;                   ///< of the changes that the first of `effects` make, each with each other
   std::vector<SearchStep> path;

@@ -1,0 +1,334 @@
+#include "diagnosis/evidence/set_evidence.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+using Members = std::vector<std::size_t>;
+
+/// Of places on the axis of amplitudes: a = scale sinh(x)/50, even in the logarithm of what is large.
+constexpr double farthest_place = 9, apart = 0.2, seen_from = 0.02;
+/// Of a logarithm of evidence: what is less probable than the best by this does not count.
+constexpr double negligible = 10;
+constexpr Index across = 14;  ///< places across what counts
+/// Multiples of the scale that amplitudes of a vector may have, alike probable.
+constexpr std::array multiples{0.3, 1.0, 3.0, 10.0};
+constexpr double anything = 1e4;  ///< of an amplitude without prior, over what the data tell of it
+
+double scale_of(const Amplitude& amplitude) {
+  return amplitude.scale > 0 && std::isfinite(amplitude.scale) ? amplitude.scale : 1;
+}
+
+double log_sum(const VectorXd& logs) {
+  const double most = logs.maxCoeff();
+  return std::isfinite(most) ? most + std::log((logs.array() - most).exp().sum()) : most;
+}
+
+/// I + D G D = L L': what errors of deviations D along some of the columns leave of the others.
+struct Taken {
+  MatrixXd gram;
+  double log_norm;
+};
+Taken take_out(const MatrixXd& gram, const MatrixXd& among, const MatrixXd& across, const VectorXd& deviations) {
+  const MatrixXd one = MatrixXd::Identity(among.rows(), among.cols());
+  const Eigen::LLT<MatrixXd> factor(one + deviations.asDiagonal() * among * deviations.asDiagonal());
+  const MatrixXd along = factor.matrixL().solve(deviations.asDiagonal() * across);
+  return {gram - along.transpose() * along, factor.matrixLLT().diagonal().array().log().sum()};
+}
+
+std::vector<DiscrepancySize> sizes_of(bool may_differ) {
+  if (!may_differ) return {{0, 1}};
+  constexpr std::array small{0.1, 0.2, 0.4, 0.7, 1.0};
+  constexpr std::array large{2.0, 4.0, 8.0, 16.0, 32.0};
+  constexpr double outside = 0.1;  // beforehand
+  std::vector<DiscrepancySize> all;
+  for (const double size : small) all.push_back({size, (1 - outside) / small.size()});
+  for (const double size : large) all.push_back({size, outside / large.size()});
+  return all;
+}
+
+}  // namespace
+
+SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs)
+    : problem_(problem), discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)), curves_(problem.candidates.size()) {
+  std::vector<Index> rows = problem.training;
+  rows.insert(rows.end(), problem.held_out.begin(), problem.held_out.end());
+  std::erase_if(rows, [&](Index i) { return std::count(problem.sealed.begin(), problem.sealed.end(), i) > 0; });
+  MatrixXd columns = problem.changes(rows, Eigen::all);
+  const auto append = [&](const VectorXd& column) {
+    columns.conservativeResize(columns.rows(), columns.cols() + 1);
+    columns.rightCols(1) = column(rows);
+  };
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+    if (!is_scalar(c)) continue;
+    const Index own = problem.candidates[c].amplitudes.front();
+    std::vector<std::pair<double, Index>> points;
+    if (const double step = amplitude_of(c).step; step != 0) points.emplace_back(step, own);
+    for (const ShownRun& run : runs)
+      if (run.amplitudes(own) != 0 && (run.amplitudes.array() != 0).count() == 1 && run.residual.allFinite()) {
+        points.emplace_back(run.amplitudes(own), columns.cols());
+        append(problem.residual - run.residual);
+      }
+    std::sort(points.begin(), points.end(), [](auto& a, auto& b) { return std::abs(a.first) < std::abs(b.first); });
+    curves_[c].resize(2);
+    for (const auto& [size, column] : points) {
+      Curve& side = curves_[c][size > 0 ? 0 : 1];
+      side.sizes.push_back(size);
+      side.columns.push_back(column);
+    }
+  }
+  append(problem.residual);
+
+  std::vector<Index> ordinary;
+  for (Index k = 0; k < problem.allowed.cols(); ++k)
+    if (std::count(problem.allowed_patterns.begin(), problem.allowed_patterns.end(), k) == 0) ordinary.push_back(k);
+  const Index own = static_cast<Index>(ordinary.size());
+  const Index patterns = problem.pattern_deviation.size();
+  MatrixXd errors(columns.rows(), own + patterns);
+  errors << problem.allowed(rows, ordinary), problem.patterns(rows, Eigen::seqN(0, patterns));
+  const auto weight = problem.precision(rows).asDiagonal();
+  const MatrixXd among = errors.transpose() * weight * errors, across = errors.transpose() * weight * columns,
+                 gram = columns.transpose() * weight * columns;
+  VectorXd deviations(errors.cols());
+  for (Index k = 0; k < own; ++k) {
+    const double given = problem.allowed_deviation(ordinary[static_cast<std::size_t>(k)]);
+    deviations(k) = std::isfinite(given) ? given : among(k, k) > 0 ? anything / std::sqrt(among(k, k)) : 0;
+  }
+  for (const DiscrepancySize& discrepancy : discrepancies_) {
+    deviations.tail(patterns) = discrepancy.size * problem.pattern_deviation;
+    Taken taken = take_out(gram, among, across, deviations);
+    products_.push_back({std::move(taken.gram), taken.log_norm});
+  }
+}
+
+bool SetEvidence::is_scalar(std::size_t candidate) const {
+  return problem_.candidates[candidate].amplitudes.size() == 1;
+}
+
+const Amplitude& SetEvidence::amplitude_of(std::size_t candidate) const {
+  return problem_.amplitudes[static_cast<std::size_t>(problem_.candidates[candidate].amplitudes.front())];
+}
+
+/// The residual is the last.
+std::vector<Index> SetEvidence::columns_of(const Members& members) const {
+  std::vector<Index> columns;
+  for (const std::size_t c : members) {
+    const auto& own = problem_.candidates[c].amplitudes;
+    columns.insert(columns.end(), own.begin(), own.end());
+    for (const Curve& side : curves_[c])
+      for (const Index column : side.columns)
+        if (column != own.front()) columns.push_back(column);
+  }
+  columns.push_back(products_.front().gram.cols() - 1);
+  return columns;
+}
+
+/// Below the smallest run in proportion, between runs by the logarithm of the size, and beyond them as from the first
+/// to the last; to first order where no run was made.
+VectorXd SetEvidence::mix_at(std::size_t candidate, double size, const std::vector<Index>& columns) const {
+  VectorXd mix = VectorXd::Zero(static_cast<Index>(columns.size()));
+  const Index own = problem_.candidates[candidate].amplitudes.front();
+  const double step = amplitude_of(candidate).step;
+  const auto add = [&](Index column, double share) {
+    const auto place = std::find(columns.begin(), columns.end(), column) - columns.begin();
+    mix(place) += column == own && step != 0 ? share * step : share;
+  };
+  const Curve& side = curves_[candidate][size > 0 ? 0 : 1];
+  const std::size_t count = side.sizes.size();
+  if (count == 0) {
+    mix(std::find(columns.begin(), columns.end(), own) - columns.begin()) = size;
+    return mix;
+  }
+  std::size_t after = 0;
+  while (after < count && std::abs(side.sizes[after]) < std::abs(size)) ++after;
+  if (after == 0 || count == 1) {
+    add(side.columns[0], size / side.sizes[0]);
+    return mix;
+  }
+  const std::size_t to = std::min(after, count - 1), from = after == count ? 0 : to - 1;
+  const double share = std::log(size / side.sizes[from]) / std::log(side.sizes[to] / side.sizes[from]);
+  add(side.columns[from], 1 - share);
+  add(side.columns[to], share);
+  return mix;
+}
+
+SetEvidence::Grid SetEvidence::grid_of(std::size_t candidate, const std::vector<Index>& columns,
+                                       const VectorXd& places) const {
+  const Amplitude& amplitude = amplitude_of(candidate);
+  const double scale = scale_of(amplitude), between = places(1) - places(0);
+  Grid grid{VectorXd(places.size()), VectorXd(places.size()), MatrixXd(places.size(), columns.size())};
+  for (Index g = 0; g < places.size(); ++g) {
+    const double size = scale * seen_from * std::sinh(places(g)), way = scale * seen_from * std::cosh(places(g));
+    const bool admissible = size != 0 && std::abs(amplitude.limited(size) - size) <= 1e-9 * std::abs(size);
+    const double density =
+        (amplitude.one_sided ? 2 : 1) / (std::numbers::pi * scale * (1 + std::pow(size / scale, 2)));
+    grid.sizes(g) = size;
+    grid.log_weight(g) = admissible ? std::log(density * way * between) : -infinite;
+    grid.mix.row(g) = mix_at(candidate, admissible ? size : scale, columns);
+  }
+  return grid;
+}
+
+namespace {
+
+VectorXd all_places(const Amplitude& amplitude, bool few) {
+  const double between = few ? 2.5 * apart : apart;
+  const auto half = static_cast<Index>(farthest_place / between);
+  const double end = static_cast<double>(half) * between;
+  return amplitude.one_sided ? VectorXd::LinSpaced(half, between, end) : VectorXd::LinSpaced(2 * half + 1, -end, end);
+}
+
+/// Places across those whose logarithms are near the largest.
+VectorXd where_it_counts(const VectorXd& places, const VectorXd& logs) {
+  const double least = logs.maxCoeff() - negligible, between = places(1) - places(0);
+  Index first = places.size(), last = 0;
+  for (Index g = 0; g < places.size(); ++g)
+    if (logs(g) > least) first = std::min(first, g), last = g;
+  return VectorXd::LinSpaced(across, places(first) - between, places(last) + between);
+}
+
+/// Of up to three amplitudes: the logarithm of the integrand summed over all, and over all others for each.
+struct Summed {
+  double all;
+  std::vector<VectorXd> each;
+};
+
+Summed summed(const std::vector<VectorXd>& alone, const std::vector<std::vector<MatrixXd>>& together) {
+  const std::size_t n = alone.size();
+  if (n == 1) return {log_sum(alone[0]), {alone[0]}};
+  const MatrixXd pair = (-together[0][1]).colwise() + alone[0];
+  if (n == 2) {
+    const MatrixXd both = pair.rowwise() + alone[1].transpose();
+    VectorXd first(both.rows()), second(both.cols());
+    for (Index i = 0; i < both.rows(); ++i) first(i) = log_sum(both.row(i).transpose());
+    for (Index j = 0; j < both.cols(); ++j) second(j) = log_sum(both.col(j));
+    return {log_sum(first), {first, second}};
+  }
+  VectorXd first = VectorXd::Constant(alone[0].size(), -infinite);
+  MatrixXd rest(alone[1].size(), alone[2].size());
+  double most = -infinite;
+  std::vector<MatrixXd> slices;
+  for (Index i = 0; i < alone[0].size(); ++i) {
+    rest = (-together[1][2]).colwise() + (alone[1] - together[0][1].row(i).transpose());
+    rest.rowwise() += (alone[2] - together[0][2].row(i).transpose()).transpose();
+    rest.array() += alone[0](i);
+    most = std::max(most, rest.maxCoeff());
+    slices.push_back(rest);
+  }
+  VectorXd second = VectorXd::Zero(alone[1].size()), third = VectorXd::Zero(alone[2].size());
+  for (Index i = 0; i < alone[0].size(); ++i) {
+    const MatrixXd weights = (slices[static_cast<std::size_t>(i)].array() - most).exp();
+    first(i) = most + std::log(weights.sum());
+    second += weights.rowwise().sum();
+    third += weights.colwise().sum().transpose();
+  }
+  return {log_sum(first), {first, (second.array().log() + most).matrix(), (third.array().log() + most).matrix()}};
+}
+
+}  // namespace
+
+/// Of those of one amplitude, in their order.
+SetFit SetEvidence::over_scalars(const Members& scalars, const Products& products,
+                                 const std::vector<Index>& columns) const {
+  const Index r = products.gram.cols() - 1;
+  SetFit fit{-0.5 * products.gram(r, r) - products.log_norm, std::vector<double>(scalars.size())};
+  if (scalars.empty()) return fit;
+  std::vector<VectorXd> places;
+  for (const std::size_t c : scalars) places.push_back(all_places(amplitude_of(c), scalars.size() > 2));
+  Summed found;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<VectorXd> alone;
+    std::vector<Grid> grids;
+    std::vector<std::vector<MatrixXd>> together(scalars.size(), std::vector<MatrixXd>(scalars.size()));
+    for (std::size_t i = 0; i < scalars.size(); ++i) {
+      grids.push_back(grid_of(scalars[i], columns, places[i]));
+      const MatrixXd &mix = grids[i].mix, seen = mix * products.gram;
+      alone.push_back(grids[i].log_weight + seen.col(r) - 0.5 * (seen.array() * mix.array()).rowwise().sum().matrix());
+      for (std::size_t j = 0; j < i; ++j) together[j][i] = grids[j].mix * seen.transpose();
+    }
+    found = summed(alone, together);
+    if (!std::isfinite(found.all)) break;
+    for (std::size_t i = 0; i < scalars.size(); ++i) {
+      Index best = 0;
+      found.each[i].maxCoeff(&best);
+      fit.amplitudes[i] = grids[i].sizes(best);
+      places[i] = where_it_counts(places[i], found.each[i]);
+    }
+  }
+  fit.log_evidence += found.all;
+  return fit;
+}
+
+SetFit SetEvidence::over_vectors(const Members& vectors, std::size_t next, const Products& products,
+                                 const Members& scalars, const std::vector<Index>& columns) const {
+  if (next == vectors.size()) return over_scalars(scalars, products, columns);
+  std::vector<Index> own;
+  VectorXd scales(problem_.candidates[vectors[next]].amplitudes.size());
+  for (const Index amplitude : problem_.candidates[vectors[next]].amplitudes) {
+    scales(static_cast<Index>(own.size())) = scale_of(problem_.amplitudes[static_cast<std::size_t>(amplitude)]);
+    own.push_back(std::find(columns.begin(), columns.end(), amplitude) - columns.begin());
+  }
+  SetFit best{-infinite, {}};
+  VectorXd logs(multiples.size());
+  for (std::size_t k = 0; k < multiples.size(); ++k) {
+    const Taken taken =
+        take_out(products.gram, products.gram(own, own), products.gram(own, Eigen::all), multiples[k] * scales);
+    SetFit fit = over_vectors(vectors, next + 1, {taken.gram, products.log_norm + taken.log_norm}, scalars, columns);
+    logs(static_cast<Index>(k)) = fit.log_evidence;
+    if (fit.log_evidence > best.log_evidence) best = std::move(fit);
+  }
+  best.log_evidence = log_sum(logs) - std::log(static_cast<double>(multiples.size()));
+  return best;
+}
+
+SetFit SetEvidence::fit(const Members& members, std::size_t discrepancy) const {
+  Members scalars, vectors;
+  for (const std::size_t c : members) (is_scalar(c) ? scalars : vectors).push_back(c);
+  TETHER_ASSERT(scalars.size() <= 3, "{} amplitudes", scalars.size());
+  const std::vector<Index> columns = columns_of(members);
+  const Products& all = products_[discrepancy];
+  SetFit fit = over_vectors(vectors, 0, {all.gram(columns, columns), all.log_norm}, scalars, columns);
+  std::vector<double> amplitudes;
+  std::size_t next = 0;
+  for (const std::size_t c : members) amplitudes.push_back(is_scalar(c) ? fit.amplitudes[next++] : undefined);
+  fit.amplitudes = std::move(amplitudes);
+  return fit;
+}
+
+double SetEvidence::beyond_runs(std::size_t candidate, double amplitude) const {
+  double least = infinite;
+  for (const Curve& side : curves_[candidate])
+    for (const double size : side.sizes)
+      if (size * amplitude > 0) least = std::min(least, std::exp(std::abs(std::log(amplitude / size))));
+  return least;
+}
+
+bool SetEvidence::is_beyond_all(std::size_t candidate, double amplitude) const {
+  for (const Curve& side : curves_[candidate])
+    for (const double size : side.sizes)
+      if (size / amplitude > 1) return false;
+  return true;
+}
+
+double SetEvidence::cosine(std::size_t a, std::size_t b) const {
+  const MatrixXd& gram = products_.front().gram;
+  const auto response = [&](std::size_t c) -> VectorXd {
+    const auto& own = problem_.candidates[c].amplitudes;
+    const VectorXd seen = gram(own, gram.cols() - 1);
+    return MatrixXd(gram(own, own)).completeOrthogonalDecomposition().solve(seen);  // what fits best
+  };
+  const auto &of_a = problem_.candidates[a].amplitudes, &of_b = problem_.candidates[b].amplitudes;
+  const VectorXd x = response(a), y = response(b);
+  const double xx = x.dot(gram(of_a, of_a) * x), yy = y.dot(gram(of_b, of_b) * y), xy = x.dot(gram(of_a, of_b) * y);
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
+}
+
+}  // namespace tether

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "diagnosis/evidence/effect_problem.hpp"
+
+namespace tether {
+
+/// What a run showed: amplitudes of all candidates [q] and the residual with them [n].
+struct ShownRun {
+  VectorXd amplitudes, residual;
+};
+
+/// How large what the model itself cannot do is, over what it is allowed, and how probable that is beforehand.
+struct DiscrepancySize {
+  double size = 1, prior = 1;
+};
+
+/// A set's evidence with one size of discrepancy, and the most probable amplitudes of its members; of several
+/// amplitudes NaN.
+struct SetFit {
+  double log_evidence = 0;
+  std::vector<double> amplitudes;
+};
+
+/// The evidence for sets of candidates: the probability of the data with their amplitudes, the allowed errors and what
+/// the model cannot do all left free within their priors. (D.19)
+///
+/// A candidate of one amplitude does at finite size what runs of it alone showed, and has a prior of heavy tail; one of
+/// several amplitudes does what it does to first order, and its prior is normal with an unknown multiple of its scale.
+class SetEvidence {
+ public:
+  /// All data count but those that are kept sealed.
+  SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs);
+
+  /// members: numbers of candidates, at most three of one amplitude. discrepancy: number of one of `discrepancies()`.
+  SetFit fit(const std::vector<std::size_t>& members, std::size_t discrepancy) const;
+  /// Small ones first.
+  const std::vector<DiscrepancySize>& discrepancies() const { return discrepancies_; }
+  /// How far that is from the closest of its runs, as a factor; infinite if none was made.
+  double beyond_runs(std::size_t candidate, double amplitude) const;
+  /// Whether no run of it was as large, on that side.
+  bool is_beyond_all(std::size_t candidate, double amplitude) const;
+  /// Of what two candidates do to first order.
+  double cosine(std::size_t a, std::size_t b) const;
+
+ private:
+  /// What a candidate of one amplitude does at some sizes: combinations of columns.
+  struct Curve {
+    std::vector<double> sizes;               ///< of runs, one-signed, by magnitude
+    std::vector<Eigen::Index> columns;       ///< of their changes
+  };
+  struct Grid {
+    VectorXd sizes, log_weight;  ///< [g]
+    MatrixXd mix;                ///< of the set's columns [g x c]
+  };
+  /// Products of a set's columns, the residual last, in M; what is known of their errors grows by `augment`.
+  struct Products {
+    MatrixXd gram;
+    double log_norm = 0;
+  };
+
+  bool is_scalar(std::size_t candidate) const;
+  const Amplitude& amplitude_of(std::size_t candidate) const;
+  std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;
+  Grid grid_of(std::size_t candidate, const std::vector<Eigen::Index>& columns, const VectorXd& places) const;
+  VectorXd mix_at(std::size_t candidate, double size, const std::vector<Eigen::Index>& columns) const;
+  SetFit over_vectors(const std::vector<std::size_t>& vectors, std::size_t next, const Products& products,
+                      const std::vector<std::size_t>& scalars, const std::vector<Eigen::Index>& columns) const;
+  SetFit over_scalars(const std::vector<std::size_t>& scalars, const Products& products,
+                      const std::vector<Eigen::Index>& columns) const;
+
+  const EffectProblem& problem_;
+  std::vector<DiscrepancySize> discrepancies_;
+  std::vector<Products> products_;               ///< of all columns, for each discrepancy
+  std::vector<std::vector<Curve>> curves_;       ///< of each candidate, upward and downward
+};
+
+}  // namespace tether

@@ -1,0 +1,287 @@
+#include "diagnosis/search/posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace tether {
+namespace {
+
+using Members = std::vector<std::size_t>;
+
+/// Effects, wrong inputs, errors of data and of numerics that are expected beforehand.
+double expected(CandidateKind kind) {
+  switch (kind) {
+    case CandidateKind::effect:
+      return 0.5;
+    case CandidateKind::input:
+    case CandidateKind::data:
+      return 0.2;
+    case CandidateKind::numerics:
+      break;
+  }
+  return 0.1;
+}
+
+const std::string& family(const Candidate& candidate) {
+  return candidate.variant_of.empty() ? candidate.name : candidate.variant_of;
+}
+
+/// The logarithm of each candidate's odds beforehand: its kind's are shared alike by the families, those of a family
+/// by its members.
+std::vector<double> log_odds(const EffectProblem& problem) {
+  std::map<CandidateKind, std::map<std::string, int>> count;
+  for (const Candidate& candidate : problem.candidates) ++count[candidate.kind][family(candidate)];
+  std::vector<double> all;
+  for (const Candidate& candidate : problem.candidates) {
+    const auto& families = count[candidate.kind];
+    all.push_back(std::log(expected(candidate.kind) /
+                           static_cast<double>(families.size() * families.at(family(candidate)))));
+  }
+  return all;
+}
+
+constexpr double improbable = 7;  ///< logarithm of odds
+
+class Sets {
+ public:
+  Sets(const EffectProblem& problem, const SetEvidence& evidence, const std::vector<bool>& left_out)
+      : evidence_(evidence), log_odds_(log_odds(problem)) {
+    for (std::size_t c = 0; c < left_out.size(); ++c)
+      if (!left_out[c]) candidates_.push_back(c);
+  }
+
+  Posterior posterior() {
+    add({});
+    for (const std::size_t c : candidates_) add({c});
+    const std::vector<Members> singles = best(1, 10);
+    for (const Members& one : singles)
+      for (const std::size_t c : candidates_) add_beside(one, c);
+    for (const Members& pair : best(2, 3))
+      if (counts(pair))
+        for (const Members& one : singles) add_beside(pair, one.front());
+    return normalised();
+  }
+
+ private:
+  struct Weighed {
+    double as_it_is, with_more;  ///< logarithms
+    double all() const { return std::max(as_it_is, with_more); }
+  };
+
+  /// Whether a set is not improbable against the most probable one so far.
+  bool counts(const Members& members) const {
+    double most = -infinite;
+    for (const auto& [set, weighed] : sets_) most = std::max(most, weighed.all());
+    return sets_.at(members).all() > most - improbable;
+  }
+  /// Whether the discrepancy of an incomplete model is as probable as not, of a set without one of its members.
+  bool may_need_more(const Members& members) const {
+    if (members.size() < 2) return true;
+    for (const std::size_t c : members) {
+      Members rest = members;
+      std::erase(rest, c);
+      if (const auto found = sets_.find(rest); found != sets_.end() && found->second.with_more > found->second.as_it_is - improbable)
+        return true;
+    }
+    return false;
+  }
+
+  void add_beside(Members members, std::size_t candidate) {
+    if (std::count(members.begin(), members.end(), candidate) > 0) return;
+    members.push_back(candidate);
+    std::sort(members.begin(), members.end());
+    add(members);
+  }
+
+  void add(const Members& members) {
+    if (sets_.contains(members)) return;
+    double prior = 0;
+    for (const std::size_t c : members) prior += log_odds_[c];
+    const auto& sizes = evidence_.discrepancies();
+    Weighed weighed{-infinite, -infinite};
+    const bool with_large = may_need_more(members);
+    for (std::size_t s = 0; s < sizes.size(); ++s) {
+      if (sizes[s].size > 1 && !with_large) continue;
+      const double log = prior + std::log(sizes[s].prior) + evidence_.fit(members, s).log_evidence;
+      double& to = sizes[s].size > 1 ? weighed.with_more : weighed.as_it_is;
+      const double most = std::max(to, log);
+      if (std::isfinite(most)) to = most + std::log(std::exp(to - most) + std::exp(log - most));
+    }
+    sets_[members] = weighed;
+  }
+
+  std::vector<Members> best(std::size_t size, std::size_t most) const {
+    std::vector<Members> all;
+    for (const auto& [members, weighed] : sets_)
+      if (members.size() == size) all.push_back(members);
+    std::sort(all.begin(), all.end(),
+              [&](const auto& a, const auto& b) { return sets_.at(a).all() > sets_.at(b).all(); });
+    if (all.size() > most) all.resize(most);
+    return all;
+  }
+
+  Posterior normalised() const {
+    double most = -infinite, sum = 0;
+    for (const auto& [members, weighed] : sets_) most = std::max(most, weighed.all());
+    Posterior posterior;
+    for (const double log : log_odds_) posterior.prior.push_back(std::exp(log));
+    for (const auto& [members, weighed] : sets_) {
+      posterior.sets.push_back({members, std::exp(weighed.as_it_is - most), std::exp(weighed.with_more - most)});
+      sum += posterior.sets.back().probability + posterior.sets.back().with_more;
+    }
+    for (EffectSet& set : posterior.sets) {
+      set.probability /= sum;
+      set.with_more /= sum;
+      if (set.members.empty()) posterior.nothing = set.probability, posterior.outside = set.with_more;
+    }
+    std::stable_sort(posterior.sets.begin(), posterior.sets.end(), [](const EffectSet& a, const EffectSet& b) {
+      return a.probability + a.with_more > b.probability + b.with_more;
+    });
+    return posterior;
+  }
+
+  const SetEvidence& evidence_;
+  std::vector<double> log_odds_;
+  Members candidates_;
+  std::map<Members, Weighed> sets_;
+};
+
+constexpr double listed = 0.01;  ///< smallest probability of a candidate that is told
+constexpr double alike = 0.5;    ///< squared cosine
+constexpr double about = 1.5;    ///< factor within which a run tells what an amplitude does
+
+std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const std::vector<double>& each) {
+  Members order;
+  for (std::size_t c = 0; c < each.size(); ++c)
+    if (each[c] >= listed) order.push_back(c);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return each[a] > each[b]; });
+  std::vector<WeighedGroup> groups;
+  for (const std::size_t c : order) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const WeighedGroup& group) {
+      return std::pow(evidence.cosine(group.members.front(), c), 2) > alike;
+    });
+    (same == groups.end() ? groups.emplace_back() : *same).members.push_back(c);
+  }
+  return groups;
+}
+
+/// Of each member, how probable it is that it is the group's only one, among these.
+std::vector<double> shares_of(const WeighedGroup& group, const Posterior& posterior) {
+  std::vector<double> shares(group.members.size());
+  double sum = 0;
+  for (const EffectSet& set : posterior.sets) {
+    const auto own = [&](std::size_t c) { return group.has(c); };
+    if (std::count_if(set.members.begin(), set.members.end(), own) != 1) continue;
+    const std::size_t only = *std::find_if(set.members.begin(), set.members.end(), own);
+    const auto place = std::find(group.members.begin(), group.members.end(), only) - group.members.begin();
+    shares[static_cast<std::size_t>(place)] += set.probability + set.with_more;
+    sum += set.probability + set.with_more;
+  }
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+/// The most probable member first.
+void describe(WeighedGroup& group, const EffectProblem& problem, const SetEvidence& evidence,
+              const Posterior& posterior) {
+  const std::vector<double> shares = shares_of(group, posterior);
+  std::vector<std::size_t> order(shares.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  const Members unordered = group.members;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    group.members[k] = unordered[order[k]];
+    group.shares.push_back(shares[order[k]]);
+  }
+  for (const std::size_t c : group.members) {
+    const double size = evidence.fit({c}, 0).amplitudes.front();
+    group.amplitudes.push_back(size);
+    group.by_runs.push_back(problem.candidates[c].takes_runs() && std::isfinite(size) &&
+                            evidence.beyond_runs(c, size) < about);
+  }
+}
+
+/// Numbers of the groups that a set's members are of, ascending; of what is not likely none.
+std::vector<int> groups_in(const EffectSet& set, const std::vector<WeighedGroup>& groups) {
+  std::vector<int> all;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (std::any_of(set.members.begin(), set.members.end(), [&](std::size_t c) { return groups[g].has(c); }))
+      all.push_back(static_cast<int>(g));
+  return all;
+}
+
+}  // namespace
+
+bool WeighedGroup::has(std::size_t candidate) const {
+  return std::find(members.begin(), members.end(), candidate) != members.end();
+}
+
+double Posterior::of(std::size_t candidate) const {
+  double sum = 0;
+  for (const EffectSet& set : sets)
+    if (std::binary_search(set.members.begin(), set.members.end(), candidate)) sum += set.probability + set.with_more;
+  return sum;
+}
+
+Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence, const std::vector<bool>& left_out) {
+  return Sets(problem, evidence, left_out).posterior();
+}
+
+Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
+  std::vector<double> each;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) each.push_back(posterior.of(c));
+  Weighed all{posterior.nothing, posterior.outside, 0, 0, groups_of(evidence, each), {}};
+  for (WeighedGroup& group : all.groups) describe(group, problem, evidence, posterior);
+  std::map<std::vector<int>, double> combined;
+  for (const EffectSet& set : posterior.sets) {
+    if (set.members.empty()) continue;
+    const double probability = set.probability + set.with_more;
+    const std::vector<int> found = groups_in(set, all.groups);
+    all.more += set.with_more;
+    for (const int g : found) all.groups[static_cast<std::size_t>(g)].probability += probability;
+    (found.empty() ? all.others : combined[found]) += probability;
+  }
+  for (const auto& [numbers, probability] : combined) all.combinations.push_back({numbers, probability});
+  std::stable_sort(all.combinations.begin(), all.combinations.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  return all;
+}
+
+MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
+  constexpr double matters = 0.01, likely = 0.05, near = 1.35, much_larger = 5, told = 3;
+  const auto is_asked_for = [&](std::size_t c) {
+    const double p = posterior.of(c);
+    return p > likely && p / (1 - p) > told * posterior.prior[c];
+  };
+  double alone = posterior.nothing + posterior.outside;  // that at most one candidate is needed
+  for (const EffectSet& set : posterior.sets)
+    if (set.members.size() == 1) alone += set.probability + set.with_more;
+  std::set<std::pair<std::size_t, double>> wanted;  // candidates and amplitudes
+  const auto is_wanted = [&](std::size_t c) {
+    return std::any_of(wanted.begin(), wanted.end(), [&](const auto& run) { return run.first == c; });
+  };
+  for (const EffectSet& set : posterior.sets) {
+    if (set.probability + set.with_more < matters) continue;
+    const SetFit fit = evidence.fit(set.members, 0);
+    for (std::size_t k = 0; k < set.members.size(); ++k) {
+      const std::size_t c = set.members[k];
+      const double size = fit.amplitudes[k];
+      if (!problem.candidates[c].takes_runs() || !std::isfinite(size) || !is_asked_for(c) || is_wanted(c))
+        continue;
+      const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(problem.candidates[c].amplitudes[0])];
+      const double larger = amplitude.limited(much_larger * size);
+      if (evidence.beyond_runs(c, size) > near) wanted.emplace(c, size);
+      if (alone < 0.5 && evidence.is_beyond_all(c, larger / 2)) wanted.emplace(c, larger);
+    }
+  }
+  MatrixXd all = MatrixXd::Zero(problem.changes.cols(), static_cast<Eigen::Index>(wanted.size()));
+  Eigen::Index column = 0;
+  for (const auto& [candidate, amplitude] : wanted)
+    all(problem.candidates[candidate].amplitudes.front(), column++) = amplitude;
+  return all;
+}
+
+}  // namespace tether

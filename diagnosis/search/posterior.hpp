@@ -1,0 +1,59 @@
+#pragma once
+
+#include "diagnosis/evidence/set_evidence.hpp"
+
+namespace tether {
+
+/// Candidates that together explain the data; none: the model as it is.
+struct EffectSet {
+  std::vector<std::size_t> members;  ///< ascending
+  double probability = 0;            ///< that it is this set, and nothing outside the catalogue beside
+  double with_more = 0;              ///< that it is this set, and something outside beside
+};
+
+/// How probable each set of candidates is, all of them and what is outside of the catalogue together 1. (D.19)
+struct Posterior {
+  std::vector<EffectSet> sets;  ///< most probable first, of those that were looked at
+  double nothing = 0;           ///< that the model lacks nothing
+  double outside = 0;           ///< that something is missing, and no candidate is
+  std::vector<double> prior;    ///< odds of each candidate beforehand
+  /// That a candidate is in the set.
+  double of(std::size_t candidate) const;
+};
+
+/// Candidates that do much the same: the data may want any of them.
+struct WeighedGroup {
+  double probability = 0;             ///< that it is one of them, whatever else
+  std::vector<std::size_t> members;   ///< the most probable first
+  std::vector<double> shares;         ///< of each, within the group
+  std::vector<double> amplitudes;     ///< the most probable one of each; of several amplitudes NaN
+  std::vector<bool> by_runs;          ///< whether a run of each showed what it does at about that amplitude
+  bool has(std::size_t candidate) const;
+};
+
+/// Groups that together explain the data, and nothing that is likely beside.
+struct WeighedCombination {
+  std::vector<int> groups;
+  double probability = 0;
+};
+
+/// A posterior as people read it, the most probable first.
+struct Weighed {
+  double nothing = 1, outside = 0, others = 0, more = 0;
+  std::vector<WeighedGroup> groups;
+  std::vector<WeighedCombination> combinations;
+};
+
+/// All candidates by themselves, pairs of the best with all, and the best of these with the best. left_out: of each
+/// candidate, whether it is none.
+Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence, const std::vector<bool>& left_out);
+
+/// Two candidates do much the same where one leaves less than half of the square of what the other does.
+Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior);
+
+/// Runs that would change what the table says: of candidates by themselves, at the amplitudes [q x m] that are most
+/// probable, where no run is near. Of those that explain the data only with another, larger ones too: the two together
+/// may be one that does something else when it is large.
+MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior);
+
+}  // namespace tether
