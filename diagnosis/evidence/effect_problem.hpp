@@ -81,8 +81,8 @@ struct EffectProblem {
   VectorXd allowed_deviation;              ///< [k]
   std::vector<std::string> allowed_names;  ///< of those that a person may look after, else empty [k]
   std::vector<AllowedRun> allowed_runs;
-  MatrixXd patterns;            ///< [n x g]
-  VectorXd pattern_deviation;   ///< of what the model itself may not do [g]
+  MatrixXd patterns;                           ///< [n x g]
+  VectorXd pattern_deviation;                  ///< of what the model itself may not do [g]
   std::vector<Eigen::Index> allowed_patterns;  ///< the same among `allowed`
   std::vector<Pattern> pattern_names;
 };

@@ -58,7 +58,9 @@ std::vector<DiscrepancySize> sizes_of(bool may_differ) {
 }  // namespace
 
 SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs)
-    : problem_(problem), discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)), curves_(problem.candidates.size()) {
+    : problem_(problem),
+      discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)),
+      curves_(problem.candidates.size()) {
   std::vector<Index> rows = problem.training;
   rows.insert(rows.end(), problem.held_out.begin(), problem.held_out.end());
   std::erase_if(rows, [&](Index i) { return std::count(problem.sealed.begin(), problem.sealed.end(), i) > 0; });
@@ -168,8 +170,7 @@ SetEvidence::Grid SetEvidence::grid_of(std::size_t candidate, const std::vector<
   for (Index g = 0; g < places.size(); ++g) {
     const double size = scale * seen_from * std::sinh(places(g)), way = scale * seen_from * std::cosh(places(g));
     const bool admissible = size != 0 && std::abs(amplitude.limited(size) - size) <= 1e-9 * std::abs(size);
-    const double density =
-        (amplitude.one_sided ? 2 : 1) / (std::numbers::pi * scale * (1 + std::pow(size / scale, 2)));
+    const double density = (amplitude.one_sided ? 2 : 1) / (std::numbers::pi * scale * (1 + std::pow(size / scale, 2)));
     grid.sizes(g) = size;
     grid.log_weight(g) = admissible ? std::log(density * way * between) : -infinite;
     grid.mix.row(g) = mix_at(candidate, admissible ? size : scale, columns);

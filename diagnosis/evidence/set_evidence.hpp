@@ -45,8 +45,8 @@ class SetEvidence {
  private:
   /// What a candidate of one amplitude does at some sizes: combinations of columns.
   struct Curve {
-    std::vector<double> sizes;               ///< of runs, one-signed, by magnitude
-    std::vector<Eigen::Index> columns;       ///< of their changes
+    std::vector<double> sizes;          ///< of runs, one-signed, by magnitude
+    std::vector<Eigen::Index> columns;  ///< of their changes
   };
   struct Grid {
     VectorXd sizes, log_weight;  ///< [g]
@@ -70,8 +70,8 @@ class SetEvidence {
 
   const EffectProblem& problem_;
   std::vector<DiscrepancySize> discrepancies_;
-  std::vector<Products> products_;               ///< of all columns, for each discrepancy
-  std::vector<std::vector<Curve>> curves_;       ///< of each candidate, upward and downward
+  std::vector<Products> products_;          ///< of all columns, for each discrepancy
+  std::vector<std::vector<Curve>> curves_;  ///< of each candidate, upward and downward
 };
 
 }  // namespace tether

@@ -56,7 +56,8 @@ void Whitening::add_groups(const Evidence& evidence, const EffectProblem& proble
   for (const auto& [key, own] : parted) {
     const Evidence::Part& of = evidence.parts()[std::get<0>(key)];
     const Noise noise = evidence.noise(of);
-    Group group{own, held_out, evidence.source(of).facts().held_out, of.source, of.frame.series, std::get<1>(key), {}, {}, count_};
+    Group group{own, held_out, evidence.source(of).facts().held_out, of.source, of.frame.series, std::get<1>(key), {},
+                {},  count_};
     const VectorXd weight = problem.independent(own).cwiseSqrt();
     MatrixXd together = (1 - nugget) * correlation(evidence, noise, own, own);
     together.diagonal().setOnes();

@@ -23,8 +23,8 @@ constexpr int rounds = 5;           ///< of runs, before what they tell is taken
 constexpr double even = 0.5;        ///< probability of a group that is tried
 constexpr double likely = 0.05;     ///< share of a group's member that is a rival of the first
 
-constexpr double noteworthy = 2;         ///< of what an error is allowed
-constexpr double unexplainable = 6;      ///< misfit beyond noise, as above: neither noise nor errors allowed do that
+constexpr double noteworthy = 2;     ///< of what an error is allowed
+constexpr double unexplainable = 6;  ///< misfit beyond noise, as above: neither noise nor errors allowed do that
 
 class Search {
  public:

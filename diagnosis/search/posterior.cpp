@@ -37,8 +37,8 @@ std::vector<double> log_odds(const EffectProblem& problem) {
   std::vector<double> all;
   for (const Candidate& candidate : problem.candidates) {
     const auto& families = count[candidate.kind];
-    all.push_back(std::log(expected(candidate.kind) /
-                           static_cast<double>(families.size() * families.at(family(candidate)))));
+    all.push_back(
+        std::log(expected(candidate.kind) / static_cast<double>(families.size() * families.at(family(candidate)))));
   }
   return all;
 }
@@ -83,7 +83,8 @@ class Sets {
     for (const std::size_t c : members) {
       Members rest = members;
       std::erase(rest, c);
-      if (const auto found = sets_.find(rest); found != sets_.end() && found->second.with_more > found->second.as_it_is - improbable)
+      if (const auto found = sets_.find(rest);
+          found != sets_.end() && found->second.with_more > found->second.as_it_is - improbable)
         return true;
     }
     return false;
@@ -127,6 +128,8 @@ class Sets {
     double most = -infinite, sum = 0;
     for (const auto& [members, weighed] : sets_) most = std::max(most, weighed.all());
     Posterior posterior;
+    posterior.left_out.assign(log_odds_.size(), true);
+    for (const std::size_t c : candidates_) posterior.left_out[c] = false;
     for (const double log : log_odds_) posterior.prior.push_back(std::exp(log));
     for (const auto& [members, weighed] : sets_) {
       posterior.sets.push_back({members, std::exp(weighed.as_it_is - most), std::exp(weighed.with_more - most)});
@@ -213,6 +216,85 @@ std::vector<int> groups_in(const EffectSet& set, const std::vector<WeighedGroup>
   return all;
 }
 
+/// Runs of candidates by themselves that would change what the table says.
+class Wanted {
+ public:
+  Wanted(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior)
+      : problem_(problem), evidence_(evidence), posterior_(posterior) {}
+
+  /// Of sets that are not improbable, the members that the data ask for; much larger ones too as long as no candidate
+  /// explains the data by itself.
+  void add_likely() {
+    constexpr double matters = 0.01, much_larger = 5;
+    const bool explore = alone() < 0.5;
+    for (const EffectSet& set : posterior_.sets) {
+      if (set.probability + set.with_more < matters) continue;
+      const SetFit fit = evidence_.fit(set.members, 0);
+      for (std::size_t k = 0; k < set.members.size(); ++k) {
+        const std::size_t c = set.members[k];
+        const double size = fit.amplitudes[k];
+        if (!can_be_run(c, size) || !is_asked_for(c)) continue;
+        const double larger = amplitude_of(c).limited(much_larger * size);
+        if (evidence_.beyond_runs(c, size) > near) wanted_.emplace(c, size);
+        if (explore && evidence_.is_beyond_all(c, larger / 2)) wanted_.emplace(c, larger);
+      }
+    }
+  }
+
+  /// Those that fall behind the best by less than what a run at another size may be wrong by.
+  void add_promising() {
+    constexpr double wrong = 0.15;  // of a gain
+    const double nothing = evidence_.fit({}, 0).log_evidence;
+    std::vector<std::pair<double, std::pair<std::size_t, double>>> all;
+    double best = nothing;
+    for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
+      const SetFit fit = evidence_.fit({c}, 0);
+      best = std::max(best, fit.log_evidence);
+      if (can_be_run(c, fit.amplitudes[0]) && evidence_.beyond_runs(c, fit.amplitudes[0]) > near)
+        all.push_back({fit.log_evidence + wrong * (fit.log_evidence - nothing), {c, fit.amplitudes[0]}});
+    }
+    for (const auto& [hope, run] : all)
+      if (hope > best - improbable / 2 && hope > nothing + improbable / 2) wanted_.insert(run);
+  }
+
+  MatrixXd runs() const {
+    MatrixXd all = MatrixXd::Zero(problem_.changes.cols(), static_cast<Eigen::Index>(wanted_.size()));
+    Eigen::Index column = 0;
+    for (const auto& [candidate, amplitude] : wanted_)
+      all(problem_.candidates[candidate].amplitudes.front(), column++) = amplitude;
+    return all;
+  }
+
+ private:
+  static constexpr double near = 1.35;  ///< factor within which a run tells what a size does
+
+  const Amplitude& amplitude_of(std::size_t c) const {
+    return problem_.amplitudes[static_cast<std::size_t>(problem_.candidates[c].amplitudes.front())];
+  }
+  bool can_be_run(std::size_t c, double size) const {
+    const auto has = [&](const auto& run) { return run.first == c; };
+    return problem_.candidates[c].takes_runs() && std::isfinite(size) && size != 0 && !posterior_.left_out[c] &&
+           std::none_of(wanted_.begin(), wanted_.end(), has);
+  }
+  bool is_asked_for(std::size_t c) const {
+    constexpr double likely = 0.05, told = 3;
+    const double p = posterior_.of(c);
+    return p > likely && p / (1 - p) > told * posterior_.prior[c];
+  }
+  /// The probability that at most one candidate is needed.
+  double alone() const {
+    double sum = posterior_.nothing + posterior_.outside;
+    for (const EffectSet& set : posterior_.sets)
+      if (set.members.size() == 1) sum += set.probability + set.with_more;
+    return sum;
+  }
+
+  const EffectProblem& problem_;
+  const SetEvidence& evidence_;
+  const Posterior& posterior_;
+  std::set<std::pair<std::size_t, double>> wanted_;  ///< candidates and amplitudes
+};
+
 }  // namespace
 
 bool WeighedGroup::has(std::size_t candidate) const {
@@ -251,37 +333,10 @@ Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const
 }
 
 MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
-  constexpr double matters = 0.01, likely = 0.05, near = 1.35, much_larger = 5, told = 3;
-  const auto is_asked_for = [&](std::size_t c) {
-    const double p = posterior.of(c);
-    return p > likely && p / (1 - p) > told * posterior.prior[c];
-  };
-  double alone = posterior.nothing + posterior.outside;  // that at most one candidate is needed
-  for (const EffectSet& set : posterior.sets)
-    if (set.members.size() == 1) alone += set.probability + set.with_more;
-  std::set<std::pair<std::size_t, double>> wanted;  // candidates and amplitudes
-  const auto is_wanted = [&](std::size_t c) {
-    return std::any_of(wanted.begin(), wanted.end(), [&](const auto& run) { return run.first == c; });
-  };
-  for (const EffectSet& set : posterior.sets) {
-    if (set.probability + set.with_more < matters) continue;
-    const SetFit fit = evidence.fit(set.members, 0);
-    for (std::size_t k = 0; k < set.members.size(); ++k) {
-      const std::size_t c = set.members[k];
-      const double size = fit.amplitudes[k];
-      if (!problem.candidates[c].takes_runs() || !std::isfinite(size) || !is_asked_for(c) || is_wanted(c))
-        continue;
-      const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(problem.candidates[c].amplitudes[0])];
-      const double larger = amplitude.limited(much_larger * size);
-      if (evidence.beyond_runs(c, size) > near) wanted.emplace(c, size);
-      if (alone < 0.5 && evidence.is_beyond_all(c, larger / 2)) wanted.emplace(c, larger);
-    }
-  }
-  MatrixXd all = MatrixXd::Zero(problem.changes.cols(), static_cast<Eigen::Index>(wanted.size()));
-  Eigen::Index column = 0;
-  for (const auto& [candidate, amplitude] : wanted)
-    all(problem.candidates[candidate].amplitudes.front(), column++) = amplitude;
-  return all;
+  Wanted wanted(problem, evidence, posterior);
+  wanted.add_likely();
+  wanted.add_promising();
+  return wanted.runs();
 }
 
 }  // namespace tether

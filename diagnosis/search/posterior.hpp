@@ -17,17 +17,18 @@ struct Posterior {
   double nothing = 0;           ///< that the model lacks nothing
   double outside = 0;           ///< that something is missing, and no candidate is
   std::vector<double> prior;    ///< odds of each candidate beforehand
+  std::vector<bool> left_out;   ///< of each candidate, whether it is none
   /// That a candidate is in the set.
   double of(std::size_t candidate) const;
 };
 
 /// Candidates that do much the same: the data may want any of them.
 struct WeighedGroup {
-  double probability = 0;             ///< that it is one of them, whatever else
-  std::vector<std::size_t> members;   ///< the most probable first
-  std::vector<double> shares;         ///< of each, within the group
-  std::vector<double> amplitudes;     ///< the most probable one of each; of several amplitudes NaN
-  std::vector<bool> by_runs;          ///< whether a run of each showed what it does at about that amplitude
+  double probability = 0;            ///< that it is one of them, whatever else
+  std::vector<std::size_t> members;  ///< the most probable first
+  std::vector<double> shares;        ///< of each, within the group
+  std::vector<double> amplitudes;    ///< the most probable one of each; of several amplitudes NaN
+  std::vector<bool> by_runs;         ///< whether a run of each showed what it does at about that amplitude
   bool has(std::size_t candidate) const;
 };
 

@@ -7,8 +7,8 @@ namespace {
 
 Alternative alternative_of(const EffectProblem& problem, const WeighedGroup& group, std::size_t k) {
   const Candidate& candidate = problem.candidates[group.members[k]];
-  Alternative one{candidate.name, std::nullopt, candidate.where, candidate.kind, group.shares[k], std::nullopt, "1",
-                  group.by_runs[k]};
+  Alternative one{candidate.name, std::nullopt, candidate.where, candidate.kind, group.shares[k],
+                  std::nullopt,   "1",          group.by_runs[k]};
   if (!candidate.parameter.empty()) one.parameter = candidate.parameter;
   if (!std::isfinite(group.amplitudes[k])) return one;
   const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(candidate.amplitudes.front())];
@@ -29,7 +29,8 @@ ProbabilityTable table_of(const EffectProblem& problem, const Weighed& weighed) 
     AlternativeGroup& told = table.groups.emplace_back(AlternativeGroup{group.probability, {}});
     for (std::size_t k = 0; k < group.members.size(); ++k) told.members.push_back(alternative_of(problem, group, k));
   }
-  for (const WeighedCombination& one : weighed.combinations) table.combinations.push_back({one.groups, one.probability});
+  for (const WeighedCombination& one : weighed.combinations)
+    table.combinations.push_back({one.groups, one.probability});
   return table;
 }
 

@@ -14,6 +14,7 @@ import { forceSection } from "./parts/force.js";
 import { modelsSection } from "./parts/path.js";
 import { provenanceSection } from "./parts/provenance.js";
 import { rankingSection } from "./parts/ranking.js";
+import { tableSection } from "./parts/table.js";
 import { traceSection } from "./parts/traces.js";
 import { wallSection } from "./wall/section.js";
 
@@ -23,6 +24,7 @@ function parts(report) {
     runs.length ? () => errorSection(runs) : null,
     () => wallSection(report),
     runs.length ? () => heatSection(runs) : null,
+    () => tableSection(report),
     () => rankingSection(report),
     () => lookAlikeSection(report),
     () => detectableSection(report),

@@ -402,8 +402,8 @@ TEST(EffectSearch, RunsNothingThatIsHopeless) {
   EXPECT_LE(runs, 4);
 }
 
-/// Where one candidate explains the data, others are not run beside it.
-TEST(EffectSearch, RunsOnlyWhatMatters) {
+/// What does to first order the same as the right one, and saturates: runs show it, few of them.
+TEST(EffectSearch, RunsLookAlikesBeforeItChooses) {
   std::mt19937_64 generator(23);
   EffectProblem problem = band();
   add_candidate(problem, "weak", response(1, 8.5, beat));
@@ -418,7 +418,8 @@ TEST(EffectSearch, RunsOnlyWhatMatters) {
     return linear_residual(problem)(saturated);
   };
   EXPECT_EQ(search_effects(problem, {}, counted).effects.front().candidate, 2U);
-  EXPECT_EQ(first + second, 0);
+  EXPECT_GE(std::min(first, second), 1);
+  EXPECT_LE(first + second, 4);
 }
 
 /// Two effects that the data at hand see alike, and a trace that sees the first only.

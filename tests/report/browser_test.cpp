@@ -169,6 +169,12 @@ class ReportPage : public ::testing::Test {
     std::vector<Finding> effects;
     for (int i = 0; i < candidates; ++i) effects.push_back(candidate(i, CandidateKind::effect, i == 0));
     Diagnosis diagnosis = ReportPage::diagnosis(Verdict::missing, "MISSING: x", effects);
+    diagnosis.table.nothing = 0.01;
+    diagnosis.table.groups = {{0.98,
+                               {{"effect 0<i>", {}, "spine", CandidateKind::effect, 0.7, 1e6, "1", true},
+                                {"effect 1", {}, "spine", CandidateKind::effect, 0.3, {}, "1", false}}}};
+    diagnosis.table.combinations = {{{0}, 0.98}};
+    diagnosis.table.others = 0.01;
     diagnosis.look_alike = (MatrixXd(2, 2) << 1, 0.5, 0.5, 1).finished();
     diagnosis.detectable = {{"x", "", "a.b", 2, "1", 0, 0.4}};
     write_record(folder / "diagnosis_0/diagnosis.json", diagnosis);
@@ -250,6 +256,7 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
       names: document.querySelector("#ranking .name").textContent, title: document.title, wide: root.scrollWidth,
       first: at(0), last: at(2), models: document.querySelectorAll("#models tbody tr").length,
       charts: [...document.querySelectorAll(".chart")].filter((chart) => !chart.querySelector("svg")).length,
+      chances: [...document.querySelectorAll("#chances tr")].map((row) => row.textContent),
       sections: [...document.querySelectorAll("section")].map((s) => s.id), tiles: document.querySelector(".tiles").textContent,
       law: document.querySelector("#force .note").textContent.replaceAll("\u00a0", " ") };)js");
   EXPECT_EQ(found["state"], "ready");
@@ -263,9 +270,14 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
   EXPECT_EQ(found["models"], 2);
   EXPECT_EQ(found["charts"], 0) << "without a drawing";
   EXPECT_LE(found["wide"], 900) << "nothing sticks out";
-  const Json expected{"errors", "wall",       "heat",  "ranking",    "look-alikes", "detectable",
-                      "models", "parameters", "force", "provenance", "glossary"};
+  const Json expected{"errors",     "wall",   "heat",       "chances", "ranking",    "look-alikes",
+                      "detectable", "models", "parameters", "force",   "provenance", "glossary"};
   EXPECT_EQ(found["sections"], expected);
+  const Json chances{
+      "effect 0<i> · spine, or what does much the same"
+      "effect 0<i> · spine 70 % at about 1 × 10⁶; effect 1 · spine 30 %98 %",
+      "Nothing is missing1 %", "Something that the catalogue does not have< 1 %", "Anything else1 %"};
+  EXPECT_EQ(found["chances"], chances);
   const Json before = found["last"][0], after = found["last"][1];
   for (const Json& wall : {before, after}) {
     EXPECT_GT(wall["colours"], 20) << wall;

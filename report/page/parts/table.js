@@ -1,0 +1,73 @@
+// How probable each explanation is: the table that sums to one, and what stands behind each of its lines.
+import { element, section, tabs } from "../base/elements.js";
+import { effectName } from "../base/names.js";
+import { isNumber, number, percent, unitText, withUnit } from "../base/numbers.js";
+
+const bar = (share, colour) =>
+  element(
+    "span",
+    { class: "track" },
+    element("span", { class: "fill", style: `width:${(100 * share).toFixed(1)}%;background:${colour}` }),
+  );
+
+const chance = (p) => (p > 0.995 ? "> 99 %" : p < 0.005 ? "< 1 %" : percent(p));
+
+function line(name, p, colour, note) {
+  return element(
+    "tr",
+    {},
+    element("td", { class: "what" }, name, note ? element("div", { class: "minor" }, note) : null),
+    element("td", { class: "bar" }, bar(p, colour)),
+    element("td", { class: "number" }, chance(p)),
+  );
+}
+
+const groupName = (group) =>
+  effectName(group.members[0]) + (group.members.length > 1 ? ", or what does much the same" : "");
+
+function memberNote(member) {
+  const value = isNumber(member.value)
+    ? ` at about ${withUnit(number(member.value, 2), unitText(member.unit))}${member.by_runs ? "" : ", to first order"}`
+    : "";
+  return `${effectName(member)} ${chance(member.share)}${value}`;
+}
+
+function combinationLines(table) {
+  return table.combinations
+    .filter((one) => one.probability >= 0.01)
+    .map((one) =>
+      line(
+        one.groups.map((g) => groupName(table.groups[g])).join(" and "),
+        one.probability,
+        "var(--bad)",
+        one.groups
+          .map((g) => table.groups[g].members)
+          .filter((members) => members.length > 1)
+          .map((members) => members.map(memberNote).join("; "))
+          .join(" — "),
+      ),
+    );
+}
+
+function drawn(table) {
+  const few = table.combinations.filter((one) => one.probability < 0.01).reduce((sum, one) => sum + one.probability, 0);
+  return element(
+    "table",
+    { class: "chances" },
+    ...combinationLines(table),
+    line("Nothing is missing", table.nothing, "var(--good)"),
+    line("Something that the catalogue does not have", table.outside, "var(--yardstick)"),
+    table.others + few >= 0.005 ? line("Anything else", table.others + few, "var(--faint)") : null,
+  );
+}
+
+export function tableSection(report) {
+  const weighed = report.diagnoses.filter((d) => d.diagnosis.table && d.diagnosis.table.nothing + d.diagnosis.table.outside + d.diagnosis.table.combinations.length > 0);
+  if (!weighed.length) return null;
+  return section(
+    "chances",
+    "How sure that is",
+    "How probable each explanation is, given all measurements and what was known before: the lines add up to 100 %. An explanation is named at 95 %. Where several do much the same to the measurements they share a line; their shares are of that line.",
+    ...tabs(weighed.map((d) => ({ label: d.label || "candidates", show: () => drawn(d.diagnosis.table) }))),
+  );
+}

@@ -1,0 +1,178 @@
+/// The evidence for sets of candidates against what it is by definition.
+#include "diagnosis/evidence/set_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "diagnosis/search/posterior.hpp"
+
+namespace tether {
+namespace set_evidence_test {
+
+using Index = Eigen::Index;
+
+constexpr Index data = 40;
+
+void add_candidate(EffectProblem& problem, const std::string& name, const MatrixXd& changes, bool one_sided) {
+  Candidate candidate{name, "", name, Candidate::Kind::effect, {}};
+  for (Index k = 0; k < changes.cols(); ++k) {
+    candidate.amplitudes.push_back(problem.changes.cols());
+    problem.changes.conservativeResize(data, problem.changes.cols() + 1);
+    problem.changes.rightCols(1) = changes.col(k);
+    problem.amplitudes.push_back({name, name, "1", one_sided, 2.0, 0, false});
+  }
+  problem.candidates.push_back(candidate);
+}
+
+/// Independent data, an allowed error, a pattern; candidates "one", "other" (of either sign) and a vector of two.
+EffectProblem problem(unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  const auto random = [&](Index columns) {
+    return MatrixXd::NullaryExpr(data, columns, [&] { return normal(generator); });
+  };
+  EffectProblem made;
+  made.residual = random(1);
+  made.precision = made.independent = VectorXd::Ones(data);
+  for (Index i = 0; i < data; ++i) (i % 4 == 3 ? made.held_out : made.training).push_back(i);
+  made.changes.resize(data, 0);
+  made.allowed = random(1);
+  made.allowed_deviation = VectorXd::Constant(1, 0.7);
+  made.patterns = random(2);
+  made.pattern_deviation = VectorXd::Constant(2, 0.5);
+  made.pattern_names.resize(2);
+  add_candidate(made, "one", 0.5 * random(1), true);
+  add_candidate(made, "other", 0.5 * random(1), false);
+  add_candidate(made, "vector", 0.5 * random(2), false);
+  made.residual += 1.5 * made.changes.col(0);
+  return made;
+}
+
+/// log of the normal density of x with this covariance, less the part that never changes.
+double log_density(const VectorXd& x, const MatrixXd& covariance) {
+  const Eigen::LLT<MatrixXd> factor(covariance);
+  const VectorXd white = factor.matrixL().solve(x);
+  return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
+}
+
+MatrixXd errors(const EffectProblem& p, double discrepancy) {
+  return MatrixXd::Identity(data, data) + std::pow(0.7, 2) * p.allowed * p.allowed.transpose() +
+         std::pow(0.5 * discrepancy, 2) * p.patterns * p.patterns.transpose();
+}
+
+double half_cauchy(double a, double scale) {
+  return 2 / (std::numbers::pi * scale * (1 + std::pow(a / scale, 2)));
+}
+
+TEST(SetEvidence, OfNothingIsTheDensityOfTheData) {
+  const EffectProblem p = problem(1);
+  const SetEvidence evidence(p, {});
+  for (const std::size_t s : {0, 4, 9})
+    EXPECT_NEAR(evidence.fit({}, s).log_evidence, log_density(p.residual, errors(p, evidence.discrepancies()[s].size)),
+                1e-9);
+}
+
+TEST(SetEvidence, IntegratesOverAnAmplitude) {
+  const EffectProblem p = problem(2);
+  const SetEvidence evidence(p, {});
+  const MatrixXd covariance = errors(p, evidence.discrepancies()[2].size);
+  double sum = 0;
+  constexpr double step = 1e-3;
+  for (double a = step / 2; a < 20; a += step)
+    sum += step * half_cauchy(a, 2) * std::exp(log_density(p.residual - a * p.changes.col(0), covariance));
+  EXPECT_NEAR(evidence.fit({0}, 2).log_evidence, std::log(sum), 0.03);
+}
+
+TEST(SetEvidence, IntegratesOverPairs) {
+  const EffectProblem p = problem(3);
+  const SetEvidence evidence(p, {});
+  const MatrixXd covariance = errors(p, evidence.discrepancies()[1].size);
+  double sum = 0;
+  constexpr double step = 0.02;
+  for (double a = step / 2; a < 8; a += step)
+    for (double b = -6 + step / 2; b < 6; b += step)
+      sum += step * step * half_cauchy(a, 2) * half_cauchy(b, 2) / 2 *
+             std::exp(log_density(p.residual - a * p.changes.col(0) - b * p.changes.col(1), covariance));
+  EXPECT_NEAR(evidence.fit({0, 1}, 1).log_evidence, std::log(sum), 0.05);
+}
+
+TEST(SetEvidence, OfAVectorIsThatOfWiderErrors) {
+  const EffectProblem p = problem(4);
+  const SetEvidence evidence(p, {});
+  const MatrixXd covariance = errors(p, evidence.discrepancies()[0].size), changes = p.changes.rightCols(2);
+  double sum = 0;
+  for (const double multiple : {0.3, 1.0, 3.0, 10.0})
+    sum +=
+        std::exp(log_density(p.residual, covariance + std::pow(2 * multiple, 2) * changes * changes.transpose())) / 4;
+  EXPECT_NEAR(evidence.fit({2}, 0).log_evidence, std::log(sum), 1e-9);
+}
+
+/// What saturates is not weighed by its first order.
+TEST(SetEvidence, FollowsWhatRunsShowed) {
+  EffectProblem p = problem(5);
+  const auto change = [&](double a) -> VectorXd { return 30 * (a / (1 + a / 2)) * p.changes.col(0); };
+  const VectorXd noise = p.residual - 1.5 * p.changes.col(0);
+  p.residual = noise + change(6);
+  std::vector<ShownRun> runs;
+  for (const double a : {2.0, 4.0, 5.0, 7.0, 10.0}) {
+    VectorXd amplitudes = VectorXd::Zero(p.changes.cols());
+    amplitudes(0) = a;
+    runs.push_back({amplitudes, p.residual - change(a)});
+  }
+  const SetEvidence evidence(p, runs);
+  EXPECT_NEAR(evidence.fit({0}, 0).amplitudes[0], 6, 0.3);
+  EXPECT_NEAR(evidence.beyond_runs(0, 6), 7.0 / 6, 1e-9);
+  EXPECT_TRUE(std::isinf(evidence.beyond_runs(1, 6)));
+}
+
+/// Sources that are held out as a whole judge, and name nothing.
+TEST(SetEvidence, DoesNotLookAtWhatIsSealed) {
+  EffectProblem p = problem(6);
+  p.sealed = p.held_out;
+  const double before = SetEvidence(p, {}).fit({0}, 0).log_evidence;
+  for (const Index i : p.sealed) p.residual(i) = 100;
+  EXPECT_DOUBLE_EQ(SetEvidence(p, {}).fit({0}, 0).log_evidence, before);
+}
+
+/// Of data drawn from the prior itself, what is said with a probability is right as often.
+TEST(Posterior, SaysHowOftenItIsRight) {
+  std::mt19937_64 generator(11);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  double said = 0, right = 0;
+  int sure = 0, sure_and_wrong = 0;
+  constexpr int draws = 400;
+  for (int draw = 0; draw < draws; ++draw) {
+    EffectProblem p = problem(100 + static_cast<unsigned>(draw));
+    p.candidates.pop_back();
+    p.amplitudes.resize(2);
+    p.changes.conservativeResize(data, 2);
+    p.pattern_deviation *= 0.1;  // of which a tenth to all is as probable
+    p.residual = VectorXd::NullaryExpr(data, [&] { return normal(generator); }) + 0.7 * normal(generator) * p.allowed;
+    std::vector<bool> present;
+    for (Index c = 0; c < 2; ++c) {
+      const double odds = 0.5 / 2, size = 2 * std::tan(std::numbers::pi / 2 * uniform(generator));
+      present.push_back(uniform(generator) < odds / (1 + odds));
+      if (present.back())
+        p.residual += std::min(size, 150.0) * (c == 1 && uniform(generator) < 0.5 ? -1 : 1) * p.changes.col(c);
+    }
+    const SetEvidence evidence(p, {});
+    const Posterior posterior = posterior_of(p, evidence, {false, false});
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double probability = posterior.of(c);
+      said += probability;
+      right += present[c] ? 1 : 0;
+      if (probability > 0.9) ++sure, sure_and_wrong += present[c] ? 0 : 1;
+    }
+  }
+  EXPECT_NEAR(said / right, 1, 0.15) << right << " of " << 2 * draws;
+  EXPECT_GT(sure, 50);
+  EXPECT_LE(sure_and_wrong, 0.1 * sure);
+}
+
+}  // namespace set_evidence_test
+}  // namespace tether
