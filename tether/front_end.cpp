@@ -29,15 +29,17 @@ int told(const CommandLine& command) {
 struct Verb {
   const char *name, *purpose;
   int (*act)(const CommandLine&);
-  bool needs_case = true, shares_work = false;
+  bool makes_steps = false, shares_work = false, needs_case = true;
 };
 
 constexpr std::array verbs{
-    Verb{"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>},
-    Verb{"compare", "compare a run with the measurements; simulates first if need be", told<ComparisonResult, compare>},
+    Verb{"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>, true},
+    Verb{"compare", "compare a run with the measurements; simulates first if need be", told<ComparisonResult, compare>,
+         true},
     Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
-         told<Explanation, explain>, true, true},
-    Verb{"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, true, true},
+         told<Explanation, explain>, false, true},
+    Verb{"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false,
+         true},
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
          told<fs::path, make_twin>},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
@@ -46,7 +48,7 @@ constexpr std::array verbs{
          told<fs::path, report>},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
-    Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false},
+    Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false, false, false},
 };
 
 Program program_of(const Verb& verb) {
@@ -55,6 +57,7 @@ Program program_of(const Verb& verb) {
   program.purpose = verb.purpose;
   program.needs_case = verb.needs_case;
   program.shares_work = verb.shares_work;
+  program.makes_steps = verb.makes_steps;
   program.reference = case_reference;
   program.validate = check_case;
   program.run = verb.act;

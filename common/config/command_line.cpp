@@ -58,7 +58,10 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
   if (program.list_effects)
     app.add_flag("--list-effects", c.list_effects, "list what could be added to the case, as JSON");
   app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
-  app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(whole_and_positive());
+  if (program.makes_steps) {
+    app.add_option("--steps", c.steps, "end after N time steps")->type_name("N")->check(whole_and_positive());
+    app.add_flag("--resume", c.resume, "continue from the last checkpoint in the output folder");
+  }
   if (program.shares_work)
     app.add_option("--processes", c.processes, "groups of processes to share the work between")
         ->type_name("N")
@@ -68,7 +71,6 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
     app.add_option("--role", c.role, "what it is to its master (default " + c.role + ")")
         ->check(CLI::IsMember(program.roles));
   }
-  app.add_flag("--resume", c.resume, "continue from the last checkpoint in the output folder");
   app.add_flag("--overwrite", c.overwrite, "replace another case's results in the output folder");
   app.add_flag("--quiet", c.quiet, "print errors only");
 }

@@ -36,6 +36,7 @@ struct Program {
   std::vector<std::string> roles = {};
   bool needs_case = true;
   bool shares_work = false;  ///< has the option --processes
+  bool makes_steps = true;   ///< has the options --steps and --resume
 };
 
 /// Parses the command line, answers --help, --describe-config and --validate, else runs. Returns the exit code: what

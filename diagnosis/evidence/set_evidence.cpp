@@ -27,6 +27,13 @@ double scale_of(const Amplitude& amplitude) {
   return amplitude.scale > 0 && std::isfinite(amplitude.scale) ? amplitude.scale : 1;
 }
 
+/// Falls as a power of the value: of any order of magnitude, none favoured.
+double prior_density(const Amplitude& amplitude, double size, double scale) {
+  constexpr double deviation = std::numbers::sqrt2;  // of exp(-|x|)
+  if (amplitude.doubles) return std::exp(-deviation * std::abs(size) / scale) * deviation / (2 * scale);
+  return 1 / (std::numbers::pi * scale * (1 + std::pow(size / scale, 2)));
+}
+
 double log_sum(const VectorXd& logs) {
   const double most = logs.maxCoeff();
   return std::isfinite(most) ? most + std::log((logs.array() - most).exp().sum()) : most;
@@ -170,7 +177,7 @@ SetEvidence::Grid SetEvidence::grid_of(std::size_t candidate, const std::vector<
   for (Index g = 0; g < places.size(); ++g) {
     const double size = scale * seen_from * std::sinh(places(g)), way = scale * seen_from * std::cosh(places(g));
     const bool admissible = size != 0 && std::abs(amplitude.limited(size) - size) <= 1e-9 * std::abs(size);
-    const double density = (amplitude.one_sided ? 2 : 1) / (std::numbers::pi * scale * (1 + std::pow(size / scale, 2)));
+    const double density = (amplitude.one_sided ? 2 : 1) * prior_density(amplitude, size, scale);
     grid.sizes(g) = size;
     grid.log_weight(g) = admissible ? std::log(density * way * between) : -infinite;
     grid.mix.row(g) = mix_at(candidate, admissible ? size : scale, columns);
@@ -208,10 +215,12 @@ Summed summed(const std::vector<VectorXd>& alone, const std::vector<std::vector<
   const MatrixXd pair = (-together[0][1]).colwise() + alone[0];
   if (n == 2) {
     const MatrixXd both = pair.rowwise() + alone[1].transpose();
-    VectorXd first(both.rows()), second(both.cols());
-    for (Index i = 0; i < both.rows(); ++i) first(i) = log_sum(both.row(i).transpose());
-    for (Index j = 0; j < both.cols(); ++j) second(j) = log_sum(both.col(j));
-    return {log_sum(first), {first, second}};
+    const double most = both.maxCoeff();
+    if (!std::isfinite(most)) return {most, {alone[0], alone[1]}};
+    const MatrixXd weights = (both.array() - most).exp();
+    const VectorXd first = weights.rowwise().sum().array().log() + most,
+                   second = weights.colwise().sum().transpose().array().log() + most;
+    return {most + std::log(weights.sum()), {first, second}};
   }
   VectorXd first = VectorXd::Constant(alone[0].size(), -infinite);
   MatrixXd rest(alone[1].size(), alone[2].size());

@@ -21,7 +21,8 @@ constexpr double the_same = 0.99;   ///< cosine
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 constexpr int rounds = 5;           ///< of runs, before what they tell is taken as it is
 constexpr double even = 0.5;        ///< probability of a group that is tried
-constexpr double likely = 0.05;     ///< share of a group's member that is a rival of the first
+/// Share of a group's member that is named alone: 95 % though logarithms of evidence are off by 1, as between runs.
+constexpr double alone = 0.98;
 
 constexpr double noteworthy = 2;     ///< of what an error is allowed
 constexpr double unexplainable = 6;  ///< misfit beyond noise, as above: neither noise nor errors allowed do that
@@ -107,13 +108,13 @@ class Search {
     return nullptr;
   }
 
-  /// Its members that are likely, at their most probable amplitudes.
+  /// Its members that may be it, at their most probable amplitudes.
   std::vector<TestedEffect> likely_of(const WeighedGroup& group, const Trained& trained) const {
     const std::vector<TestedEffect> tested =
         test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
     std::vector<TestedEffect> all;
     for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
-      if (group.shares[k] < likely) continue;
+      if (k > 0 && group.shares.front() >= alone) break;
       TestedEffect& effect = all.emplace_back(*std::find_if(
           tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members[k]; }));
       if (std::isfinite(group.amplitudes[k])) effect.amplitudes(0) = group.amplitudes[k];

@@ -44,6 +44,7 @@ std::vector<double> log_odds(const EffectProblem& problem) {
 }
 
 constexpr double improbable = 7;  ///< logarithm of odds
+constexpr double alike = 0.5;     ///< squared cosine of two that do much the same
 
 class Sets {
  public:
@@ -91,7 +92,10 @@ class Sets {
   }
 
   void add_beside(Members members, std::size_t candidate) {
-    if (std::count(members.begin(), members.end(), candidate) > 0) return;
+    const auto does_the_same = [&](std::size_t c) {
+      return c == candidate || std::pow(evidence_.cosine(c, candidate), 2) > alike;
+    };
+    if (std::any_of(members.begin(), members.end(), does_the_same)) return;
     members.push_back(candidate);
     std::sort(members.begin(), members.end());
     add(members);
@@ -153,7 +157,6 @@ class Sets {
 };
 
 constexpr double listed = 0.01;  ///< smallest probability of a candidate that is told
-constexpr double alike = 0.5;    ///< squared cosine
 constexpr double about = 1.5;    ///< factor within which a run tells what an amplitude does
 
 std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const std::vector<double>& each) {

@@ -45,7 +45,8 @@ struct Weighed {
   std::vector<WeighedCombination> combinations;
 };
 
-/// All candidates by themselves, pairs of the best with all, and the best of these with the best. left_out: of each
+/// All candidates by themselves, pairs of the best with all, and the best of these with the best; two that do much the
+/// same are one or the other, since what they do together is not the sum of what each does. left_out: of each
 /// candidate, whether it is none.
 Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence, const std::vector<bool>& left_out);
 

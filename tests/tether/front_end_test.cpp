@@ -200,6 +200,8 @@ TEST_F(FrontEnd, ListsItsVerbs) {
   EXPECT_EQ(tether("").exit_code, 2);
   EXPECT_EQ(tether("simulte case.yaml").exit_code, 2);
   EXPECT_NE(tether("simulte case.yaml").errors.find("tether: unknown verb 'simulte'"), std::string::npos);
+  EXPECT_EQ(tether("mesh case.yaml --steps 3").exit_code, 2) << "it makes none";
+  EXPECT_EQ(tether("score case.yaml --resume").exit_code, 2);
 }
 
 }  // namespace

@@ -1,0 +1,94 @@
+"""Segmented surfaces of a run of another code (data/peer_hidden): another triangulation, errors along the normal."""
+import numpy as np
+
+RADIUS, LENGTH, PERIOD = 2.0, 10.0, 0.9  # [cm, cm, s]
+AROUND, ALONG = 46, 37  # of the surfaces, whose places fit no node of a model
+WAVES = 600
+
+
+class Lattice:
+    """A field at the nodes of a tube, which lie on a lattice of angles and places along it."""
+
+    def __init__(self, nodes):
+        angle = np.round(np.arctan2(nodes[:, 1], nodes[:, 0]) % (2 * np.pi), 6)
+        along = np.round(nodes[:, 2], 6)
+        self.around, self.along = len(np.unique(angle)), len(np.unique(along))
+        self.order = np.lexsort((along, angle)).reshape(self.around, self.along)
+
+    def at(self, field, angle, along):
+        """By cubic convolution (Keys 1981), periodic in the angle. field [nodes x 3]; angle, along [n] -> [n x 3]."""
+        values = field[self.order]
+        ends = 2 * values[:, [0, -1]] - values[:, [1, -2]]
+        values = np.concatenate([ends[:, :1], values, ends[:, 1:]], axis=1)
+        x, y = angle / (2 * np.pi) * self.around, along / LENGTH * (self.along - 1)
+        i, j = np.floor(x).astype(int), np.minimum(np.floor(y).astype(int), self.along - 2)
+        result = np.zeros((len(angle), 3))
+        for a, in_x in enumerate(self._weights(x - i)):
+            for b, in_y in enumerate(self._weights(y - j)):
+                result += (in_x * in_y)[:, None] * values[(i + a - 1) % self.around, j + b]
+        return result
+
+    @staticmethod
+    def _weights(s):
+        return ((-s + 2 * s**2 - s**3) / 2, (2 - 5 * s**2 + 3 * s**3) / 2, (s + 4 * s**2 - 3 * s**3) / 2, (s**3 - s**2) / 2)
+
+
+def triangulation(generator):
+    """Angles, places along [n] and triangles of a tube whose nodes are moved at random and whose diagonals change."""
+    angle, along = np.meshgrid((np.arange(AROUND) + 0.5) / AROUND * 2 * np.pi, np.linspace(0, LENGTH, ALONG), indexing="ij")
+    angle = angle + generator.uniform(-0.25, 0.25, angle.shape) * 2 * np.pi / AROUND
+    along = along.copy()
+    along[:, 1:-1] += generator.uniform(-0.25, 0.25, (AROUND, ALONG - 2)) * LENGTH / (ALONG - 1)
+    triangles = []
+    for i in range(AROUND):
+        for j in range(ALONG - 1):
+            p, q = i * ALONG + j, (i + 1) % AROUND * ALONG + j
+            triangles += [(p, q, q + 1), (p, q + 1, p + 1)] if generator.random() < 0.5 else [(p, q, p + 1), (q, q + 1, p + 1)]
+    return angle.ravel() % (2 * np.pi), along.ravel(), np.array(triangles)
+
+
+def errors(places, deviation, length, correlation, generator):
+    """Of normal distribution, alike over `length`: by waves with the spectrum of exp(-r/l) or exp(-(r/l)^2/2)."""
+    waves = generator.normal(size=(WAVES, 3)) / length
+    if correlation == "exponential":
+        waves /= np.abs(generator.normal(size=(WAVES, 1)))  # (T.1)
+    phase = generator.uniform(0, 2 * np.pi, WAVES)
+    return deviation * np.sqrt(2 / WAVES) * np.cos(places @ waves.T + phase).sum(axis=1)
+
+
+def normals(points, triangles):
+    """Outward, at the nodes."""
+    sides = np.cross(points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]])
+    sums = np.zeros_like(points)
+    for corner in range(3):
+        np.add.at(sums, triangles[:, corner], sides)
+    return sums / np.linalg.norm(sums, axis=1)[:, None]
+
+
+def write_ply(path, points, triangles):
+    with open(path, "w") as file:
+        file.write(f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
+                   f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+        np.savetxt(file, points, fmt="%.7g")
+        np.savetxt(file, np.c_[np.full(len(triangles), 3), triangles], fmt="%d")
+
+
+def make(run, folder, frames, deviation, length, correlation, seed):
+    """Surfaces of a run (a .npz of data/peer_hidden) at `frames` moments of a beat, and times.csv, into a folder."""
+    data = np.load(run)
+    nodes, motion, times = data["X"], data["U"].astype(float), data["t"]
+    generator = np.random.default_rng(seed)
+    lattice = Lattice(nodes)
+    angle, along, triangles = triangulation(generator)
+    rest = np.c_[RADIUS * np.cos(angle), RADIUS * np.sin(angle), along]
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = ["file,time [s]"]
+    before, padded = np.concatenate([[0], times]), np.concatenate([np.zeros((1, *motion.shape[1:])), motion])
+    for k, time in enumerate(np.arange(frames) * PERIOD / frames):
+        after = min(max(int(np.searchsorted(before, time)), 1), len(before) - 1)
+        share = (time - before[after - 1]) / (before[after] - before[after - 1])
+        points = lattice.at(nodes + (1 - share) * padded[after - 1] + share * padded[after], angle, along)
+        points += normals(points, triangles) * errors(rest, deviation, length, correlation, generator)[:, None]
+        write_ply(folder / f"frame_{k}.ply", points, triangles)
+        rows.append(f"frame_{k}.ply,{time:.6f}")
+    (folder / "times.csv").write_text("\n".join(rows) + "\n")
