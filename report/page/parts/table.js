@@ -32,29 +32,42 @@ function memberNote(member) {
   return `${effectName(member)} ${chance(member.share)}${value}`;
 }
 
-function combinationLines(table) {
-  return table.combinations
-    .filter((one) => one.probability >= 0.01)
-    .map((one) =>
-      line(
-        one.groups.map((g) => groupName(table.groups[g])).join(" and "),
-        one.probability,
-        "var(--bad)",
-        one.groups
-          .map((g) => table.groups[g].members)
-          .filter((members) => members.length > 1)
-          .map((members) => members.map(memberNote).join("; "))
-          .join(" — "),
-      ),
-    );
+/** Combinations, with what is improbable by itself taken together: "A", "A and something else beside". */
+function merged(table) {
+  const likely = (g) => table.groups[g].probability >= 0.5;
+  const lines = new Map();
+  for (const { groups, probability } of table.combinations) {
+    const core = groups.some(likely) ? groups.filter(likely) : groups;
+    const beside = core.length < groups.length;
+    const key = `${core} ${beside}`;
+    if (!lines.has(key)) lines.set(key, { core, beside, probability: 0 });
+    lines.get(key).probability += probability;
+  }
+  return [...lines.values()].sort((a, b) => b.probability - a.probability);
 }
 
+const shares = (table, groups) =>
+  groups
+    .map((g) => table.groups[g].members)
+    .filter((members) => members.length > 1)
+    .map((members) => members.map(memberNote).join("; "))
+    .join(" — ");
+
+const lineOf = (table, { core, beside, probability }) =>
+  line(
+    core.map((g) => groupName(table.groups[g])).join(" and ") + (beside ? ", and something else beside" : ""),
+    probability,
+    "var(--bad)",
+    beside ? "" : shares(table, core),
+  );
+
 function drawn(table) {
-  const few = table.combinations.filter((one) => one.probability < 0.01).reduce((sum, one) => sum + one.probability, 0);
+  const lines = merged(table),
+    few = lines.filter((one) => one.probability < 0.01).reduce((sum, one) => sum + one.probability, 0);
   return element(
     "table",
     { class: "chances" },
-    ...combinationLines(table),
+    ...lines.filter((one) => one.probability >= 0.01).map((one) => lineOf(table, one)),
     line("Nothing is missing", table.nothing, "var(--good)"),
     line("Something that the catalogue does not have", table.outside, "var(--yardstick)"),
     table.others + few >= 0.005 ? line("Anything else", table.others + few, "var(--faint)") : null,
@@ -62,12 +75,16 @@ function drawn(table) {
 }
 
 export function tableSection(report) {
-  const weighed = report.diagnoses.filter((d) => d.diagnosis.table && d.diagnosis.table.nothing + d.diagnosis.table.outside + d.diagnosis.table.combinations.length > 0);
+  const weighed = report.diagnoses.filter(
+    (d) =>
+      d.diagnosis.table &&
+      d.diagnosis.table.nothing + d.diagnosis.table.outside + d.diagnosis.table.combinations.length > 0,
+  );
   if (!weighed.length) return null;
   return section(
     "chances",
     "How sure that is",
-    "How probable each explanation is, given all measurements and what was known before: the lines add up to 100 %. An explanation is named at 95 %. Where several do much the same to the measurements they share a line; their shares are of that line.",
+    "How probable each explanation is, given all measurements and what was known before: the lines add up to 100 %. An explanation is named if its lines add up to 95 %. Where several do much the same to the measurements they share a line; their shares are of that line.",
     ...tabs(weighed.map((d) => ({ label: d.label || "candidates", show: () => drawn(d.diagnosis.table) }))),
   );
 }
