@@ -49,7 +49,7 @@ void TwinCase::declare(Fields& f) {
   f.flag("periodic", periodic,
          "whether the frames stand for every beat; false: for the moments at which they were taken");
   f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
-            "numbers of frames (from 0, of those that are not lost) that the model never sees: they judge it");
+            "numbers of frames (from 0, of those that are not lost) that no number is fitted to: they judge");
   f.group("image", image, "how the lumen is imaged and segmented");
   f.group("noise", noise, "errors along the normal that are added to the surfaces");
   f.group("faults", faults, "what goes wrong with the data");

@@ -22,7 +22,7 @@ void LumenDataCase::declare(Fields& f) {
   f.number("outlet_band", outlet_band, dimension::length, range::not_negative,
            "nothing is observed within this distance of an outlet's rim");
   f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
-            "numbers of frames (from 0) that the model never sees: they judge it");
+            "numbers of frames (from 0) that no number is fitted to: they judge");
   f.numbers("left_out", left_out, {0, dimension::none, range::not_negative},
             "numbers of frames (from 0) that are not used at all; the others keep their numbers");
   f.group("correction", correction, "what is wrong with the data, taken off them");

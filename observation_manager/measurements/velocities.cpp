@@ -29,7 +29,7 @@ void VelocitiesCase::declare(Fields& f) {
   f.check(components != "along" || !direction.allFinite() || direction.norm() > 0, "direction", "must not be zero");
   f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");
   f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
-            "numbers of frames (from 0) that the model never sees: they judge it");
+            "numbers of frames (from 0) that no number is fitted to: they judge");
   f.group("noise", noise, "errors of a component");
 }
 

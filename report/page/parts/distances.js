@@ -41,7 +41,7 @@ function errorCharts(runs, index) {
   const sources = runs.map((run) => run.comparison.sources[index]);
   const kinds = [
     ["training", "Training frames"],
-    ["held_out", "Held-out frames: never shown to the model"],
+    ["held_out", "Held-out frames: nothing was fitted to them"],
   ];
   const shown = kinds
     .map(([kind, title]) => ({ kind, title, rows: errorRows(sources, runs, kind) }))
