@@ -7,7 +7,9 @@
 #include "solid/motions/registry.hpp"
 #include "solid/supports/expression_traction.hpp"
 #include "solid/supports/registry.hpp"
+#include "solid/vessel_direction.hpp"
 #include "solid/wall_effects/registry.hpp"
+#include "vessel/regions.hpp"
 
 namespace tether {
 namespace {
@@ -152,6 +154,11 @@ void ExpressionCase::declare(Fields& f) {
 void WallEffectCase::declare(Fields& f) {
   f.effect(effect, family(), "what acts, or is different");
   f.text("region", region, "a region of the outer wall, or an end ring; absent: the whole outer wall");
+  constexpr Range on_the_way{0, 1};
+  f.number("from", band.from, dimension::none, on_the_way,
+           "where along the vessel the region's part begins that it acts on: 0 at the first ring, 1 at the others");
+  f.number("to", band.to, dimension::none, on_the_way, "where along the vessel that part ends");
+  f.check(band.from < band.to, "to", "must be beyond 'from'");
   f.when("type", effect.type, {"measured_motion"}, [&] {
     f.group("motion", motion, "the motion over time");
     f.check(motion.has_value(), "type", "needs a section 'motion'");
@@ -170,6 +177,8 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
       throw input_error("{}: a {} needs the name of an end ring as its region", file.where(path), block.effect.type);
     if (is_of(wall_effects(), block.effect.type) && on_ring)
       throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
+    if (!block.band.is_all() && (on_ring || is_of(motions(), block.effect.type)))
+      throw input_error("{}: 'from' and 'to' are of what acts in regions of the outer wall", file.where(path));
     if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
   }
 }
@@ -182,10 +191,15 @@ bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects) {
 
 void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file,
                          std::vector<SurfaceSupport>& supports) {
+  VectorXd along;
+  const auto along_vessel = [&]() -> const VectorXd& {
+    return along.size() > 0 ? along : along = place_along_vessel(mesh);
+  };
   for (const auto& [name, block] : effects) {
     const std::string path = "solid.effects." + name;
     const auto add = [&, &name = name, &block = block](Configured<Support> effect) {
       Patch patch = patch_of(block.region, mesh);
+      if (!block.band.is_all()) patch = part_between(patch, along_vessel(), block.band.from, block.band.to);
       patch.name = name;
       supports.emplace_back(std::move(patch), std::move(effect), TissueMotion{}, path);
     };
@@ -211,7 +225,7 @@ std::vector<LocalEffect> local_effects(const Named<WallEffectCase>& effects, con
       if (block.region.empty() || mesh.outside[r].name == block.region) regions.push_back(static_cast<int>(r));
     result.push_back({"solid.effects." + name,
                       Configured<WallEffect>(wall_effects(), block.effect.type, block.effect.values),
-                      std::move(regions)});
+                      std::move(regions), block.band});
   }
   return result;
 }

@@ -28,6 +28,7 @@ struct ExpressionCase {
 struct WallEffectCase {
   EffectCase effect;
   std::string region;  ///< of the outer wall, or a ring; empty: the whole outer wall
+  Band band;
   std::optional<MotionCase> motion;
   ExpressionCase expression;
   void declare(Fields& f);

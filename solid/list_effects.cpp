@@ -1,6 +1,7 @@
 #include "solid/list_effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "solid/supports/registry.hpp"
@@ -24,13 +25,15 @@ std::string variant_of(const std::string& type) {
 
 std::vector<PresentEffect> present_in(const SolidCase& solid) {
   std::vector<PresentEffect> all;
-  const auto add = [&all](const std::string& path, const std::string& type, const std::string& part) {
-    all.push_back({path, type, part, variant_of(type)});
+  const auto add = [&all](const std::string& path, const std::string& type, const std::string& part,
+                          const Band& band = {}) {
+    all.push_back({path, type, part, variant_of(type), band});
   };
   for (const auto& [region, support] : solid.support.regions)
     add("solid.support.regions." + region, support.effect.type, region);
   for (const auto& [ring, support] : solid.rings) add("solid.rings." + ring, support.effect.type, ring);
-  for (const auto& [name, effect] : solid.effects) add("solid.effects." + name, effect.effect.type, effect.region);
+  for (const auto& [name, effect] : solid.effects)
+    add("solid.effects." + name, effect.effect.type, effect.region, effect.band);
   return all;
 }
 
@@ -52,8 +55,29 @@ std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidC
   return parts;
 }
 
-PossibleEffect possible_effect(const EffectDeclaration& effect, const std::string& part, const UnitSystem& units) {
-  PossibleEffect possible{effect.name, part, effect.meaning, effect.role, effect.generic, effect.variant_of, {}, {}};
+constexpr std::array halves{Band{0, 0.5}, Band{0.5, 1}};
+
+/// Parts of the wall that are divided into halves: regions, and of what the wall itself is made of all of it.
+std::vector<std::string> divided_for(const EffectDeclaration& effect, const WallMesh& mesh) {
+  std::vector<std::string> parts;
+  if (effect.target == EffectTarget::whole || effect.place == Place::ring) return parts;
+  for (const Patch& region : mesh.outside) parts.push_back(region.name);
+  if (effect.place == Place::wall && mesh.outside.size() > 1) parts.push_back("");
+  return parts;
+}
+
+PossibleEffect possible_effect(const EffectDeclaration& effect, const std::string& part, const Band& band,
+                               const UnitSystem& units) {
+  PossibleEffect possible{effect.name,
+                          part,
+                          effect.meaning,
+                          effect.role,
+                          effect.generic,
+                          effect.place == Place::wall,
+                          effect.variant_of,
+                          {},
+                          {},
+                          band};
   for (const Parameter& p : effect.parameters) {
     const bool switches = !std::isnan(p.absent), must_be_given = std::isnan(p.standard);
     if (switches) possible.amplitudes.push_back({p.name, p.meaning, units.symbol(p.dimension)});
@@ -67,11 +91,19 @@ PossibleEffect possible_effect(const EffectDeclaration& effect, const std::strin
 EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const UnitSystem& units) {
   EffectsList list;
   list.present = present_in(solid);
-  for (const EffectDeclaration* effect : catalogue())
-    for (const std::string& part : parts_for(*effect, solid, mesh))
-      if (std::none_of(list.present.begin(), list.present.end(),
-                       [&](const PresentEffect& p) { return p.type == effect->name && p.part == part; }))
-        list.possible.push_back(possible_effect(*effect, part, units));
+  const auto add = [&](const EffectDeclaration& effect, const std::string& part, const Band& band) {
+    const auto is_there = [&](const PresentEffect& p) {
+      return p.type == effect.name && p.part == part && p.band == band;
+    };
+    if (std::none_of(list.present.begin(), list.present.end(), is_there))
+      list.possible.push_back(possible_effect(effect, part, band, units));
+  };
+  for (const EffectDeclaration* effect : catalogue()) {
+    for (const std::string& part : parts_for(*effect, solid, mesh)) add(*effect, part, {});
+    if (mesh.rings.size() < 2) continue;  // there is no way along it
+    for (const std::string& part : divided_for(*effect, mesh))
+      for (const Band& half : halves) add(*effect, part, half);
+  }
   return list;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/base/configured.hpp"
+#include "solid/results/band.hpp"
 #include "solid/wall_effects/wall_effect.hpp"
 
 namespace tether {
@@ -13,6 +14,7 @@ struct LocalEffect {
   std::string path;  ///< of its parameters: "solid.effects.plaque"
   Configured<WallEffect> effect;
   std::vector<int> regions;  ///< numbers of the outer wall's patches
+  Band band = {};
 };
 
 }  // namespace tether

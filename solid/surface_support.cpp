@@ -40,6 +40,7 @@ void SurfaceSupport::attach(const SparseMatrix& pattern) {
   std::vector<Triangle> triangles;
   for (const Face& face : faces_) triangles.push_back(face.nodes);
   scatter_ = ScatterMap(pattern, 3, std::span<const Triangle>(triangles));
+  is_attached_ = true;
 }
 
 void SurfaceSupport::place(const Points& x) {

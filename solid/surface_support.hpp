@@ -49,6 +49,7 @@ class SurfaceSupport {
   /// Areas and normals are those of these positions until the next call. `pattern`: the wall's matrix.
   void place(const Points& positions);
   void attach(const SparseMatrix& pattern);
+  bool is_attached() const { return is_attached_; }
   /// A number at each node that grows along the vessel (S.15), for laws that use its direction; before `place`.
   void orient(std::shared_ptr<const VectorXd> place_along_vessel) { along_ = std::move(place_along_vessel); }
 
@@ -78,7 +79,7 @@ class SurfaceSupport {
   std::vector<std::shared_ptr<MovingTissue>> tissues_;
   std::shared_ptr<const VectorXd> along_;
   std::vector<Face> faces_;  ///< of the patch's parts
-  bool placed_ = false;
+  bool placed_ = false, is_attached_ = false;
   ScatterMap scatter_;
 };
 

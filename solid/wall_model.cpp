@@ -28,34 +28,46 @@ WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& 
       always_clamped_(unknowns_of(clamped_nodes)) {
   if (settings.conserve_energy && settings.theta != 0.5)
     throw input_error("solid.theta: {} with integrator energy_conserving: must be 0.5", settings.theta);
-  const SparseMatrix pattern = elements_->zero_matrix();
   orient_supports();
-  for (SurfaceSupport& support : supports_) {
-    support.attach(pattern);
-    support.place(mesh_.points);
-  }
+  for (SurfaceSupport& support : supports_) support.place(mesh_.points);
+  attach_present();
   declare_parameters();
   update_clamps();
   if (!effects_.empty()) place_effects();
 }
 
+void WallModel::attach_present() {
+  std::optional<SparseMatrix> pattern;
+  for (SurfaceSupport& support : supports_) {
+    if (support.is_attached() || support.effect().is_absent()) continue;
+    if (!pattern) pattern = elements_->zero_matrix();
+    support.attach(*pattern);
+  }
+}
+
 void WallModel::place_effects() {
-  const bool oriented = std::any_of(effects_.begin(), effects_.end(),
-                                    [](const LocalEffect& local) { return local.effect->uses_axial(); });
-  ElementPlaces places = element_places(mesh_, oriented ? place_along_vessel(mesh_) : VectorXd());
+  const bool oriented = std::any_of(effects_.begin(), effects_.end(), [](const LocalEffect& local) {
+    return local.effect->uses_axial() || !local.band.is_all();
+  });
+  const VectorXd along = oriented ? place_along_vessel(mesh_) : VectorXd();
+  zones_ = wall_zones(mesh_, effects_, along);
+  std::vector<Patch> patches;
+  for (const WallZone& zone : zones_) patches.push_back(zone.patch);
+  ElementPlaces places = element_places(mesh_, patches, along);
   elements_->set_places(std::move(places.of_elements));
   mixtures_ = std::move(places.mixtures);
   update_effects();
 }
 
 void WallModel::update_effects() {
-  std::vector<WallLocal> regions(mesh_.outside.size());
+  std::vector<WallLocal> zones(zones_.size());
   for (const LocalEffect& local : effects_)
-    for (const int region : local.regions) local.effect->apply(regions[static_cast<std::size_t>(region)]);
-  const std::vector<WallLocal> pure = regions;
-  for (const std::vector<double>& shares : mixtures_) regions.push_back(mixture(pure, shares));
-  const bool tense = std::any_of(regions.begin(), regions.end(), [](const WallLocal& l) { return l.tension != 0; });
-  elements_->set_local(std::move(regions));
+    for (std::size_t z = 0; z < zones.size(); ++z)
+      if (acts_in(local, zones_[z])) local.effect->apply(zones[z]);
+  const std::vector<WallLocal> pure = zones;
+  for (const std::vector<double>& shares : mixtures_) zones.push_back(mixture(pure, shares));
+  const bool tense = std::any_of(zones.begin(), zones.end(), [](const WallLocal& l) { return l.tension != 0; });
+  elements_->set_local(std::move(zones));
   tension_held_ = tense ? elements_->tension_force(mesh_.points) : VectorXd();
 }
 
@@ -107,7 +119,10 @@ void WallModel::declare_parameters() {
 void WallModel::declare_supports() {
   std::vector<const MovingTissue*> known;
   for (SurfaceSupport& support : supports_) {
-    parameters_.add_effect(path_of(support), support.effect(), [this] { update_clamps(); });
+    parameters_.add_effect(path_of(support), support.effect(), [this] {
+      attach_present();
+      update_clamps();
+    });
     for (const auto& tissue : support.tissues()) {
       if (std::find(known.begin(), known.end(), tissue.get()) != known.end()) continue;
       known.push_back(tissue.get());
@@ -131,7 +146,8 @@ void WallModel::set_initial_stress(const InitialStress& initial) {
 void WallModel::place_supports(const Points& displacement) {
   if (!settings_.support_on_current_area) return;
   const Points positions = mesh_.points + displacement;
-  for (SurfaceSupport& support : supports_) support.place(positions);
+  for (SurfaceSupport& support : supports_)
+    if (!support.effect().is_absent()) support.place(positions);
 }
 
 VectorXd WallModel::step_forces(const Points& displacement, const Points& start_velocity, const Points& velocity,

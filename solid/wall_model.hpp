@@ -9,6 +9,7 @@
 #include "solid/initial_stress.hpp"
 #include "solid/local_effect.hpp"
 #include "solid/surface_support.hpp"
+#include "solid/wall_zones.hpp"
 
 namespace tether {
 
@@ -60,6 +61,7 @@ class WallModel {
   void declare_supports();
   std::string path_of(const SurfaceSupport& support) const;
   void orient_supports();
+  void attach_present();
   void update_clamps();
   void place_effects();
   void update_effects();
@@ -70,7 +72,8 @@ class WallModel {
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
   std::vector<LocalEffect> effects_;
-  std::vector<std::vector<double>> mixtures_;  ///< of regions, of elements that several share: what each has
+  std::vector<WallZone> zones_;
+  std::vector<std::vector<double>> mixtures_;  ///< of zones, of elements that several share: what each has
   VectorXd
       tension_held_;  ///< by the surroundings, so that tension along the vessel leaves the image at rest; empty if none
   VectorXd held_;     ///< force of the surroundings beside the supports, a dead load; empty if none

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/base/error.hpp"
 
@@ -156,6 +157,25 @@ std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, con
     if (!any_cut) patch.parts.clear();
   }
   return patches;
+}
+
+Patch part_between(const Patch& patch, const VectorXd& function, double from, double to) {
+  Patch part{patch.name, {}};
+  std::map<Triangle, double> shares;
+  for (const TrianglePart& whole : parts_of(patch)) {
+    const Vec3 values(function[whole.of[0]], function[whole.of[1]], function[whole.of[2]]);
+    const Polygon corners{whole.corners.col(0), whole.corners.col(1), whole.corners.col(2)};
+    const Polygon beyond = split(corners, {values, from, rounding}).more;
+    if (beyond.empty()) continue;
+    for (const TrianglePart& piece : triangulated(split(beyond, {values, to, rounding}).less, whole.of)) {
+      part.parts.push_back(piece);
+      shares[whole.of] += piece.share();
+    }
+  }
+  for (const Triangle& triangle : patch.triangles)
+    if (const auto own = shares.find(triangle); own != shares.end() && own->second >= 0.5)
+      part.triangles.push_back(triangle);
+  return part;
 }
 
 }  // namespace tether

@@ -27,4 +27,8 @@ struct WallPlace {
 std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, const std::vector<WallRegion>& regions,
                                      const std::function<WallPlace(int node)>& place);
 
+/// What of a patch lies where a function of the nodes is between two values, itself linear on every triangle and
+/// growing along the vessel: its border cuts triangles too. Of `triangles` those of which it has half or more.
+Patch part_between(const Patch& patch, const VectorXd& function, double from, double to);
+
 }  // namespace tether

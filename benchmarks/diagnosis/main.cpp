@@ -19,6 +19,7 @@
 #include "diagnosis/evidence/living_runs.hpp"
 #include "diagnosis/evidence/whitening.hpp"
 #include "diagnosis/search/diagnosis_report.hpp"
+#include "diagnosis/search/division.hpp"
 #include "diagnosis/search/effect_search.hpp"
 #include "twin/noise.hpp"
 
@@ -38,17 +39,19 @@ struct Surrogate {
   Surrogate(const std::string& case_file, const std::filesystem::path& folder)
       : given(case_file),
         runs(quiet(), folder / "candidates.yaml", folder),
-        sensitivities(sensitivities_of(runs, varied_numbers(runs.parameters(), given.diagnosis, given.file))),
+        effects(catalogue_of(given.file, given.diagnosis)),
+        sensitivities(sensitivities_of(
+            runs, Division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file)).undivided())),
         evidence(given.data, given.lumen, sensitivities.motions.front()),
-        as_measured(problem_of(given, evidence, sensitivities, catalogue_of(given.file, given.diagnosis))),
+        as_measured(problem_of(given, evidence, sensitivities, effects)),
         whitening(evidence, as_measured),
         problem(whitening(as_measured)) {
     const DiagnosisCase& d = given.diagnosis;
     settings = {d.alpha, d.unexplained, 0, d.most, d.refinements, d.confirmed};
-    const std::vector<TestedEffect> effects =
+    const std::vector<TestedEffect> tested =
         test_all(problem, Trained(problem).scores(problem.changes, problem.residual), d.alpha,
                  problem.independent(problem.training).sum());
-    for (const TestedEffect& effect : effects) {
+    for (const TestedEffect& effect : tested) {
       visible.push_back(effect.visible);
       if (effect.testable && problem.candidates[effect.candidate].kind == Candidate::Kind::effect)
         shown.push_back(effect.candidate);
@@ -115,6 +118,7 @@ struct Surrogate {
   static constexpr double trace_interval = 0.01, allowed_share = 1;
   DiagnosedCase given;
   LivingRuns runs;
+  std::vector<PlacedEffect> effects;
   Sensitivities sensitivities;
   Evidence evidence;
   EffectProblem as_measured;

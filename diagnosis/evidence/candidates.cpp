@@ -27,6 +27,14 @@ bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
   return diagnosis.candidates.empty() ? !effect.generic : holds(diagnosis.candidates, effect.type);
 }
 
+/// solid.effects.contact_spine_outlet_half
+std::string path_of(const PossibleEffect& effect) {
+  std::string path = "solid.effects." + effect.type + (effect.part.empty() ? "" : "_" + effect.part);
+  if (!effect.band.is_all()) path += "_" + in_words(effect.band);
+  std::replace(path.begin(), path.end(), ' ', '_');
+  return path;
+}
+
 /// A number of the model as an amplitude that is zero as the model is. What can be absent, as a spring can, adds up:
 /// its prior is the same whether the model has some of it or none.
 Amplitude amplitude_of(const protocol::ParameterInfo& p) {
@@ -50,6 +58,12 @@ double allowed_deviation(const Amplitude& amplitude, const DiagnosisCase& diagno
   return amplitude.doubles ? std::log2(1 + inputs) : inputs * std::abs(amplitude.base);
 }
 
+/// "spine, outlet half".
+std::string place_in_words(const PlacedEffect& effect) {
+  if (effect.band.is_all()) return effect.part;
+  return (effect.part.empty() ? "" : effect.part + ", ") + in_words(effect.band);
+}
+
 /// The candidate that a number belongs to, made if need be.
 Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool is_absent,
                         const std::vector<PlacedEffect>& effects) {
@@ -57,9 +71,15 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
   const auto effect =
       std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
   Candidate wanted{amplitude.name, {}, amplitude.meaning, Candidate::Kind::input, {}};
+  wanted.acts_in_wall = path == "solid.material";
   if (is_absent && effect != effects.end()) {
-    wanted = {effect->type, effect->part, effect->meaning, Candidate::Kind::effect, {}};
+    wanted = {effect->type, place_in_words(*effect), effect->meaning, Candidate::Kind::effect, {}};
     wanted.variant_of = effect->variant_of;
+  }
+  if (effect != effects.end()) {
+    wanted.type = effect->type, wanted.part = effect->part, wanted.band = effect->band;
+    wanted.number = amplitude.name.substr(path.size() + 1);
+    wanted.acts_in_wall = effect->acts_in_wall;
   }
   if (wanted.kind == Candidate::Kind::effect && amplitude.one_sided) {  // one at a time
     wanted.parameter = amplitude.name.substr(path.size() + 1);
@@ -118,10 +138,9 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
   std::vector<PlacedEffect> all;
   for (const PossibleEffect& e : list.possible)
     if (is_wanted(e, diagnosis))
-      all.push_back({"solid.effects." + e.type + (e.part.empty() ? "" : "_" + e.part), e.type, e.part, e.meaning, true,
-                     e.required, e.variant_of});
+      all.push_back({path_of(e), e.type, e.part, e.meaning, true, e.required, e.variant_of, e.band, e.in_wall});
   for (const PresentEffect& e : list.present)
-    all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of});
+    all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of, e.band});
   return all;
 }
 
@@ -144,6 +163,7 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
     if (!effect.is_new) continue;
     overlay.values.push_back({effect.path + ".type", effect.type});
     if (!effect.part.empty()) overlay.values.push_back({effect.path + ".region", effect.part});
+    add_band(overlay, effect);
     for (const std::string& required : effect.required)  // the period of a load
       overlay.values.push_back({effect.path + "." + required, number_text(common.time.end - common.time.start)});
   }
@@ -152,6 +172,11 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
   if (from.has("observer")) overlay.values.push_back({"observer", ""});
   for (std::string& section : not_recorded(from, data)) overlay.values.push_back({std::move(section), ""});
   write_overlay(file, overlay);
+}
+
+void add_band(Overlay& overlay, const PlacedEffect& effect) {
+  if (effect.band.from > 0) overlay.values.push_back({effect.path + ".from", number_text(effect.band.from)});
+  if (effect.band.to < 1) overlay.values.push_back({effect.path + ".to", number_text(effect.band.to)});
 }
 
 void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& varied, const MatrixXd& residuals,

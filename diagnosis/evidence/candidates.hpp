@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "common/config/case_file.hpp"
+#include "common/config/overlay.hpp"
 #include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 #include "diagnosis/evidence/sensitivities.hpp"
+#include "solid/results/band.hpp"
 
 namespace tether {
 
@@ -17,6 +19,8 @@ struct PlacedEffect {
   bool is_new = false;                ///< the case itself does not have it
   std::vector<std::string> required;  ///< numbers that must be given for it
   std::string variant_of = {};        ///< the effect that it is a special shape of; empty: of none
+  Band band = {};                     ///< of the part, where along the vessel it acts
+  bool acts_in_wall = false;          ///< on what the wall is made of, not on its surface
 };
 
 /// What the solid program says could be missing, and what the case has; restricted as the case wants it. Throws
@@ -29,6 +33,9 @@ void check_diagnosis(const std::filesystem::path& case_file);
 /// The case with every candidate at the value at which it does nothing: the model whose runs a diagnosis asks for.
 void write_candidates(const std::filesystem::path& file, const CaseFile& from, const Observations& data,
                       const std::vector<PlacedEffect>& effects);
+
+/// What a case must say of the part of its place in which an effect acts.
+void add_band(Overlay& overlay, const PlacedEffect& effect);
 
 /// Adds what the runs show: the change of all data per amplitude, and what its number is called. residuals: of
 /// the model as it is, then one column for each of `varied`. (D.7)

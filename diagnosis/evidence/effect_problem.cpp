@@ -26,6 +26,9 @@ double Amplitude::value(double amplitude) const {
 }
 
 bool is_variant(const Candidate& one, const Candidate& other) {
+  const bool is_part = one.band.is_all() != other.band.is_all();
+  if (is_part && !one.type.empty() && one.type == other.type && one.part == other.part && one.number == other.number)
+    return true;
   const bool variant = one.variant_of == other.name || other.variant_of == one.name;
   return variant && one.where == other.where && one.parameter == other.parameter;
 }

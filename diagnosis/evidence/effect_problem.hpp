@@ -8,6 +8,7 @@
 #include "diagnosis/evidence/scores.hpp"
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
+#include "solid/results/band.hpp"
 
 namespace tether {
 
@@ -43,12 +44,16 @@ struct Candidate {
   std::string parameter = {};            ///< the only one of the effect's numbers that differs; empty: all of them
   DataPlace data = {};                   ///< of an error of the data
   std::string variant_of = {};           ///< the effect that it is a special shape of
+  std::string type = {}, part = {},
+              number = {};    ///< of an effect, new or in the model: what, where, which of its numbers
+  Band band = {};             ///< of the part, where along the vessel it acts
+  bool acts_in_wall = false;  ///< on what the wall is made of, not on its surface
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };
 
 /// Whether one candidate is a special shape of the other at the same place, as normal_visco_elastic is a visco_elastic
-/// support. Which of the two it is is no other verdict.
+/// support, or the same in a part of its place. Which of the two it is is no other verdict.
 bool is_variant(const Candidate& one, const Candidate& other);
 
 /// A way in which data may be off that no effect has to explain: a region at a moment, or over the beat.

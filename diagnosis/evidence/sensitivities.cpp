@@ -56,6 +56,10 @@ void check_announced(const Words& known, const std::string& field, const Words& 
   }
 }
 
+std::string in_folder(const std::string& name) {
+  return "candidates/runs/" + name;
+}
+
 }  // namespace
 
 std::vector<VariedNumber> varied_numbers(const std::vector<ParameterInfo>& parameters, const DiagnosisCase& diagnosis,
@@ -72,14 +76,21 @@ std::vector<VariedNumber> varied_numbers(const std::vector<ParameterInfo>& param
   return varied;
 }
 
-Sensitivities sensitivities_of(ModelRuns& runs, std::vector<VariedNumber> varied) {
-  const std::string folder = "candidates/runs/";
-  std::vector<WantedRun> wanted;
-  for (const VariedNumber& one : varied) wanted.push_back({folder + one.number.name, {{one.number.name}, {one.value}}});
-  Sensitivities all{std::move(varied), runs.make({{folder + "base", {}}})};
+Sensitivities sensitivities_of(ModelRuns& runs, const std::vector<VariedNumber>& varied) {
+  Sensitivities all{{}, runs.make({{in_folder("base"), {}}})};
   if (all.motions.front().failed()) throw run_error("the model as it is: {}", all.motions.front().failure);
-  for (FinishedMotion& motion : runs.make(wanted)) all.motions.push_back(std::move(motion));
+  add_sensitivities(all, runs, varied);
   return all;
+}
+
+std::vector<FinishedMotion> add_sensitivities(Sensitivities& all, ModelRuns& runs,
+                                              const std::vector<VariedNumber>& more) {
+  std::vector<WantedRun> wanted;
+  for (const VariedNumber& one : more) wanted.push_back({in_folder(one.number.name), {{one.number.name}, {one.value}}});
+  std::vector<FinishedMotion> motions = runs.make(wanted);
+  all.varied.insert(all.varied.end(), more.begin(), more.end());
+  all.motions.insert(all.motions.end(), motions.begin(), motions.end());
+  return motions;
 }
 
 }  // namespace tether

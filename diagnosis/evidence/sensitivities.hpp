@@ -28,6 +28,9 @@ std::vector<VariedNumber> varied_numbers(const std::vector<protocol::ParameterIn
 
 /// Makes these runs, in candidates/runs. Throws RunError if the model as it is does not come to its end: without it
 /// there is nothing to compare with.
-Sensitivities sensitivities_of(ModelRuns& runs, std::vector<VariedNumber> varied);
+Sensitivities sensitivities_of(ModelRuns& runs, const std::vector<VariedNumber>& varied);
+/// Makes a run for each of these as well, and adds it; returns the motions of these alone.
+std::vector<FinishedMotion> add_sensitivities(Sensitivities& all, ModelRuns& runs,
+                                              const std::vector<VariedNumber>& more);
 
 }  // namespace tether

@@ -1,5 +1,6 @@
 #include "diagnosis/search/diagnosis.hpp"
 
+#include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
 #include "diagnosis/search/trials.hpp"
 
@@ -15,6 +16,21 @@ void add_refined(EffectProblem& problem, const Evidence& evidence, const std::ve
   for (const auto& [of, motion] : refined)
     if (!motion.failed())
       add_numerics(problem, of, problem.residual - residuals_of(evidence, {motion}, problem.residual).col(0));
+}
+
+/// Candidates that act in a part of their place: what their runs show is added to the problem. residuals: of the runs,
+/// whitened.
+void add_parts(EffectProblem& problem, const std::vector<VariedNumber>& parts, const MatrixXd& residuals,
+               const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis) {
+  MatrixXd with_base(residuals.rows(), residuals.cols() + 1);
+  with_base << problem.residual, residuals;
+  add_model_changes(problem, parts, with_base, effects, diagnosis);
+}
+
+/// The same runs of a problem that has more amplitudes.
+std::vector<ShownRun> as_many(std::vector<ShownRun> runs, Eigen::Index amplitudes) {
+  for (ShownRun& run : runs) run.amplitudes.conservativeResizeLike(VectorXd::Zero(amplitudes));
+  return runs;
 }
 
 /// Accepted effects with rivals that these data cannot tell from them. runs: of the sensitivities; the pairs' are
@@ -51,16 +67,25 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   report.case_name = given.file.common().name;
   report.title = given.file.common().title;
   report.alpha = given.diagnosis.alpha;
-  const Sensitivities sensitivities =
-      sensitivities_of(runs, varied_numbers(runs.parameters(), given.diagnosis, given.file));
+  Division division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file));
+  Sensitivities sensitivities = sensitivities_of(runs, division.undivided());
   const Evidence evidence(given.data, given.lumen, sensitivities.motions.front());
   EffectProblem problem = problem_of(given, evidence, sensitivities, effects);
   add_refined(problem, evidence, refined);
   const Whitening whitening(evidence, problem);
   report.problem = whitening(std::move(problem));
   Trials trials(report.problem, evidence, whitening, sensitivities.motions.front(), runs);
-  report.found = search_effects(report.problem, search_settings(given.diagnosis, settings),
-                                [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); });
+  const SearchSettings how = search_settings(given.diagnosis, settings);
+  const ResidualAt residual_at = [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); };
+  Weighing weighing = weigh_effects(report.problem, how, residual_at);
+  for (std::vector<VariedNumber> parts = division.next(report.problem, weighing.weighed); !parts.empty();
+       parts = division.next(report.problem, weighing.weighed)) {
+    const std::vector<FinishedMotion> motions = add_sensitivities(sensitivities, runs, parts);
+    const MatrixXd residuals = whitening(residuals_of(evidence, motions, evidence.problem().residual));
+    add_parts(report.problem, parts, residuals, effects, given.diagnosis);
+    weighing = weigh_effects(report.problem, how, residual_at, as_many(weighing.shown, report.problem.changes.cols()));
+  }
+  report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, runs.columns());
   report.cost.sensitivity_runs = static_cast<int>(sensitivities.motions.size());
   report.cost.runs = runs.cost().runs;

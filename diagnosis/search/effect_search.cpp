@@ -27,9 +27,21 @@ constexpr double alone = 0.98;
 constexpr double noteworthy = 2;     ///< of what an error is allowed
 constexpr double unexplainable = 6;  ///< misfit beyond noise, as above: neither noise nor errors allowed do that
 
+/// Of each candidate, whether one of its numbers is.
+std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings& settings) {
+  std::vector<bool> refused;
+  for (const Candidate& candidate : problem.candidates)
+    refused.push_back(std::any_of(candidate.amplitudes.begin(), candidate.amplitudes.end(), [&](Index i) {
+      const std::string& name = problem.amplitudes[static_cast<std::size_t>(i)].name;
+      return std::find(settings.refused.begin(), settings.refused.end(), name) != settings.refused.end();
+    }));
+  return refused;
+}
+
 class Search {
  public:
-  Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at)
+  Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
+         const Weighed& weighed)
       : problem_(problem),
         counted_(counted(problem)),
         settings_(settings),
@@ -37,6 +49,7 @@ class Search {
         plain_(problem),
         foretold_(counted_) {
     now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
+    result_.weighed = weighed;
     result_.independent = problem.independent(problem.training).sum();
     rival_of_.resize(problem.candidates.size());
     std::iota(rival_of_.begin(), rival_of_.end(), std::size_t{0});
@@ -46,7 +59,6 @@ class Search {
     const Scores scores = plain_.scores(problem_.changes, problem_.residual);
     result_.effects = test_all(problem_, scores, settings_.alpha, result_.independent);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
-    weigh();
     while (add_one()) continue;
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
@@ -70,13 +82,6 @@ class Search {
     return std::max(1.0, plain_.counted_misfit(residual) / result_.independent);
   }
 
-  bool is_refused(std::size_t candidate) const {
-    const auto& own = problem_.candidates[candidate].amplitudes;
-    return std::any_of(own.begin(), own.end(), [&](Index i) {
-      const std::string& name = problem_.amplitudes[static_cast<std::size_t>(i)].name;
-      return std::find(settings_.refused.begin(), settings_.refused.end(), name) != settings_.refused.end();
-    });
-  }
   /// Of those accepted, what is added to the model: errors of the data are not.
   int added() const {
     return static_cast<int>(std::count_if(now_.accepted.begin(), now_.accepted.end(),
@@ -84,21 +89,6 @@ class Search {
   }
   bool is_accepted(std::size_t candidate) const {
     return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
-  }
-
-  /// How probable each explanation is; what matters to that and was not run at its size is run.
-  void weigh() {
-    std::vector<bool> left_out;
-    for (std::size_t c = 0; c < problem_.candidates.size(); ++c) left_out.push_back(is_refused(c));
-    for (int round = 0; true; ++round) {
-      const SetEvidence evidence(problem_, shown_);
-      const Posterior posterior = posterior_of(problem_, evidence, left_out);
-      const MatrixXd wanted = wanted_runs(problem_, evidence, posterior);
-      result_.weighed = weighed(problem_, evidence, posterior);
-      if (wanted.cols() == 0 || round == rounds) return;
-      const MatrixXd residuals = residual_at_(wanted);
-      for (Index k = 0; k < wanted.cols(); ++k) shown_.push_back({wanted.col(k), residuals.col(k)});
-    }
   }
 
   /// The most probable group that was not tried yet; null if none is as probable as not.
@@ -400,15 +390,32 @@ class Search {
   AmplitudeState now_;
   SearchResult result_;
   std::vector<std::size_t> rival_of_;
-  std::vector<ShownRun> shown_;
   std::set<std::size_t> tried_;  ///< groups
 };
 
 }  // namespace
 
+Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
+                       std::vector<ShownRun> shown) {
+  const std::vector<bool> left_out = refused_in(problem, settings);
+  for (int round = 0; true; ++round) {
+    const SetEvidence evidence(problem, shown);
+    const Posterior posterior = posterior_of(problem, evidence, left_out);
+    const MatrixXd wanted = wanted_runs(problem, evidence, posterior);
+    if (wanted.cols() == 0 || round == rounds) return {weighed(problem, evidence, posterior), std::move(shown)};
+    const MatrixXd residuals = residual_at(wanted);
+    for (Index k = 0; k < wanted.cols(); ++k) shown.push_back({wanted.col(k), residuals.col(k)});
+  }
+}
+
+SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
+                            const Weighed& weighed) {
+  return Search(problem, settings, residual_at, weighed).run();
+}
+
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
                             const ResidualAt& residual_at) {
-  return Search(problem, settings, residual_at).run();
+  return search_effects(problem, settings, residual_at, weigh_effects(problem, settings, residual_at).weighed);
 }
 
 }  // namespace tether

@@ -44,8 +44,19 @@ struct SearchResult {
   bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
 };
 
+/// How probable each explanation is, and the runs that told.
+struct Weighing {
+  Weighed weighed;
+  std::vector<ShownRun> shown;
+};
+/// Weighs; what matters and was not run at its size is run and weighed again. shown: runs that were made before.
+Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
+                       std::vector<ShownRun> shown = {});
+
 /// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the
 /// data at hand and those held out ask for it, and judges what is left. (D.8-D.13)
+SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
+                            const Weighed& weighed);
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
                             const ResidualAt& residual_at);
 

@@ -29,16 +29,21 @@ const std::string& family(const Candidate& candidate) {
   return candidate.variant_of.empty() ? candidate.name : candidate.variant_of;
 }
 
+/// Of a family's odds: a part of a place has a quarter of what all of it has.
+double weight(const Candidate& candidate) {
+  return candidate.band.is_all() ? 1 : 0.25;
+}
+
 /// The logarithm of each candidate's odds beforehand: its kind's are shared alike by the families, those of a family
 /// by its members.
 std::vector<double> log_odds(const EffectProblem& problem) {
-  std::map<CandidateKind, std::map<std::string, int>> count;
-  for (const Candidate& candidate : problem.candidates) ++count[candidate.kind][family(candidate)];
+  std::map<CandidateKind, std::map<std::string, double>> weights;
+  for (const Candidate& candidate : problem.candidates) weights[candidate.kind][family(candidate)] += weight(candidate);
   std::vector<double> all;
   for (const Candidate& candidate : problem.candidates) {
-    const auto& families = count[candidate.kind];
-    all.push_back(
-        std::log(expected(candidate.kind) / static_cast<double>(families.size() * families.at(family(candidate)))));
+    const auto& families = weights[candidate.kind];
+    all.push_back(std::log(expected(candidate.kind) * weight(candidate) /
+                           (static_cast<double>(families.size()) * families.at(family(candidate)))));
   }
   return all;
 }

@@ -129,7 +129,7 @@ class ElementsOf final : public WallElements {
   }
 
   const WallLocal& local_at(std::size_t e) const {
-    return local_[places_.empty() ? 0 : static_cast<std::size_t>(places_[e].region)];
+    return local_[places_.empty() ? 0 : static_cast<std::size_t>(places_[e].zone)];
   }
 
   /// Factor of the law's response, and whether there is more than the law (S.19).
@@ -328,7 +328,7 @@ void ElementsOf<Element>::set_places(std::vector<ElementPlace> places) {
   TETHER_ASSERT(places.size() == cells_.size(), "{} places for {} elements", places.size(), cells_.size());
   places_ = std::move(places);
   int last = 0;
-  for (const ElementPlace& place : places_) last = std::max(last, place.region);
+  for (const ElementPlace& place : places_) last = std::max(last, place.zone);
   local_.assign(static_cast<std::size_t>(last) + 1, WallLocal{});
 }
 

@@ -1,5 +1,6 @@
 #include "solid/elements/wall_local.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tether {
@@ -11,6 +12,7 @@ FibreResponse fibre_response(const Fibres& fibres, double strain) {
 }
 
 WallLocal mixture(const std::vector<WallLocal>& parts, const std::vector<double>& shares) {
+  if (std::all_of(parts.begin(), parts.end(), [](const WallLocal& part) { return part.is_plain(); })) return {};
   WallLocal mixed;
   mixed.stiffness = mixed.thickness = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) mixed.thickness += shares[i] * parts[i].thickness;

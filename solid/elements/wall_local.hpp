@@ -33,7 +33,7 @@ WallLocal mixture(const std::vector<WallLocal>& parts, const std::vector<double>
 
 /// Where an element of the wall is.
 struct ElementPlace {
-  int region;    ///< of the outer wall, or beyond these a mixture of them
+  int zone;      ///< of the outer wall, or beyond these a mixture of them
   Vec3 outward;  ///< unit normal of the outer wall there
   Vec3 axial;    ///< unit, along the vessel, tangential (S.15); zero if not known
 };

@@ -5,6 +5,7 @@
 
 #include "common/base/effect.hpp"
 #include "common/io/record.hpp"
+#include "solid/results/band.hpp"
 
 namespace tether {
 
@@ -31,10 +32,11 @@ struct PossibleEffect {
   static constexpr const char* type_name = "possible_effect";
   std::string type, part, meaning;
   EffectRole role = EffectRole::replaces;
-  bool generic = false;
+  bool generic = false, in_wall = false;
   std::string variant_of;
   std::vector<OfferedAmplitude> amplitudes;
   std::vector<std::string> required;
+  Band band = {};
 
   static void fields(auto& self, auto&& field) {
     field("type", self.type, "as in the case file");
@@ -42,9 +44,12 @@ struct PossibleEffect {
     field("meaning", self.meaning, "in words");
     field("role", self.role, "what it does to a model");
     field("generic", self.generic, "says that something acts, not what: sought only where a case asks for it");
+    field("in_wall", self.in_wall, "is of what the wall is made of, not of what acts on its surface");
     field("variant_of", self.variant_of, "the effect that it is a special shape of; empty: of none");
     field("amplitudes", self.amplitudes, "by which it is switched on");
     field("required", self.required, "parameters that must be given for it");
+    field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
+    field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
   }
 };
 
@@ -52,12 +57,15 @@ struct PossibleEffect {
 struct PresentEffect {
   static constexpr const char* type_name = "present_effect";
   std::string path, type, part, variant_of;
+  Band band = {};
 
   static void fields(auto& self, auto&& field) {
     field("path", self.path, "where it stands in the case");
     field("type", self.type, "as in the case file");
     field("part", self.part, "region or ring");
     field("variant_of", self.variant_of, "the effect that it is a special shape of; empty: of none");
+    field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
+    field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
   }
 };
 

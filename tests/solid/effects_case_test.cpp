@@ -111,6 +111,26 @@ TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(error("{type: expression}").find("needs 'normal'"), std::string::npos);
   EXPECT_NE(error("{type: fibres, region: inlet_ring}").find("not in a ring"), std::string::npos);
   EXPECT_NE(error("{type: traction}").find("period"), std::string::npos);
+  EXPECT_NE(
+      error("{type: loose_ring, region: inlet_ring, to: 0.5}").find("are of what acts in regions of the outer wall"),
+      std::string::npos);
+  EXPECT_NE(error("{type: contact, region: wall, from: 0.5, to: 0.5}").find("must be beyond 'from'"),
+            std::string::npos);
+}
+
+/// Of the area in which it acts, a support has what lies between: a tube's half, wherever its triangles are.
+TEST(EffectsOfACase, ASupportActsBetweenTwoPlacesAlongTheVessel) {
+  const auto force = [](const std::string& more) {
+    const PreparedWall wall =
+        wall_with("  effects: {spine: {type: visco_elastic, region: wall, stiffness: 1e5" + more + "}}\n");
+    const Points moved = Points::Constant(3, wall.model->mesh().points.cols(), 0.01),
+                 still = Points::Zero(3, moved.cols());
+    return wall.model->supports()[2].resultant({moved, still, 0, 1e-3})[0];
+  };
+  const double all = force("");
+  EXPECT_NEAR(force(", to: 0.5") / all, 0.5, 1e-9);
+  EXPECT_NEAR(force(", from: 0.13, to: 0.47") / all, 0.34, 1e-9);
+  EXPECT_NEAR(force(", from: 0.47") / all, 0.53, 1e-9);
 }
 
 }  // namespace

@@ -27,10 +27,14 @@ WallLocal local_of(const std::string& type, const std::map<std::string, double>&
   return local;
 }
 
+Configured<WallEffect> configured(const std::string& type, const std::map<std::string, double>& values) {
+  return {wall_effects(), {type, values}};
+}
+
 /// The elements of a wall, all of it different in this way.
 std::unique_ptr<WallElements> elements_with(const WallMesh& wall, const WallLocal& local) {
   auto elements = make_wall_elements(wall, wall.points);
-  elements->set_places(element_places(wall, place_along_vessel(wall)).of_elements);
+  elements->set_places(element_places(wall, wall.outside, place_along_vessel(wall)).of_elements);
   elements->set_local(std::vector<WallLocal>(wall.outside.size(), local));
   return elements;
 }
@@ -135,7 +139,7 @@ TEST(StiffnessFactor, ActsInItsRegionOnly) {
   });
   wall.outside.push_back(right);
   auto elements = make_wall_elements(wall, wall.points);
-  elements->set_places(element_places(wall, {}).of_elements);
+  elements->set_places(element_places(wall, wall.outside, {}).of_elements);
   elements->set_local({WallLocal{}, local_of("stiffness_factor", {{"factor", 3}})});
   Random random(6);
   const Points x = wall.points + 0.05 * random.matrix(3, wall.points.cols());
@@ -154,7 +158,7 @@ TEST(StiffnessFactor, OfARegionThatCutsElementsCountsByItsShare) {
   settings.regions = {{"slice", 0, 360, 0.13, 0.55}, {"rest"}};
   const WallMesh wall = sweep(settings).wall;
   auto elements = make_wall_elements(wall, wall.points);
-  ElementPlaces places = element_places(wall, {});
+  ElementPlaces places = element_places(wall, wall.outside, {});
   elements->set_places(places.of_elements);
   const std::vector<WallLocal> regions{local_of("stiffness_factor", {{"factor", 3}}),
                                        local_of("thickness_factor", {{"factor", 2}})};
@@ -164,6 +168,20 @@ TEST(StiffnessFactor, OfARegionThatCutsElementsCountsByItsShare) {
   const Points x = Eigen::Vector3d(1.02, 1.02, 0.97).asDiagonal() * wall.points;
   const double plain = make_wall_elements(wall, wall.points)->energy(x, *rubber());
   EXPECT_NEAR(elements->energy(x, *rubber()) / plain, 0.42 * 3 + 0.58 * 2, 1e-9);
+}
+
+/// Two that overlap: what an element has of each counts by its share, and beside them the wall is as it was.
+TEST(StiffnessFactor, ActsBetweenTwoPlacesAlongTheVessel) {
+  SweepSettings settings = circular_tube_settings(2, 4, 0.2, 16, 5, 2);
+  const WallMesh wall = sweep(settings).wall;
+  std::vector<LocalEffect> effects;
+  effects.push_back({"stiff", configured("stiffness_factor", {{"factor", 3}}), {0}, {0.13, 0.55}});
+  effects.push_back({"soft", configured("stiffness_factor", {{"factor", 0.5}}), {0}, {0.4, 1}});
+  const WallModel model(wall, {.material = "neo_hookean", .material_values = rubber_values, .density = 1}, wall.points,
+                        {}, {}, std::move(effects));
+  const Points x = Eigen::Vector3d(1.02, 1.02, 0.97).asDiagonal() * wall.points;
+  const double plain = make_wall_elements(wall, wall.points)->energy(x, *rubber());
+  EXPECT_NEAR(model.elements().energy(x, *rubber()) / plain, 0.13 + 0.27 * 3 + 0.15 * 1.5 + 0.45 * 0.5, 1e-9);
 }
 
 TEST(ThicknessFactor, ScalesElasticityViscosityAndMassTogether) {
@@ -207,10 +225,6 @@ TEST(AxialTension, ResistsGoingSidewaysLikeAString) {
     const double added = with->energy(x, *rubber()) - make_wall_elements(wall, wall.points)->energy(x, *rubber());
     EXPECT_NEAR(added, 7 * 0.1 * 0.1 / 2 * 4, 1e-12) << name_of(kind);
   }
-}
-
-Configured<WallEffect> configured(const std::string& type, const std::map<std::string, double>& values) {
-  return {wall_effects(), {type, values}};
 }
 
 struct Tube {

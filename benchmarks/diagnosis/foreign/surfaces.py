@@ -73,10 +73,23 @@ def write_ply(path, points, triangles):
         np.savetxt(file, np.c_[np.full(len(triangles), 3), triangles], fmt="%d")
 
 
+def motion_of(run):
+    """Nodes at rest [n, 3], displacements [k, n, 3] and their times [k]: of a .npz of data/peer_hidden, or of a run of Tether (lumen.motion)."""
+    if run.suffix == ".npz":
+        data = np.load(run)
+        return data["X"], data["U"].astype(float), data["t"]
+    with open(run, "rb") as file:
+        file.readline()
+        count = int(np.fromfile(file, "<i8", 1)[0])
+        nodes = np.fromfile(file, "<f8", 3 * count).reshape(count, 3)
+        records = np.fromfile(file, np.dtype([("time", "<f8"), ("vectors", "<f4", (count, 3))]))
+    later = records["time"] > 0
+    return nodes, records["vectors"][later].astype(float), records["time"][later]
+
+
 def make(run, folder, frames, deviation, length, correlation, seed):
-    """Surfaces of a run (a .npz of data/peer_hidden) at `frames` moments of a beat, and times.csv, into a folder."""
-    data = np.load(run)
-    nodes, motion, times = data["X"], data["U"].astype(float), data["t"]
+    """Surfaces of a run at `frames` moments of a beat, and times.csv, into a folder."""
+    nodes, motion, times = motion_of(run)
     generator = np.random.default_rng(seed)
     lattice = Lattice(nodes)
     angle, along, triangles = triangulation(generator)

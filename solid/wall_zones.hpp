@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "common/mesh/mesh.hpp"
+#include "solid/local_effect.hpp"
+
+namespace tether {
+
+/// A part of the outer wall that is alike: one region, between two places along the vessel.
+struct WallZone {
+  Patch patch;
+  int region;  ///< number of the outer wall's patch
+  Band band;
+};
+
+/// The regions, cut where an effect of theirs begins or ends. along: a number at each node that grows along the vessel
+/// from 0 to 1 (S.15); may be empty if no effect has a band.
+std::vector<WallZone> wall_zones(const WallMesh& mesh, const std::vector<LocalEffect>& effects, const VectorXd& along);
+
+/// Whether the effect acts there.
+bool acts_in(const LocalEffect& effect, const WallZone& zone);
+
+}  // namespace tether
