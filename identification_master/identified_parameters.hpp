@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "common/base/named_values.hpp"
 #include "common/base/transform.hpp"
 #include "common/base/types.hpp"
 #include "common/config/case_file.hpp"
 #include "common/protocol/messages.hpp"
 #include "identification_master/identification_case.hpp"
+#include "identification_master/results/named_values.hpp"
 
 namespace tether {
 

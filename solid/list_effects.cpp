@@ -57,27 +57,20 @@ std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidC
 
 constexpr std::array halves{Band{0, 0.5}, Band{0.5, 1}};
 
-/// Parts of the wall that are divided into halves: regions, and of what the wall itself is made of all of it.
+/// Parts of the wall that are divided into halves: regions, and of what may change along the vessel all of it.
 std::vector<std::string> divided_for(const EffectDeclaration& effect, const WallMesh& mesh) {
   std::vector<std::string> parts;
   if (effect.target == EffectTarget::whole || effect.place == Place::ring) return parts;
-  for (const Patch& region : mesh.outside) parts.push_back(region.name);
-  if (effect.place == Place::wall && mesh.outside.size() > 1) parts.push_back("");
+  if (effect.changes_along) parts.push_back("");
+  for (const Patch& region : mesh.outside)
+    if (!effect.changes_along || mesh.outside.size() > 1) parts.push_back(region.name);
   return parts;
 }
 
 PossibleEffect possible_effect(const EffectDeclaration& effect, const std::string& part, const Band& band,
                                const UnitSystem& units) {
-  PossibleEffect possible{effect.name,
-                          part,
-                          effect.meaning,
-                          effect.role,
-                          effect.generic,
-                          effect.place == Place::wall,
-                          effect.variant_of,
-                          {},
-                          {},
-                          band};
+  PossibleEffect possible{effect.name, part, effect.meaning, effect.role, effect.generic, effect.variant_of, {},
+                          {},          band};
   for (const Parameter& p : effect.parameters) {
     const bool switches = !std::isnan(p.absent), must_be_given = std::isnan(p.standard);
     if (switches) possible.amplitudes.push_back({p.name, p.meaning, units.symbol(p.dimension)});

@@ -1,6 +1,9 @@
+#include <iostream>
+
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
+#include "diagnosis/evidence/coarse_runs.hpp"
 #include "diagnosis/evidence/living_runs.hpp"
 #include "diagnosis/explanation/interruption.hpp"
 #include "diagnosis/search/diagnosis_text.hpp"
@@ -24,18 +27,33 @@ std::vector<RefinedRun> refined_runs(const DiagnosedCase& given, const CommandLi
     cost.runs += runs.cost().runs;
     cost.runs_made += runs.cost().made;
     cost.cpu_seconds += runs.cost().cpu_seconds;
-    if (!run.failed()) run = on_nodes_of(given.lumen, lumen_in(refined.file), run);
+    if (!run.failed()) run = NodeMap(given.lumen, lumen_in(refined.file))(run);
     all.push_back({std::move(refined), std::move(run)});
   }
   return all;
 }
 
+/// Those of a coarser model, which show what each number does to first order; none where the case does not want it, or
+/// the coarser model does not come to its end.
+std::unique_ptr<ModelRuns> coarse_runs(const DiagnosedCase& given, const CommandLine& command,
+                                       const fs::path& candidates) {
+  if (!given.diagnosis.coarse) return nullptr;
+  const fs::path file = write_coarse(candidates, given);
+  auto runs = std::make_unique<CoarseRuns>(std::make_unique<LivingRuns>(command, file, candidates.parent_path()),
+                                           given.lumen, lumen_in(file), file.stem().string());
+  if (!runs->make({base_run()}).front().failed()) return runs;
+  if (!command.quiet) std::cout << "The coarser model does not come to its end: all runs are of the model itself.\n";
+  return nullptr;
+}
+
 std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis,
                               const std::vector<std::string>& pictures) {
   std::string text = fmt::format(
-      "{} runs, {} of them made now, {:.0f} s of CPU\nIn {}:\n  diagnosis.json     every candidate, what these data "
+      "{} runs, {} of them of a coarser model, {} made now, {:.0f} s of CPU\nIn {}:\n  diagnosis.json     every "
+      "candidate, what these data "
       "would show, cost\n",
-      diagnosis.cost.runs, diagnosis.cost.runs_made, diagnosis.cost.cpu_seconds, output.string());
+      diagnosis.cost.runs, diagnosis.cost.coarse_runs, diagnosis.cost.runs_made, diagnosis.cost.cpu_seconds,
+      output.string());
   if (diagnosis.suggested_case)
     text += fmt::format("  suggested.yaml     the case with the effect: tether identify {}\n",
                         (output / *diagnosis.suggested_case).string());
@@ -55,7 +73,8 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   DiagnosisCost of_refined;
   const std::vector<RefinedRun> refined = refined_runs(given, command, candidates, of_refined);
   LivingRuns runs(command, candidates, output);
-  DiagnosisReport report = diagnose(given, effects, runs, refined, settings);
+  const auto coarse = coarse_runs(given, command, candidates);
+  DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined}, settings);
   report.cost.runs += of_refined.runs;
   report.cost.runs_made += of_refined.runs_made;
   report.cost.cpu_seconds += of_refined.cpu_seconds;

@@ -19,7 +19,8 @@ std::string place_of(const ClaimedEffect& effect) {
 }
 
 bool is(const ClaimedEffect& found, const Answer::Effect& hidden) {
-  return found.name == hidden.name && (hidden.where.empty() || found.where == hidden.where);
+  return found.name == hidden.name &&
+         (hidden.where.empty() || found.where == hidden.where || found.where.starts_with(hidden.where + ", "));
 }
 
 bool is_accepted(const ClaimedEffect& effect) {

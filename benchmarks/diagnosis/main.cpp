@@ -43,7 +43,7 @@ struct Surrogate {
         sensitivities(sensitivities_of(
             runs, Division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file)).undivided())),
         evidence(given.data, given.lumen, sensitivities.motions.front()),
-        as_measured(problem_of(given, evidence, sensitivities, effects)),
+        as_measured(problem_of(given, evidence, sensitivities.motions.front(), sensitivities, effects)),
         whitening(evidence, as_measured),
         problem(whitening(as_measured)) {
     const DiagnosisCase& d = given.diagnosis;

@@ -76,6 +76,7 @@ struct EffectDeclaration {
   EffectTarget target = EffectTarget::part;
   bool generic = false;         ///< says that something acts, not what: sought only where a case asks for it
   std::string variant_of = {};  ///< the effect that it is a special shape of: one for the other is no other verdict
+  bool changes_along = false;   ///< it may differ from one half of the vessel to the other
 };
 
 /// An entry of a family's registry: `Physics` is the family's abstract class of point functions (a material, a support,

@@ -71,7 +71,6 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
   const auto effect =
       std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
   Candidate wanted{amplitude.name, {}, amplitude.meaning, Candidate::Kind::input, {}};
-  wanted.acts_in_wall = path == "solid.material";
   if (is_absent && effect != effects.end()) {
     wanted = {effect->type, place_in_words(*effect), effect->meaning, Candidate::Kind::effect, {}};
     wanted.variant_of = effect->variant_of;
@@ -79,7 +78,6 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
   if (effect != effects.end()) {
     wanted.type = effect->type, wanted.part = effect->part, wanted.band = effect->band;
     wanted.number = amplitude.name.substr(path.size() + 1);
-    wanted.acts_in_wall = effect->acts_in_wall;
   }
   if (wanted.kind == Candidate::Kind::effect && amplitude.one_sided) {  // one at a time
     wanted.parameter = amplitude.name.substr(path.size() + 1);
@@ -138,7 +136,7 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
   std::vector<PlacedEffect> all;
   for (const PossibleEffect& e : list.possible)
     if (is_wanted(e, diagnosis))
-      all.push_back({path_of(e), e.type, e.part, e.meaning, true, e.required, e.variant_of, e.band, e.in_wall});
+      all.push_back({path_of(e), e.type, e.part, e.meaning, true, e.required, e.variant_of, e.band});
   for (const PresentEffect& e : list.present)
     all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of, e.band});
   return all;
@@ -179,15 +177,15 @@ void add_band(Overlay& overlay, const PlacedEffect& effect) {
   if (effect.band.to < 1) overlay.values.push_back({effect.path + ".to", number_text(effect.band.to)});
 }
 
-void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& varied, const MatrixXd& residuals,
-                       const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis) {
+void add_model_changes(EffectProblem& problem, const ModelChanges& changes, const std::vector<PlacedEffect>& effects,
+                       const DiagnosisCase& diagnosis) {
   constexpr double no_response = 1e-3;  // of a noise's deviation, over all data
-  for (std::size_t i = 0; i < varied.size(); ++i) {
-    const auto& [number, value] = varied[i];
+  for (std::size_t i = 0; i < changes.varied.size(); ++i) {
+    const auto& [number, value] = changes.varied[i];
     const auto run = static_cast<Eigen::Index>(i) + 1;
     const Amplitude amplitude = amplitude_of(number);
     const double step = amplitude.doubles ? std::log2(value / amplitude.base) : value - amplitude.base;
-    const VectorXd seen = residuals.col(0) - residuals.col(run);
+    const VectorXd seen = changes.residuals.col(0) - changes.residuals.col(run);
     const VectorXd change = seen.array().isFinite().select(seen, 0);  // (D.7)
     if (change.dot(problem.precision.cwiseProduct(change)) < no_response * no_response) continue;
     const bool is_absent = number.value == number.absent, is_assumed = holds(diagnosis.assumed, amplitude.name);
@@ -201,6 +199,7 @@ void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& 
     append_columns(problem.changes, change / step);
     problem.amplitudes.push_back(amplitude);
     problem.amplitudes.back().step = step;
+    problem.amplitudes.back().is_coarse = changes.is_coarse;
   }
 }
 

@@ -20,7 +20,6 @@ struct PlacedEffect {
   std::vector<std::string> required;  ///< numbers that must be given for it
   std::string variant_of = {};        ///< the effect that it is a special shape of; empty: of none
   Band band = {};                     ///< of the part, where along the vessel it acts
-  bool acts_in_wall = false;          ///< on what the wall is made of, not on its surface
 };
 
 /// What the solid program says could be missing, and what the case has; restricted as the case wants it. Throws
@@ -37,9 +36,15 @@ void write_candidates(const std::filesystem::path& file, const CaseFile& from, c
 /// What a case must say of the part of its place in which an effect acts.
 void add_band(Overlay& overlay, const PlacedEffect& effect);
 
-/// Adds what the runs show: the change of all data per amplitude, and what its number is called. residuals: of
-/// the model as it is, then one column for each of `varied`. (D.7)
-void add_model_changes(EffectProblem& problem, const std::vector<VariedNumber>& varied, const MatrixXd& residuals,
-                       const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis);
+/// What runs of a model with one number changed each show.
+struct ModelChanges {
+  const std::vector<VariedNumber>& varied;
+  MatrixXd residuals;      ///< of the model as it is, then one column for each of `varied`
+  bool is_coarse = false;  ///< of a coarser model
+};
+
+/// Adds what the runs show: the change of all data per amplitude, and what its number is called. (D.7)
+void add_model_changes(EffectProblem& problem, const ModelChanges& changes, const std::vector<PlacedEffect>& effects,
+                       const DiagnosisCase& diagnosis);
 
 }  // namespace tether

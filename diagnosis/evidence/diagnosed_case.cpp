@@ -32,16 +32,16 @@ DiagnosedCase::DiagnosedCase(const fs::path& path) : file(path) {
   for (const Measurement* source : data.all()) check_noise_of(source->facts(), where);
 }
 
-EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const Sensitivities& sensitivities,
-                         const std::vector<PlacedEffect>& effects) {
+EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const FinishedMotion& base,
+                         const Sensitivities& sensitivities, const std::vector<PlacedEffect>& effects) {
   const UnitSystem& units = given.file.units();
   AllowanceCase allowed = given.diagnosis.allowed;
   if (!allowed.time_shift) allowed.time_shift = 0.5 * given.file.common().time.step;
-  const FinishedMotion& base = sensitivities.motions.front();
   EffectProblem problem = evidence.problem();
   std::vector<const FinishedMotion*> all;
   for (const FinishedMotion& motion : sensitivities.motions) all.push_back(&motion);
-  add_model_changes(problem, sensitivities.varied, evidence.residuals(all), effects, given.diagnosis);
+  add_model_changes(problem, {sensitivities.varied, evidence.residuals(all), sensitivities.is_coarse}, effects,
+                    given.diagnosis);
   add_data_errors(problem, evidence, base, allowed, units);
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
   return problem;

@@ -26,9 +26,10 @@ struct DiagnosedCase {
   Observations data;
 };
 
-/// Data against the model as it is, what each candidate and each allowed error does to first order.
-EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const Sensitivities& sensitivities,
-                         const std::vector<PlacedEffect>& effects);
+/// Data against the model as it is, what each candidate and each allowed error does to first order. base: the run of
+/// the model as it is.
+EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const FinishedMotion& base,
+                         const Sensitivities& sensitivities, const std::vector<PlacedEffect>& effects);
 
 /// Data minus model of each run, a column each; where a run has no datum as `otherwise` [n]. NaN for a run that failed.
 MatrixXd residuals_of(const Evidence& evidence, const std::vector<FinishedMotion>& motions, const VectorXd& otherwise);

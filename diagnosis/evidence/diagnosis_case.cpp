@@ -19,6 +19,10 @@ void DiagnosisCase::declare(Fields& f) {
   f.flag("numerics", numerics,
          "whether half the time step, and of a swept mesh twice the elements around and along, compete with the "
          "effects: two runs that cost some six others");
+  f.flag(
+      "coarse", coarse,
+      "whether what each number does to first order is found with twice the time step, and on a swept mesh with half "
+      "the elements around and along; what is probable is run with the model itself");
 }
 
 }  // namespace tether

@@ -33,6 +33,11 @@ bool is_variant(const Candidate& one, const Candidate& other) {
   return variant && one.where == other.where && one.parameter == other.parameter;
 }
 
+EffectProblem with_discrepancy(EffectProblem problem, double size) {
+  problem.allowed_deviation(problem.allowed_patterns) *= size;
+  return problem;
+}
+
 ResidualAt linear_residual(const EffectProblem& problem) {
   return [&problem](const MatrixXd& amplitudes) -> MatrixXd {
     return (-problem.changes * amplitudes).colwise() + problem.residual;

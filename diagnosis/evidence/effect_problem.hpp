@@ -21,6 +21,7 @@ struct Amplitude {
   bool doubles = false;                        ///< the value is base 2^amplitude, not base + amplitude
   double lower = -infinite, upper = infinite;  ///< of the value
   double step = 0;                             ///< of the run that showed what it does; 0: to first order
+  bool is_coarse = false;                      ///< that run was one of a coarser model
   /// The admissible one that is nearest: its value is short of the bounds by a hundredth of the way from the base; what
   /// doubles does so ten times at most.
   double limited(double amplitude) const;
@@ -45,9 +46,8 @@ struct Candidate {
   DataPlace data = {};                   ///< of an error of the data
   std::string variant_of = {};           ///< the effect that it is a special shape of
   std::string type = {}, part = {},
-              number = {};    ///< of an effect, new or in the model: what, where, which of its numbers
-  Band band = {};             ///< of the part, where along the vessel it acts
-  bool acts_in_wall = false;  ///< on what the wall is made of, not on its surface
+              number = {};  ///< of an effect, new or in the model: what, where, which of its numbers
+  Band band = {};           ///< of the part, where along the vessel it acts
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };
@@ -91,6 +91,9 @@ struct EffectProblem {
   std::vector<Eigen::Index> allowed_patterns;  ///< the same among `allowed`
   std::vector<Pattern> pattern_names;
 };
+
+/// The same where the model itself may be off by so many times what was allowed.
+EffectProblem with_discrepancy(EffectProblem problem, double size);
 
 /// The residual with amplitudes at finite size, one column for each column of amplitudes [q x m]: runs of the model.
 using ResidualAt = std::function<MatrixXd(const MatrixXd& amplitudes)>;

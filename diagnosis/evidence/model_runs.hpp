@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/base/named_values.hpp"
 #include "common/protocol/messages.hpp"
+#include "identification_master/results/named_values.hpp"
 #include "observation_manager/measurements/measured_run.hpp"
 
 namespace tether {

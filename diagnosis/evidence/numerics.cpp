@@ -1,9 +1,7 @@
 #include "diagnosis/evidence/numerics.hpp"
 
 #include "common/config/overlay.hpp"
-#include "common/mesh/surface.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
-#include "observation_manager/measurements/signed_surface.hpp"
 
 namespace tether {
 namespace {
@@ -39,30 +37,6 @@ LumenSurface lumen_in(const std::filesystem::path& case_file) {
   MeshCase mesh;
   file.read("mesh", mesh);
   return lumen_of(load_mesh(mesh, file, WallElement::prism));
-}
-
-FinishedMotion on_nodes_of(const LumenSurface& lumen, const LumenSurface& other, const FinishedMotion& run) {
-  const Eigen::Index nodes = lumen.points.cols();
-  Eigen::Matrix3Xi corners(3, nodes);
-  Points shares(3, nodes);
-  const std::vector<Closest> closest = SignedSurface({other.points, other.triangles}).closest(lumen.points);
-  for (Eigen::Index i = 0; i < nodes; ++i) {
-    const Closest& place = closest[static_cast<std::size_t>(i)];
-    const Triangle& t = other.triangles[static_cast<std::size_t>(place.triangle)];
-    corners.col(i) << t[0], t[1], t[2];
-    shares.col(i) =
-        closest_in_triangle(place.point, other.points.col(t[0]), other.points.col(t[1]), other.points.col(t[2]));
-  }
-  FinishedMotion mapped = run;
-  mapped.motion.imaged = lumen.points;
-  mapped.motion.positions = [=, rest = other.points, imaged = lumen.points](double time) {
-    const Points moved = run.motion.positions(time) - rest;
-    Points result = imaged;
-    for (Eigen::Index i = 0; i < nodes; ++i)
-      for (Eigen::Index k = 0; k < 3; ++k) result.col(i) += shares(k, i) * moved.col(corners(k, i));
-    return result;
-  };
-  return mapped;
 }
 
 void add_numerics(EffectProblem& problem, const RefinedCase& refined, const VectorXd& change) {

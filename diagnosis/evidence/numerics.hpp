@@ -27,10 +27,6 @@ std::vector<RefinedCase> write_refined(const std::filesystem::path& candidates, 
 /// The lumen in the mesh of a case.
 LumenSurface lumen_in(const std::filesystem::path& case_file);
 
-/// A run on another mesh of the same vessel, as the nodes of `lumen` move in it: each by the displacement of the
-/// closest place of the other imaged lumen.
-FinishedMotion on_nodes_of(const LumenSurface& lumen, const LumenSurface& other, const FinishedMotion& run);
-
 /// Adds what refining changes as a candidate: amplitude 0 as the model is, 1 as the refined one.
 void add_numerics(EffectProblem& problem, const RefinedCase& refined, const VectorXd& change);
 

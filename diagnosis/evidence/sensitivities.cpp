@@ -76,8 +76,12 @@ std::vector<VariedNumber> varied_numbers(const std::vector<ParameterInfo>& param
   return varied;
 }
 
+WantedRun base_run() {
+  return {in_folder("base"), {}};
+}
+
 Sensitivities sensitivities_of(ModelRuns& runs, const std::vector<VariedNumber>& varied) {
-  Sensitivities all{{}, runs.make({{in_folder("base"), {}}})};
+  Sensitivities all{{}, runs.make({base_run()})};
   if (all.motions.front().failed()) throw run_error("the model as it is: {}", all.motions.front().failure);
   add_sensitivities(all, runs, varied);
   return all;

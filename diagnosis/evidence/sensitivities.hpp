@@ -18,6 +18,7 @@ struct VariedNumber {
 struct Sensitivities {
   std::vector<VariedNumber> varied;
   std::vector<FinishedMotion> motions;  ///< the model as it is first; then one for each of `varied`
+  bool is_coarse = false;               ///< they are of a coarser model
 };
 
 /// The numbers that may be wrong, changed by `step` of their scale, or of their prior deviation where they are there
@@ -25,6 +26,9 @@ struct Sensitivities {
 /// that the model does not have.
 std::vector<VariedNumber> varied_numbers(const std::vector<protocol::ParameterInfo>& parameters,
                                          const DiagnosisCase& diagnosis, const CaseFile& file);
+
+/// The model as it is.
+WantedRun base_run();
 
 /// Makes these runs, in candidates/runs. Throws RunError if the model as it is does not come to its end: without it
 /// there is nothing to compare with.

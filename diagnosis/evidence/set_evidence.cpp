@@ -23,10 +23,6 @@ constexpr Index across = 14;  ///< places across what counts
 constexpr std::array multiples{0.3, 1.0, 3.0, 10.0};
 constexpr double anything = 1e4;  ///< of an amplitude without prior, over what the data tell of it
 
-double scale_of(const Amplitude& amplitude) {
-  return amplitude.scale > 0 && std::isfinite(amplitude.scale) ? amplitude.scale : 1;
-}
-
 /// Falls as a power of the value: of any order of magnitude, none favoured.
 double prior_density(const Amplitude& amplitude, double size, double scale) {
   constexpr double deviation = std::numbers::sqrt2;  // of exp(-|x|)
@@ -64,8 +60,9 @@ std::vector<DiscrepancySize> sizes_of(bool may_differ) {
 
 }  // namespace
 
-SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs)
+SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Assumptions& assumed)
     : problem_(problem),
+      assumed_(assumed),
       discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)),
       curves_(problem.candidates.size()) {
   std::vector<Index> rows = problem.training;
@@ -79,20 +76,16 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (!is_scalar(c)) continue;
     const Index own = problem.candidates[c].amplitudes.front();
-    std::vector<std::pair<double, Index>> points;
-    if (const double step = amplitude_of(c).step; step != 0) points.emplace_back(step, own);
+    curves_[c].resize(2);
+    const auto add = [&](const AmplitudeCurve::Point& point) { curves_[c][point.size > 0 ? 0 : 1].add(point); };
+    if (const Amplitude& amplitude = amplitude_of(c); amplitude.step != 0)
+      add({amplitude.step, own, amplitude.step, amplitude.is_coarse});
     for (const ShownRun& run : runs)
       if (run.amplitudes(own) != 0 && (run.amplitudes.array() != 0).count() == 1 && run.residual.allFinite()) {
-        points.emplace_back(run.amplitudes(own), columns.cols());
+        add({run.amplitudes(own), columns.cols(), 1, run.is_coarse});
         append(problem.residual - run.residual);
       }
-    std::sort(points.begin(), points.end(), [](auto& a, auto& b) { return std::abs(a.first) < std::abs(b.first); });
-    curves_[c].resize(2);
-    for (const auto& [size, column] : points) {
-      Curve& side = curves_[c][size > 0 ? 0 : 1];
-      side.sizes.push_back(size);
-      side.columns.push_back(column);
-    }
+    for (AmplitudeCurve& side : curves_[c]) side.trust_the_model(columns, problem.precision(rows));
   }
   append(problem.residual);
 
@@ -103,7 +96,8 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
   const Index patterns = problem.pattern_deviation.size();
   MatrixXd errors(columns.rows(), own + patterns);
   errors << problem.allowed(rows, ordinary), problem.patterns(rows, Eigen::seqN(0, patterns));
-  const auto weight = problem.precision(rows).asDiagonal();
+  const VectorXd precision = problem.precision(rows) / (assumed.noise * assumed.noise);
+  const auto weight = precision.asDiagonal();
   const MatrixXd among = errors.transpose() * weight * errors, across = errors.transpose() * weight * columns,
                  gram = columns.transpose() * weight * columns;
   VectorXd deviations(errors.cols());
@@ -112,10 +106,14 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     deviations(k) = std::isfinite(given) ? given : among(k, k) > 0 ? anything / std::sqrt(among(k, k)) : 0;
   }
   for (const DiscrepancySize& discrepancy : discrepancies_) {
-    deviations.tail(patterns) = discrepancy.size * problem.pattern_deviation;
+    deviations.tail(patterns) = assumed.discrepancy * discrepancy.size * problem.pattern_deviation;
     Taken taken = take_out(gram, among, across, deviations);
     products_.push_back({std::move(taken.gram), taken.log_norm});
   }
+}
+
+double SetEvidence::scale_of(const Amplitude& amplitude) const {
+  return assumed_.sizes * (amplitude.scale > 0 && std::isfinite(amplitude.scale) ? amplitude.scale : 1);
 }
 
 bool SetEvidence::is_scalar(std::size_t candidate) const {
@@ -132,40 +130,24 @@ std::vector<Index> SetEvidence::columns_of(const Members& members) const {
   for (const std::size_t c : members) {
     const auto& own = problem_.candidates[c].amplitudes;
     columns.insert(columns.end(), own.begin(), own.end());
-    for (const Curve& side : curves_[c])
-      for (const Index column : side.columns)
-        if (column != own.front()) columns.push_back(column);
+    for (const AmplitudeCurve& side : curves_[c])
+      for (const AmplitudeCurve::Point& point : side.points())
+        if (point.column != own.front()) columns.push_back(point.column);
   }
   columns.push_back(products_.front().gram.cols() - 1);
   return columns;
 }
 
-/// Below the smallest run in proportion, between runs by the logarithm of the size, and beyond them as from the first
-/// to the last; to first order where no run was made.
+/// To first order where no run was made.
 VectorXd SetEvidence::mix_at(std::size_t candidate, double size, const std::vector<Index>& columns) const {
   VectorXd mix = VectorXd::Zero(static_cast<Index>(columns.size()));
-  const Index own = problem_.candidates[candidate].amplitudes.front();
-  const double step = amplitude_of(candidate).step;
-  const auto add = [&](Index column, double share) {
-    const auto place = std::find(columns.begin(), columns.end(), column) - columns.begin();
-    mix(place) += column == own && step != 0 ? share * step : share;
+  const auto place_of = [&](Index column) {
+    return std::find(columns.begin(), columns.end(), column) - columns.begin();
   };
-  const Curve& side = curves_[candidate][size > 0 ? 0 : 1];
-  const std::size_t count = side.sizes.size();
-  if (count == 0) {
-    mix(std::find(columns.begin(), columns.end(), own) - columns.begin()) = size;
-    return mix;
-  }
-  std::size_t after = 0;
-  while (after < count && std::abs(side.sizes[after]) < std::abs(size)) ++after;
-  if (after == 0 || count == 1) {
-    add(side.columns[0], size / side.sizes[0]);
-    return mix;
-  }
-  const std::size_t to = std::min(after, count - 1), from = after == count ? 0 : to - 1;
-  const double share = std::log(size / side.sizes[from]) / std::log(side.sizes[to] / side.sizes[from]);
-  add(side.columns[from], 1 - share);
-  add(side.columns[to], share);
+  const AmplitudeCurve& side = curves_[candidate][size > 0 ? 0 : 1];
+  if (side.points().empty()) mix(place_of(problem_.candidates[candidate].amplitudes.front())) = size;
+  for (const AmplitudeCurve::Share& part : side.at(size))
+    mix(place_of(part.point->column)) += part.share * part.point->factor;
   return mix;
 }
 
@@ -313,18 +295,19 @@ SetFit SetEvidence::fit(const Members& members, std::size_t discrepancy) const {
   return fit;
 }
 
-double SetEvidence::beyond_runs(std::size_t candidate, double amplitude) const {
+double SetEvidence::beyond_runs(std::size_t candidate, double amplitude, bool coarse) const {
   double least = infinite;
-  for (const Curve& side : curves_[candidate])
-    for (const double size : side.sizes)
-      if (size * amplitude > 0) least = std::min(least, std::exp(std::abs(std::log(amplitude / size))));
+  for (const AmplitudeCurve& side : curves_[candidate])
+    for (const AmplitudeCurve::Point& point : side.points())
+      if (point.size * amplitude > 0 && (coarse || !point.is_coarse))
+        least = std::min(least, std::exp(std::abs(std::log(amplitude / point.size))));
   return least;
 }
 
 bool SetEvidence::is_beyond_all(std::size_t candidate, double amplitude) const {
-  for (const Curve& side : curves_[candidate])
-    for (const double size : side.sizes)
-      if (size / amplitude > 1) return false;
+  for (const AmplitudeCurve& side : curves_[candidate])
+    for (const AmplitudeCurve::Point& point : side.points())
+      if (point.size / amplitude > 1) return false;
   return true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/evidence/amplitude_curve.hpp"
 #include "diagnosis/evidence/effect_problem.hpp"
 
 namespace tether {
@@ -7,11 +8,18 @@ namespace tether {
 /// What a run showed: amplitudes of all candidates [q] and the residual with them [n].
 struct ShownRun {
   VectorXd amplitudes, residual;
+  bool is_coarse = false;  ///< of a coarser model
 };
 
 /// How large what the model itself cannot do is, over what it is allowed, and how probable that is beforehand.
 struct DiscrepancySize {
   double size = 1, prior = 1;
+};
+
+/// Factors of what is not known for sure: how large amplitudes may be, the noise's deviation, what the model itself may
+/// be off.
+struct Assumptions {
+  double sizes = 1, noise = 1, discrepancy = 1;
 };
 
 /// A set's evidence with one size of discrepancy, and the most probable amplitudes of its members; of several
@@ -29,25 +37,21 @@ struct SetFit {
 class SetEvidence {
  public:
   /// All data count but those that are kept sealed.
-  SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs);
+  SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Assumptions& assumed = {});
 
   /// members: numbers of candidates, at most three of one amplitude. discrepancy: number of one of `discrepancies()`.
   SetFit fit(const std::vector<std::size_t>& members, std::size_t discrepancy) const;
   /// Small ones first.
   const std::vector<DiscrepancySize>& discrepancies() const { return discrepancies_; }
-  /// How far that is from the closest of its runs, as a factor; infinite if none was made.
-  double beyond_runs(std::size_t candidate, double amplitude) const;
+  /// How far that is from the closest of its runs, as a factor; infinite if none was made. coarse: whether those of a
+  /// coarser model count.
+  double beyond_runs(std::size_t candidate, double amplitude, bool coarse) const;
   /// Whether no run of it was as large, on that side.
   bool is_beyond_all(std::size_t candidate, double amplitude) const;
   /// Of what two candidates do to first order.
   double cosine(std::size_t a, std::size_t b) const;
 
  private:
-  /// What a candidate of one amplitude does at some sizes: combinations of columns.
-  struct Curve {
-    std::vector<double> sizes;          ///< of runs, one-signed, by magnitude
-    std::vector<Eigen::Index> columns;  ///< of their changes
-  };
   struct Grid {
     VectorXd sizes, log_weight;  ///< [g]
     MatrixXd mix;                ///< of the set's columns [g x c]
@@ -68,10 +72,13 @@ class SetEvidence {
   SetFit over_scalars(const std::vector<std::size_t>& scalars, const Products& products,
                       const std::vector<Eigen::Index>& columns) const;
 
+  double scale_of(const Amplitude& amplitude) const;
+
   const EffectProblem& problem_;
+  Assumptions assumed_;
   std::vector<DiscrepancySize> discrepancies_;
-  std::vector<Products> products_;          ///< of all columns, for each discrepancy
-  std::vector<std::vector<Curve>> curves_;  ///< of each candidate, upward and downward
+  std::vector<Products> products_;                   ///< of all columns, for each discrepancy
+  std::vector<std::vector<AmplitudeCurve>> curves_;  ///< of each candidate, upward and downward
 };
 
 }  // namespace tether

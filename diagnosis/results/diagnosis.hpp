@@ -71,12 +71,13 @@ struct StrainedError {
 
 struct DiagnosisCost {
   static constexpr const char* type_name = "diagnosis_cost";
-  int runs = 0, sensitivity_runs = 0, runs_made = 0;
+  int runs = 0, sensitivity_runs = 0, coarse_runs = 0, runs_made = 0;
   double cpu_seconds = 0;
 
   static void fields(auto& self, auto&& field) {
     field("runs", self.runs, "of the model that were used");
     field("sensitivity_runs", self.sensitivity_runs, "of these, the case as it is and what each number does");
+    field("coarse_runs", self.coarse_runs, "of these, those of a coarser model");
     field("runs_made", self.runs_made, "of these, those that were not there yet");
     field("cpu_seconds", self.cpu_seconds, "of the runs that were made [s]");
   }

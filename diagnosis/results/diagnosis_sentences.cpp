@@ -114,7 +114,21 @@ void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   if (!diagnosis.path.empty() && !diagnosis.path.back().accepted) all.push_back(refusal_text(diagnosis.path.back()));
 }
 
+/// What the name of what leads depends on.
+void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const auto& table = diagnosis.table;
+  constexpr double even = 0.5, no_news = 0.995;
+  if (table.otherwise.empty() || table.groups.empty()) return;
+  const AlternativeGroup& first = table.groups.front();
+  if (first.probability < even || first.least_probability > no_news) return;
+  all.push_back(fmt::format(
+      "Its probability is {:.0f} %, and {:.0f} % at least if effects may be half or twice as large, the noise is 30 % "
+      "off, or the model's own error half or twice what was assumed",
+      100 * first.probability, 100 * first.least_probability));
+}
+
 void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  add_certainty(all, diagnosis);
   if (diagnosis.verdict == Verdict::missing) add_variants(all, diagnosis);
   for (std::string& sentence : look_alike_sentences(diagnosis)) all.push_back(std::move(sentence));
   if (diagnosis.dispersion > 1.5)

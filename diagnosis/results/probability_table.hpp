@@ -9,6 +9,29 @@
 
 namespace tether {
 
+/// What is assumed, and not known for sure.
+enum class Assumed { sizes, noise, discrepancy };
+template <>
+inline constexpr auto words_of<Assumed> =
+    std::to_array<WordOf<Assumed>>({{Assumed::sizes, "sizes", "how large effects and errors may be, beforehand"},
+                                    {Assumed::noise, "noise", "its deviation"},
+                                    {Assumed::discrepancy, "discrepancy", "how far the model itself may be off"}});
+
+/// The table with something assumed otherwise.
+struct AssumedOtherwise {
+  static constexpr const char* type_name = "assumed_otherwise";
+  Assumed what = Assumed::sizes;
+  double factor = 1, nothing = 0;
+  std::vector<double> groups;
+
+  static void fields(auto& self, auto&& field) {
+    field("what", self.what, "what is assumed");
+    field("factor", self.factor, "times what it is taken for");
+    field("nothing", self.nothing, "probability that the model lacks nothing, then");
+    field("groups", self.groups, "probability of each group, then");
+  }
+};
+
 /// One of several explanations that do much the same.
 struct Alternative {
   static constexpr const char* type_name = "alternative";
@@ -36,11 +59,12 @@ struct Alternative {
 /// Explanations that do much the same: one of them.
 struct AlternativeGroup {
   static constexpr const char* type_name = "alternative_group";
-  double probability = 0;
+  double probability = 0, least_probability = 0;
   std::vector<Alternative> members;
 
   static void fields(auto& self, auto&& field) {
     field("probability", self.probability, "that it is one of them, whatever else");
+    field("least_probability", self.least_probability, "the smallest of these, with any one thing assumed otherwise");
     field("members", self.members, "the most probable first");
   }
 };
@@ -63,6 +87,7 @@ struct ProbabilityTable {
   double nothing = 0, outside = 0, others = 0, more = 0;
   std::vector<AlternativeGroup> groups;
   std::vector<Combination> combinations;
+  std::vector<AssumedOtherwise> otherwise;
 
   static void fields(auto& self, auto&& field) {
     field("nothing", self.nothing, "probability that the model lacks nothing");
@@ -71,6 +96,7 @@ struct ProbabilityTable {
     field("more", self.more, "that something outside of the catalogue is missing beside what is listed");
     field("groups", self.groups, "explanations that do much the same, the most probable group first");
     field("combinations", self.combinations, "what explains the data together, the most probable first");
+    field("otherwise", self.otherwise, "nothing and the groups, with one thing at a time assumed otherwise");
   }
 };
 

@@ -1,5 +1,6 @@
 #include "diagnosis/search/diagnosis.hpp"
 
+#include "common/base/error.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
 #include "diagnosis/search/trials.hpp"
@@ -16,15 +17,6 @@ void add_refined(EffectProblem& problem, const Evidence& evidence, const std::ve
   for (const auto& [of, motion] : refined)
     if (!motion.failed())
       add_numerics(problem, of, problem.residual - residuals_of(evidence, {motion}, problem.residual).col(0));
-}
-
-/// Candidates that act in a part of their place: what their runs show is added to the problem. residuals: of the runs,
-/// whitened.
-void add_parts(EffectProblem& problem, const std::vector<VariedNumber>& parts, const MatrixXd& residuals,
-               const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis) {
-  MatrixXd with_base(residuals.rows(), residuals.cols() + 1);
-  with_base << problem.residual, residuals;
-  add_model_changes(problem, parts, with_base, effects, diagnosis);
 }
 
 /// The same runs of a problem that has more amplitudes.
@@ -59,38 +51,68 @@ std::vector<Split> splits_of(const DiagnosedCase& given, const DiagnosisReport& 
   return splits(report.problem, pairs, further_measurements(given, evidence, motions, columns));
 }
 
+/// The model as it is. Throws RunError if it does not come to its end.
+FinishedMotion base_of(ModelRuns& runs) {
+  FinishedMotion base = runs.make({base_run()}).front();
+  if (base.failed()) throw run_error("the model as it is: {}", base.failure);
+  return base;
+}
+
+DiagnosisCost cost_of(const DiagnosedModel& model, const Sensitivities& sensitivities) {
+  DiagnosisCost cost;
+  for (const ModelRuns* runs : {&model.runs, model.coarse}) {
+    if (runs == nullptr) continue;
+    cost.runs += runs->cost().runs;
+    cost.runs_made += runs->cost().made;
+    cost.cpu_seconds += runs->cost().cpu_seconds;
+  }
+  cost.sensitivity_runs = static_cast<int>(sensitivities.motions.size());
+  if (model.coarse != nullptr) cost.coarse_runs = model.coarse->cost().runs;
+  return cost;
+}
+
 }  // namespace
 
-DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects, ModelRuns& runs,
-                         const std::vector<RefinedRun>& refined, const DiagnosisSettings& settings) {
+DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects,
+                         const DiagnosedModel& model, const DiagnosisSettings& settings) {
   DiagnosisReport report;
   report.case_name = given.file.common().name;
   report.title = given.file.common().title;
   report.alpha = given.diagnosis.alpha;
-  Division division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file));
-  Sensitivities sensitivities = sensitivities_of(runs, division.undivided());
-  const Evidence evidence(given.data, given.lumen, sensitivities.motions.front());
-  EffectProblem problem = problem_of(given, evidence, sensitivities, effects);
-  add_refined(problem, evidence, refined);
+  Division division(effects, varied_numbers(model.runs.parameters(), given.diagnosis, given.file));
+  ModelRuns& first_order = model.coarse != nullptr ? *model.coarse : model.runs;
+  Sensitivities sensitivities = sensitivities_of(first_order, division.undivided());
+  sensitivities.is_coarse = model.coarse != nullptr;
+  const FinishedMotion base = sensitivities.is_coarse ? base_of(model.runs) : sensitivities.motions.front();
+  const Evidence evidence(given.data, given.lumen, base);
+  EffectProblem problem = problem_of(given, evidence, base, sensitivities, effects);
+  add_refined(problem, evidence, model.refined);
+  const VectorXd as_it_is = problem.residual;
   const Whitening whitening(evidence, problem);
   report.problem = whitening(std::move(problem));
-  Trials trials(report.problem, evidence, whitening, sensitivities.motions.front(), runs);
+  Trials trials(report.problem, evidence, whitening, base, model.runs);
+  Trials first_trials(report.problem, evidence, whitening, sensitivities.motions.front(), first_order);
   const SearchSettings how = search_settings(given.diagnosis, settings);
   const ResidualAt residual_at = [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); };
-  Weighing weighing = weigh_effects(report.problem, how, residual_at);
-  for (std::vector<VariedNumber> parts = division.next(report.problem, weighing.weighed); !parts.empty();
-       parts = division.next(report.problem, weighing.weighed)) {
-    const std::vector<FinishedMotion> motions = add_sensitivities(sensitivities, runs, parts);
-    const MatrixXd residuals = whitening(residuals_of(evidence, motions, evidence.problem().residual));
-    add_parts(report.problem, parts, residuals, effects, given.diagnosis);
-    weighing = weigh_effects(report.problem, how, residual_at, as_many(weighing.shown, report.problem.changes.cols()));
+  const ResidualAt first_at = [&](const MatrixXd& amplitudes) { return first_trials.residual_at(amplitudes); };
+  const ShowingRuns exploring{sensitivities.is_coarse ? first_at : residual_at, sensitivities.is_coarse};
+  Weighing weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring);
+  while (true) {
+    const std::vector<VariedNumber> parts = division.next(report.problem, weighing.weighed);
+    if (parts.empty()) break;
+    std::vector<FinishedMotion> motions{sensitivities.motions.front()};
+    for (FinishedMotion& motion : add_sensitivities(sensitivities, first_order, parts))
+      motions.push_back(std::move(motion));
+    add_model_changes(report.problem,
+                      {parts, whitening(residuals_of(evidence, motions, as_it_is)), sensitivities.is_coarse}, effects,
+                      given.diagnosis);
+    weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring,
+                             as_many(weighing.shown, report.problem.changes.cols()));
   }
+  weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
-  report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, runs.columns());
-  report.cost.sensitivity_runs = static_cast<int>(sensitivities.motions.size());
-  report.cost.runs = runs.cost().runs;
-  report.cost.runs_made = runs.cost().made;
-  report.cost.cpu_seconds = runs.cost().cpu_seconds;
+  report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
+  report.cost = cost_of(model, sensitivities);
   return report;
 }
 

@@ -15,10 +15,16 @@ struct DiagnosisSettings {
   double enough = 0;  ///< misfit beyond noise (lack_of_fit.excess) below which another effect must stand out at alpha/5
 };
 
+/// What makes the runs of a diagnosis.
+struct DiagnosedModel {
+  ModelRuns& runs;                       ///< of the case with all candidates at zero
+  ModelRuns* coarse = nullptr;           ///< of a coarser model, for what numbers do to first order; null: `runs`
+  std::vector<RefinedRun> refined = {};  ///< that tell what mesh and time step cost, or none
+};
+
 /// What the model lacks: sets its runs against the data, to first order and then at finite amplitudes, and searches
-/// (D.7-D.15). effects: what could be added. runs: of the case with all of them at zero. refined: runs that tell what
-/// mesh and time step cost, or none. Throws what `runs` throws.
-DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects, ModelRuns& runs,
-                         const std::vector<RefinedRun>& refined = {}, const DiagnosisSettings& settings = {});
+/// (D.7-D.15). effects: what could be added. Throws what the runs throw.
+DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects,
+                         const DiagnosedModel& model, const DiagnosisSettings& settings = {});
 
 }  // namespace tether

@@ -5,12 +5,13 @@
 namespace tether {
 namespace {
 
-constexpr double probable = 0.2;   ///< of a group, or that the catalogue does not have it
-constexpr double not_least = 0.1;  ///< share of a group's member
+constexpr double probable = 0.2;         ///< of a group
+constexpr std::size_t most_hopeful = 2;  ///< groups, where the catalogue has nothing that explains the data
+constexpr double not_least = 0.1;        ///< share of a group's member
 
-/// The wall itself, all of it.
+/// What may change along the vessel is asked for in both halves from the start.
 bool is_of_whole_wall(const PlacedEffect& effect) {
-  return effect.type == "stiffness_factor" && effect.part.empty();
+  return effect.part.empty();
 }
 
 std::string last_word(const std::string& name) {
@@ -24,7 +25,7 @@ Division::Division(const std::vector<PlacedEffect>& effects, const std::vector<V
     const std::string path = number.number.name.substr(0, number.number.name.rfind('.'));
     const auto effect =
         std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
-    if (effect == effects.end() || effect->band.is_all() || !effect->is_new)
+    if (effect == effects.end() || effect->band.is_all() || !effect->is_new || is_of_whole_wall(*effect))
       undivided_.push_back(number);
     else
       parts_.push_back({number, &*effect});
@@ -45,22 +46,19 @@ std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Wei
     for (const Part& part : parts_)
       if (divides(part, candidate) && (only == nullptr || part.effect->band == *only)) want(part);
   };
-  bool whole_wall = weighed.outside + weighed.more + weighed.others > probable;
-  for (const WeighedGroup& group : weighed.groups) {
-    if (group.probability < probable) continue;
+  const bool is_incomplete = weighed.outside + weighed.more > probable;
+  for (std::size_t g = 0; g < weighed.groups.size(); ++g) {
+    const WeighedGroup& group = weighed.groups[g];
+    if (group.probability < probable && !(is_incomplete && g < most_hopeful)) continue;
     for (std::size_t k = 0; k < group.members.size(); ++k) {
       const Candidate& member = problem.candidates[group.members[k]];
       if (group.shares[k] < not_least) continue;
-      whole_wall |= member.acts_in_wall;
       if (member.band.is_all() && k == 0) want_parts_of(member, nullptr);
       if (member.band.is_all()) continue;
       for (const std::size_t other : group.members)
         if (problem.candidates[other].part == member.part) want_parts_of(problem.candidates[other], &member.band);
     }
   }
-  if (whole_wall)
-    for (const Part& part : parts_)
-      if (is_of_whole_wall(*part.effect)) want(part);
   return wanted;
 }
 

@@ -15,11 +15,12 @@ class Division {
   /// all: of the model with all candidates; those of parts are kept here.
   Division(const std::vector<PlacedEffect>& effects, const std::vector<VariedNumber>& all);
 
-  /// Numbers of effects that act in all of their place, or that the model has.
+  /// Numbers of effects that act in all of their place, or that the model has, and the wall's stiffness in either half
+  /// of the vessel.
   const std::vector<VariedNumber>& undivided() const { return undivided_; }
   /// Numbers of parts that are worth a run now, each told once: the parts of what leads a probable group; of what does
-  /// the same the part in which that leads; and of the whole wall's stiffness where that leads, or where nothing in the
-  /// catalogue explains the data.
+  /// the same the part in which that leads. Where something is missing that no candidate is, groups that lead count as
+  /// probable.
   std::vector<VariedNumber> next(const EffectProblem& problem, const Weighed& weighed);
 
  private:

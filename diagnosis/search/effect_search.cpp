@@ -42,11 +42,11 @@ class Search {
  public:
   Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
          const Weighed& weighed)
-      : problem_(problem),
-        counted_(counted(problem)),
+      : problem_(with_discrepancy(problem, weighed.discrepancy)),
+        counted_(counted(problem_)),
         settings_(settings),
         residual_at_(residual_at),
-        plain_(problem),
+        plain_(problem_),
         foretold_(counted_) {
     now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
     result_.weighed = weighed;
@@ -265,6 +265,7 @@ class Search {
         effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
     step.objection = objection(effect, dispersion(residual), step.left);
     if (!step.objection && group.probability < sure) step.objection = Objection::not_sure;
+    if (!step.objection && group.least < even) step.objection = Objection::assumed;
     return step;
   }
 
@@ -381,7 +382,7 @@ class Search {
                                        result_.effects[static_cast<std::size_t>(j)]);
   }
 
-  const EffectProblem& problem_;
+  EffectProblem problem_;  ///< the model is as far off as the data say
   EffectProblem counted_;
   const SearchSettings& settings_;
   const ResidualAt& residual_at_;
@@ -395,16 +396,20 @@ class Search {
 
 }  // namespace
 
-Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-                       std::vector<ShownRun> shown) {
+Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
+                       RunsFor purpose, std::vector<ShownRun> shown) {
   const std::vector<bool> left_out = refused_in(problem, settings);
   for (int round = 0; true; ++round) {
     const SetEvidence evidence(problem, shown);
     const Posterior posterior = posterior_of(problem, evidence, left_out);
-    const MatrixXd wanted = wanted_runs(problem, evidence, posterior);
-    if (wanted.cols() == 0 || round == rounds) return {weighed(problem, evidence, posterior), std::move(shown)};
-    const MatrixXd residuals = residual_at(wanted);
-    for (Index k = 0; k < wanted.cols(); ++k) shown.push_back({wanted.col(k), residuals.col(k)});
+    const MatrixXd wanted = wanted_runs(problem, evidence, posterior, purpose);
+    if (wanted.cols() == 0 || round == rounds) {
+      Weighing weighing{weighed(problem, evidence, posterior), std::move(shown)};
+      if (purpose == RunsFor::telling) weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
+      return weighing;
+    }
+    const MatrixXd residuals = runs.residual_at(wanted);
+    for (Index k = 0; k < wanted.cols(); ++k) shown.push_back({wanted.col(k), residuals.col(k), runs.is_coarse});
   }
 }
 
@@ -413,9 +418,15 @@ SearchResult search_effects(const EffectProblem& problem, const SearchSettings& 
   return Search(problem, settings, residual_at, weighed).run();
 }
 
+/// Explored and told with the same runs.
+Weighed weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at) {
+  Weighing explored = weigh_effects(problem, settings, {residual_at}, RunsFor::exploring);
+  return weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(explored.shown)).weighed;
+}
+
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
                             const ResidualAt& residual_at) {
-  return search_effects(problem, settings, residual_at, weigh_effects(problem, settings, residual_at).weighed);
+  return search_effects(problem, settings, residual_at, weighed_fully(problem, settings, residual_at));
 }
 
 }  // namespace tether

@@ -49,9 +49,14 @@ struct Weighing {
   Weighed weighed;
   std::vector<ShownRun> shown;
 };
+/// What shows what amplitudes do.
+struct ShowingRuns {
+  const ResidualAt& residual_at;
+  bool is_coarse = false;  ///< they are of a coarser model
+};
 /// Weighs; what matters and was not run at its size is run and weighed again. shown: runs that were made before.
-Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-                       std::vector<ShownRun> shown = {});
+Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
+                       RunsFor purpose, std::vector<ShownRun> shown = {});
 
 /// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the
 /// data at hand and those held out ask for it, and judges what is left. (D.8-D.13)

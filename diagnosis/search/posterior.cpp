@@ -1,6 +1,7 @@
 #include "diagnosis/search/posterior.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -71,9 +72,19 @@ class Sets {
     return normalised();
   }
 
+  /// Of sets that are not out of the question by another posterior.
+  Posterior among(const Posterior& known) {
+    constexpr double possible = 1e-4;
+    for (std::size_t size = 0; size <= 3; ++size)
+      for (const EffectSet& set : known.sets)
+        if (set.members.size() == size && (size == 0 || set.probability + set.with_more > possible)) add(set.members);
+    return normalised();
+  }
+
  private:
   struct Weighed {
     double as_it_is, with_more;  ///< logarithms
+    double size;                 ///< of the discrepancy, as it is: expected
     double all() const { return std::max(as_it_is, with_more); }
   };
 
@@ -111,14 +122,16 @@ class Sets {
     double prior = 0;
     for (const std::size_t c : members) prior += log_odds_[c];
     const auto& sizes = evidence_.discrepancies();
-    Weighed weighed{-infinite, -infinite};
+    Weighed weighed{-infinite, -infinite, 0};
     const bool with_large = may_need_more(members);
     for (std::size_t s = 0; s < sizes.size(); ++s) {
       if (sizes[s].size > 1 && !with_large) continue;
       const double log = prior + std::log(sizes[s].prior) + evidence_.fit(members, s).log_evidence;
       double& to = sizes[s].size > 1 ? weighed.with_more : weighed.as_it_is;
       const double most = std::max(to, log);
-      if (std::isfinite(most)) to = most + std::log(std::exp(to - most) + std::exp(log - most));
+      if (!std::isfinite(most)) continue;
+      to = most + std::log(std::exp(to - most) + std::exp(log - most));
+      if (sizes[s].size <= 1) weighed.size += (sizes[s].size - weighed.size) * std::exp(log - to);
     }
     sets_[members] = weighed;
   }
@@ -134,14 +147,17 @@ class Sets {
   }
 
   Posterior normalised() const {
-    double most = -infinite, sum = 0;
+    double most = -infinite, sum = 0, as_it_is = 0;
     for (const auto& [members, weighed] : sets_) most = std::max(most, weighed.all());
     Posterior posterior;
+    posterior.discrepancy = 0;
     posterior.left_out.assign(log_odds_.size(), true);
     for (const std::size_t c : candidates_) posterior.left_out[c] = false;
     for (const double log : log_odds_) posterior.prior.push_back(std::exp(log));
     for (const auto& [members, weighed] : sets_) {
       posterior.sets.push_back({members, std::exp(weighed.as_it_is - most), std::exp(weighed.with_more - most)});
+      as_it_is += posterior.sets.back().probability;
+      posterior.discrepancy += posterior.sets.back().probability * weighed.size;
       sum += posterior.sets.back().probability + posterior.sets.back().with_more;
     }
     for (EffectSet& set : posterior.sets) {
@@ -149,6 +165,7 @@ class Sets {
       set.with_more /= sum;
       if (set.members.empty()) posterior.nothing = set.probability, posterior.outside = set.with_more;
     }
+    posterior.discrepancy = as_it_is > 1e-9 * sum ? posterior.discrepancy / as_it_is : 1;
     std::stable_sort(posterior.sets.begin(), posterior.sets.end(), [](const EffectSet& a, const EffectSet& b) {
       return a.probability + a.with_more > b.probability + b.with_more;
     });
@@ -160,6 +177,10 @@ class Sets {
   Members candidates_;
   std::map<Members, Weighed> sets_;
 };
+
+/// By what factors what is assumed is wrong, at least now and then.
+const std::map<Assumed, std::array<double, 2>> otherwise{
+    {Assumed::sizes, {0.5, 2}}, {Assumed::noise, {1 / 1.3, 1.3}}, {Assumed::discrepancy, {0.5, 2}}};
 
 constexpr double listed = 0.01;  ///< smallest probability of a candidate that is told
 constexpr double about = 1.5;    ///< factor within which a run tells what an amplitude does
@@ -211,7 +232,7 @@ void describe(WeighedGroup& group, const EffectProblem& problem, const SetEviden
     const double size = evidence.fit({c}, 0).amplitudes.front();
     group.amplitudes.push_back(size);
     group.by_runs.push_back(problem.candidates[c].takes_runs() && std::isfinite(size) &&
-                            evidence.beyond_runs(c, size) < about);
+                            evidence.beyond_runs(c, size, false) < about);
   }
 }
 
@@ -227,14 +248,14 @@ std::vector<int> groups_in(const EffectSet& set, const std::vector<WeighedGroup>
 /// Runs of candidates by themselves that would change what the table says.
 class Wanted {
  public:
-  Wanted(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior)
-      : problem_(problem), evidence_(evidence), posterior_(posterior) {}
+  Wanted(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior, RunsFor purpose)
+      : problem_(problem), evidence_(evidence), posterior_(posterior), exploring_(purpose == RunsFor::exploring) {}
 
   /// Of sets that are not improbable, the members that the data ask for; much larger ones too as long as no candidate
   /// explains the data by itself.
   void add_likely() {
     constexpr double matters = 0.01, much_larger = 5;
-    const bool explore = alone() < 0.5;
+    const bool explore = exploring_ && alone() < 0.5;
     for (const EffectSet& set : posterior_.sets) {
       if (set.probability + set.with_more < matters) continue;
       const SetFit fit = evidence_.fit(set.members, 0);
@@ -243,7 +264,7 @@ class Wanted {
         const double size = fit.amplitudes[k];
         if (!can_be_run(c, size) || !is_asked_for(c)) continue;
         const double larger = amplitude_of(c).limited(much_larger * size);
-        if (evidence_.beyond_runs(c, size) > near) wanted_.emplace(c, size);
+        if (is_far_from_runs(c, size)) wanted_.emplace(c, size);
         if (explore && evidence_.is_beyond_all(c, larger / 2)) wanted_.emplace(c, larger);
       }
     }
@@ -258,7 +279,7 @@ class Wanted {
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
       const SetFit fit = evidence_.fit({c}, 0);
       best = std::max(best, fit.log_evidence);
-      if (can_be_run(c, fit.amplitudes[0]) && evidence_.beyond_runs(c, fit.amplitudes[0]) > near)
+      if (can_be_run(c, fit.amplitudes[0]) && is_far_from_runs(c, fit.amplitudes[0]))
         all.push_back({fit.log_evidence + wrong * (fit.log_evidence - nothing), {c, fit.amplitudes[0]}});
     }
     for (const auto& [hope, run] : all)
@@ -274,8 +295,9 @@ class Wanted {
   }
 
  private:
-  static constexpr double near = 1.35;  ///< factor within which a run tells what a size does
-
+  bool is_far_from_runs(std::size_t c, double size) const {
+    return evidence_.beyond_runs(c, size, exploring_) > near_a_run;
+  }
   const Amplitude& amplitude_of(std::size_t c) const {
     return problem_.amplitudes[static_cast<std::size_t>(problem_.candidates[c].amplitudes.front())];
   }
@@ -300,6 +322,7 @@ class Wanted {
   const EffectProblem& problem_;
   const SetEvidence& evidence_;
   const Posterior& posterior_;
+  bool exploring_;
   std::set<std::pair<std::size_t, double>> wanted_;  ///< candidates and amplitudes
 };
 
@@ -307,6 +330,15 @@ class Wanted {
 
 bool WeighedGroup::has(std::size_t candidate) const {
   return std::find(members.begin(), members.end(), candidate) != members.end();
+}
+
+double Posterior::of_any(const std::vector<std::size_t>& candidates) const {
+  double sum = 0;
+  for (const EffectSet& set : sets)
+    if (std::any_of(candidates.begin(), candidates.end(),
+                    [&](std::size_t c) { return std::binary_search(set.members.begin(), set.members.end(), c); }))
+      sum += set.probability + set.with_more;
+  return sum;
 }
 
 double Posterior::of(std::size_t candidate) const {
@@ -323,7 +355,7 @@ Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence
 Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
   std::vector<double> each;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) each.push_back(posterior.of(c));
-  Weighed all{posterior.nothing, posterior.outside, 0, 0, groups_of(evidence, each), {}};
+  Weighed all{posterior.nothing, posterior.outside, 0, 0, posterior.discrepancy, groups_of(evidence, each), {}, {}};
   for (WeighedGroup& group : all.groups) describe(group, problem, evidence, posterior);
   std::map<std::vector<int>, double> combined;
   for (const EffectSet& set : posterior.sets) {
@@ -340,8 +372,26 @@ Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const
   return all;
 }
 
-MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
-  Wanted wanted(problem, evidence, posterior);
+void weigh_otherwise(Weighed& weighed, const EffectProblem& problem, const std::vector<ShownRun>& runs,
+                     const Posterior& posterior) {
+  for (WeighedGroup& group : weighed.groups) group.least = group.probability;
+  for (const auto& [what, factors] : otherwise)
+    for (const double factor : factors) {
+      Assumptions assumed;
+      (what == Assumed::sizes ? assumed.sizes : what == Assumed::noise ? assumed.noise : assumed.discrepancy) = factor;
+      const SetEvidence evidence(problem, runs, assumed);
+      const Posterior now = Sets(problem, evidence, posterior.left_out).among(posterior);
+      WeighedOtherwise& told = weighed.otherwise.emplace_back(WeighedOtherwise{what, factor, now.nothing, {}});
+      for (WeighedGroup& group : weighed.groups) {
+        told.groups.push_back(now.of_any(group.members));
+        group.least = std::min(group.least, told.groups.back());
+      }
+    }
+}
+
+MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
+                     RunsFor purpose) {
+  Wanted wanted(problem, evidence, posterior, purpose);
   wanted.add_likely();
   wanted.add_promising();
   return wanted.runs();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnosis/evidence/set_evidence.hpp"
+#include "diagnosis/results/probability_table.hpp"
 
 namespace tether {
 
@@ -16,19 +17,24 @@ struct Posterior {
   std::vector<EffectSet> sets;  ///< most probable first, of those that were looked at
   double nothing = 0;           ///< that the model lacks nothing
   double outside = 0;           ///< that something is missing, and no candidate is
+  double discrepancy = 1;       ///< expected size of what the model itself is off, over what it may be, if no more is
   std::vector<double> prior;    ///< odds of each candidate beforehand
   std::vector<bool> left_out;   ///< of each candidate, whether it is none
   /// That a candidate is in the set.
   double of(std::size_t candidate) const;
+  /// That one of these is.
+  double of_any(const std::vector<std::size_t>& candidates) const;
 };
 
 /// Candidates that do much the same: the data may want any of them.
 struct WeighedGroup {
   double probability = 0;            ///< that it is one of them, whatever else
+  double least = 0;                  ///< the smallest of these, with any one thing assumed otherwise
   std::vector<std::size_t> members;  ///< the most probable first
   std::vector<double> shares;        ///< of each, within the group
   std::vector<double> amplitudes;    ///< the most probable one of each; of several amplitudes NaN
-  std::vector<bool> by_runs;         ///< whether a run of each showed what it does at about that amplitude
+  std::vector<bool>
+      by_runs;  ///< whether a run of each, of the model itself, showed what it does at about that amplitude
   bool has(std::size_t candidate) const;
 };
 
@@ -38,11 +44,20 @@ struct WeighedCombination {
   double probability = 0;
 };
 
+/// The same with something assumed otherwise.
+struct WeighedOtherwise {
+  Assumed what = Assumed::sizes;
+  double factor = 1, nothing = 1;
+  std::vector<double> groups;  ///< probability of each
+};
+
 /// A posterior as people read it, the most probable first.
 struct Weighed {
   double nothing = 1, outside = 0, others = 0, more = 0;
+  double discrepancy = 1;  ///< expected size of what the model itself is off, over what it may be
   std::vector<WeighedGroup> groups;
   std::vector<WeighedCombination> combinations;
+  std::vector<WeighedOtherwise> otherwise;
 };
 
 /// All candidates by themselves, pairs of the best with all, and the best of these with the best; two that do much the
@@ -53,9 +68,21 @@ Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence
 /// Two candidates do much the same where one leaves less than half of the square of what the other does.
 Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior);
 
+/// The same where sizes may be half or twice as large, the noise 30 % smaller or larger, the model's own error half or
+/// twice as large: each group's least probability, and what it was with each. Of the sets that are not out of the
+/// question as things are assumed.
+void weigh_otherwise(Weighed& weighed, const EffectProblem& problem, const std::vector<ShownRun>& runs,
+                     const Posterior& posterior);
+
+/// Why a run is wanted.
+enum class RunsFor {
+  exploring,  ///< what may matter, at any size: runs of a coarser model will do
+  telling     ///< what is probable, at its size
+};
 /// Runs that would change what the table says: of candidates by themselves, at the amplitudes [q x m] that are most
-/// probable, where no run is near. Of those that explain the data only with another, larger ones too: the two together
-/// may be one that does something else when it is large.
-MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior);
+/// probable, where no run is near. Exploring, of those that explain the data only with another, larger ones too: the
+/// two together may be one that does something else when it is large.
+MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
+                     RunsFor purpose);
 
 }  // namespace tether

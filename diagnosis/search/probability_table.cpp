@@ -26,11 +26,13 @@ ProbabilityTable table_of(const EffectProblem& problem, const Weighed& weighed) 
   table.others = weighed.others;
   table.more = weighed.more;
   for (const WeighedGroup& group : weighed.groups) {
-    AlternativeGroup& told = table.groups.emplace_back(AlternativeGroup{group.probability, {}});
+    AlternativeGroup& told = table.groups.emplace_back(AlternativeGroup{group.probability, group.least, {}});
     for (std::size_t k = 0; k < group.members.size(); ++k) told.members.push_back(alternative_of(problem, group, k));
   }
   for (const WeighedCombination& one : weighed.combinations)
     table.combinations.push_back({one.groups, one.probability});
+  for (const WeighedOtherwise& one : weighed.otherwise)
+    table.otherwise.push_back({one.what, one.factor, one.nothing, one.groups});
   return table;
 }
 

@@ -7,9 +7,11 @@
 namespace tether {
 namespace {
 
-constexpr double larger = 2.5;    ///< gain at the right amplitude over that of first order: 2.3 was seen (decision 90)
-constexpr double too_little = 1;  ///< of the misfit, to run once more
-constexpr double farthest = 0.7;  ///< logarithm by which an accepted effect's factor moves at most in a step
+constexpr double larger = 2.5;     ///< gain at the right amplitude over that of first order: 2.3 was seen (decision 90)
+constexpr double too_little = 1;   ///< of the misfit, to run once more
+constexpr double saturated = 0.5;  ///< of what first order says: its tangent there is not known from one run
+constexpr double aside = 0.4;      ///< logarithm by which another run tells the tangent
+constexpr double farthest = 0.7;   ///< logarithm by which an accepted effect's factor moves at most in a step
 
 double square(const Trained& trained, const VectorXd& all) {
   return trained.misfit(all);
@@ -77,7 +79,9 @@ double Refinement::first_step(const VectorXd& change, const VectorXd& now) {
   expected_ = misfit(last_) - misfit(best);
   const double x = best / (1 + c * best);
   per_factor_ = (first_order_ + 2 * x * bend) * (x * x / best);
-  return best;
+  if (along > saturated || std::abs(std::log(best / last_)) > aside) return best;
+  expected_ = std::max(expected_, too_little);
+  return last_ * std::exp(best > last_ ? aside : -aside);
 }
 
 double Refinement::later_step(const VectorXd& now) {

@@ -81,6 +81,7 @@ bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& giv
     }
   }
   if (nothing_added) return false;
+  if (!from.has("identification")) overlay.values.push_back({"identification.observe", "frames"});
   write_overlay(file, overlay);
   return true;
 }

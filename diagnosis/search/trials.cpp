@@ -15,6 +15,7 @@ using Index = Eigen::Index;
 Trials::Trials(const EffectProblem& problem, const Evidence& evidence, const Whitening& whitening,
                const FinishedMotion& base, ModelRuns& runs)
     : problem_(problem), evidence_(evidence), whitening_(whitening), base_(evidence.problem().residual), runs_(runs) {
+  shift_ = problem.residual - whitening(residuals_of(evidence, {base}, base_)).col(0);
   known_[NamedValues{}] = Trial{base, problem.residual};
 }
 
@@ -61,7 +62,7 @@ void Trials::provide(const MatrixXd& amplitudes) {
   const std::vector<FinishedMotion> motions = runs_.make(wanted);
   const MatrixXd residuals = whitening_(residuals_of(evidence_, motions, base_));
   for (std::size_t k = 0; k < wanted.size(); ++k)
-    known_[wanted[k].values] = Trial{motions[k], residuals.col(static_cast<Index>(k))};
+    known_[wanted[k].values] = Trial{motions[k], residuals.col(static_cast<Index>(k)) + shift_};
 }
 
 }  // namespace tether

@@ -10,7 +10,8 @@ namespace tether {
 /// Runs of the model at finite amplitudes, each made once.
 class Trials {
  public:
-  /// problem: of the whitened data. base: the run of the model as it is, at which the problem was posed.
+  /// problem: of the whitened data. base: the run of the model as it is; of a coarser model than that of which the
+  /// problem is, what it does otherwise than the model is taken off all its runs.
   Trials(const EffectProblem& problem, const Evidence& evidence, const Whitening& whitening, const FinishedMotion& base,
          ModelRuns& runs);
 
@@ -33,7 +34,8 @@ class Trials {
   const EffectProblem& problem_;
   const Evidence& evidence_;
   const Whitening& whitening_;
-  VectorXd base_;  ///< data minus the model as it is, not whitened [n]
+  VectorXd base_;   ///< data minus the model as it is, not whitened [n]
+  VectorXd shift_;  ///< from the residuals of these runs to those of the problem's model [n]
   ModelRuns& runs_;
   std::map<NamedValues, Trial> known_;
   int count_ = 0;

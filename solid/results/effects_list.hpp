@@ -32,7 +32,7 @@ struct PossibleEffect {
   static constexpr const char* type_name = "possible_effect";
   std::string type, part, meaning;
   EffectRole role = EffectRole::replaces;
-  bool generic = false, in_wall = false;
+  bool generic = false;
   std::string variant_of;
   std::vector<OfferedAmplitude> amplitudes;
   std::vector<std::string> required;
@@ -44,7 +44,6 @@ struct PossibleEffect {
     field("meaning", self.meaning, "in words");
     field("role", self.role, "what it does to a model");
     field("generic", self.generic, "says that something acts, not what: sought only where a case asks for it");
-    field("in_wall", self.in_wall, "is of what the wall is made of, not of what acts on its surface");
     field("variant_of", self.variant_of, "the effect that it is a special shape of; empty: of none");
     field("amplitudes", self.amplitudes, "by which it is switched on");
     field("required", self.required, "parameters that must be given for it");

@@ -16,7 +16,8 @@ const EffectDeclaration stiffness_factor_declaration{
                     .transform = Transform::log2,
                     .prior_deviation = 0.5,
                     .scale = 0.5}},
-    .role = EffectRole::replaces};
+    .role = EffectRole::replaces,
+    .changes_along = true};
 
 /// S <- factor S; prestress stays as it is. (S.19)
 class StiffnessFactor final : public WallEffect {

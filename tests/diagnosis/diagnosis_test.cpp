@@ -24,8 +24,8 @@ constexpr const char* measured =
 
 const std::vector<std::string> regions{"spine", "left", "right"};
 
-/// A case that was measured: the truth has a spring of 0.8 at the spine.
-std::filesystem::path written_in(const TemporaryFolder& folder) {
+/// A case that was measured: the truth has a spring of 0.8 at the spine, or in a half of it.
+std::filesystem::path written_in(const TemporaryFolder& folder, const std::string& hidden = "spine") {
   CaseFile file(folder.file("tube.yaml", tube));
   MeshCase mesh;
   file.read("mesh", mesh);
@@ -34,7 +34,8 @@ std::filesystem::path written_in(const TemporaryFolder& folder) {
   std::string list = "file, time [s]\n";
   for (int frame = 0; frame < 8; ++frame) {
     const std::string name = fmt::format("s{}.stl", frame);
-    write_stl(folder / name, truth.at(0.1 * frame, {{truth.infos[0].name}, {0.8}}), lumen.triangles);
+    write_stl(folder / name, truth.at(0.1 * frame, {{"solid.effects.spring_" + hidden + ".stiffness"}, {0.8}}),
+              lumen.triangles);
     list += fmt::format("{}, {}\n", name, 0.1 * frame);
   }
   folder.file("ct.csv", list);
@@ -42,15 +43,23 @@ std::filesystem::path written_in(const TemporaryFolder& folder) {
 }
 
 class WholeDiagnosis : public ::testing::Test {
- protected:
-  std::vector<PlacedEffect> effects() const {
+ public:
+  static std::vector<PlacedEffect> effects() {
     std::vector<PlacedEffect> all;
     for (const std::string& region : regions)
       all.push_back({"solid.effects.spring_" + region, "spring", region, "holds the wall back", true, {}});
+    for (const std::string& region : regions)
+      for (const Band& band : {Band{0, 0.5}, Band{0.5, 1}}) {
+        const std::string half = band.from > 0 ? "_outlet_half" : "_inlet_half";
+        all.push_back(
+            {"solid.effects.spring_" + region + half, "spring", region, "holds it there", true, {}, {}, band});
+      }
     return all;
   }
+
+ protected:
   DiagnosisReport report(const DiagnosisSettings& settings = {}) {
-    return diagnose(given, effects(), runs, {}, settings);
+    return diagnose(given, effects(), {runs}, settings);
   }
   int trials() const {
     return static_cast<int>(std::count_if(runs.made.begin(), runs.made.end(),
@@ -71,8 +80,8 @@ TEST_F(WholeDiagnosis, FindsTheHiddenSpringAndItsStiffness) {
   EXPECT_EQ(candidate.name, "spring");
   EXPECT_EQ(candidate.where, "spine");
   EXPECT_NEAR(first.amplitudes(0), 0.8, 0.02);
-  EXPECT_EQ(found.cost.sensitivity_runs, 4) << "the model as it is, and each spring";
-  EXPECT_EQ(found.cost.runs, 4 + trials());
+  EXPECT_EQ(found.cost.sensitivity_runs, 6) << "the model as it is, each spring, and halves of that which leads";
+  EXPECT_EQ(found.cost.runs, 6 + trials());
   EXPECT_GE(trials(), 1);
   EXPECT_LE(trials(), 4) << "a linear model is known after two of each";
 }
@@ -95,6 +104,35 @@ TEST_F(WholeDiagnosis, WithoutTheModelAsItIsThereIsNone) {
   runs.fails = {"candidates/runs/base"};
   EXPECT_EQ(message_of([&] { report(); }), "the model as it is: too much");
   EXPECT_EQ(runs.made.size(), 1U);
+}
+
+/// Parts of places are run where something is probable, and only there.
+TEST(Diagnosis, SaysInWhichPartOfItsPlaceAnEffectActs) {
+  const TemporaryFolder folder;
+  const DiagnosedCase given(written_in(folder, "spine_outlet_half"));
+  FakeRuns runs(given.lumen, regions);
+  const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs});
+  EXPECT_EQ(found.found.verdict, Verdict::missing);
+  const TestedEffect& first = found.found.effects.front();
+  EXPECT_EQ(found.problem.candidates[first.candidate].where, "spine, outlet half");
+  EXPECT_NEAR(first.amplitudes(0), 0.8, 0.03);
+  for (const std::string& run : runs.made) EXPECT_EQ(run.find("left_"), std::string::npos) << run;
+}
+
+/// A coarser model tells what numbers do to first order; what is named is run with the model, and has its amplitude.
+TEST_F(WholeDiagnosis, NeedsTheModelItselfOnlyForWhatIsProbable) {
+  FakeRuns coarse(given.lumen, regions);
+  coarse.strength = 0.8;
+  const DiagnosisReport found = diagnose(given, effects(), {runs, &coarse});
+  EXPECT_EQ(found.found.verdict, Verdict::missing);
+  const TestedEffect& first = found.found.effects.front();
+  EXPECT_EQ(found.problem.candidates[first.candidate].where, "spine");
+  EXPECT_NEAR(first.amplitudes(0), 0.8, 0.02);
+  EXPECT_GE(coarse.made.size(), 4U);
+  EXPECT_EQ(found.cost.coarse_runs, static_cast<int>(coarse.made.size()));
+  EXPECT_EQ(runs.made.front(), "candidates/runs/base");
+  EXPECT_EQ(static_cast<int>(runs.made.size()), 1 + trials());
+  EXPECT_LE(trials(), 4);
 }
 
 }  // namespace diagnosis_test

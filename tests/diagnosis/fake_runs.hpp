@@ -9,13 +9,14 @@
 
 namespace tether::testing {
 
-/// Runs of a tube about the z axis that beats with period 0.8: springs at its regions, each a number of the model, hold
-/// the wall back by half a millimetre a unit.
+/// Runs of a tube about the z axis that beats with period 0.8: springs at its regions and at the halves of these along
+/// the axis, each a number of the model, hold the wall back by half a millimetre a unit.
 struct FakeRuns : ModelRuns {
   explicit FakeRuns(const LumenSurface& of, const std::vector<std::string>& regions) : lumen(of) {
-    for (const std::string& region : regions)
-      infos.push_back({"solid.effects.spring_" + region + ".stiffness", "of the spring", "1", "linear", 0, 0, 0,
-                       infinite, undefined, 1});
+    for (const char* half : {"", "_inlet_half", "_outlet_half"})
+      for (const std::string& region : regions)
+        infos.push_back({"solid.effects.spring_" + region + half + ".stiffness", "of the spring", "1", "linear", 0, 0,
+                         0, infinite, undefined, 1});
   }
   const std::vector<protocol::ParameterInfo>& parameters() const override { return infos; }
   std::vector<std::string> columns() const override { return {}; }
@@ -35,18 +36,24 @@ struct FakeRuns : ModelRuns {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       double moved = 0.2;  // cm
       for (std::size_t k = 0; k < values.names.size(); ++k)
-        if (values.names[k].find(lumen.region_names.at(
-                static_cast<std::size_t>(lumen.region[static_cast<std::size_t>(i)]))) != std::string::npos)
-          moved -= 0.05 * values.values[k];
+        if (acts_at(values.names[k], i)) moved -= 0.05 * strength * values.values[k];
       x.col(i).head<2>() += beat * moved * lumen.points.col(i).head<2>().normalized();
     }
     return x;
+  }
+  bool acts_at(const std::string& name, Eigen::Index node) const {
+    const auto has = [&](const std::string& word) { return name.find(word) != std::string::npos; };
+    const double middle = lumen.points.row(2).mean(), z = lumen.points(2, node);
+    const auto region = static_cast<std::size_t>(lumen.region[static_cast<std::size_t>(node)]);
+    return has(lumen.region_names.at(region)) && !(has("inlet_half") && z > middle) &&
+           !(has("outlet_half") && z < middle);
   }
   FinishedMotion motion(const NamedValues& values) const {
     return {{0, 0.8, lumen.points, [this, values](double time) { return at(time, values); }}, {}};
   }
 
   const LumenSurface& lumen;
+  double strength = 1;  ///< of the springs: a coarser model's are not quite the model's
   std::vector<protocol::ParameterInfo> infos;
   std::set<std::string> fails;    ///< folders of runs that do not come to their end
   std::vector<std::string> made;  ///< folders

@@ -1,5 +1,6 @@
 /// Runs on a finer mesh, as the nodes of a coarser one move in them.
 #include "diagnosis/evidence/numerics.hpp"
+#include "diagnosis/evidence/node_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ double worst_error(int coarse, int fine) {
     for (Eigen::Index i = 0; i < moved.cols(); ++i) moved.col(i) += motion_at(other.points.col(i), time);
     return moved;
   };
-  const FinishedMotion mapped = on_nodes_of(lumen, other, run);
+  const FinishedMotion mapped = NodeMap(lumen, other)(run);
   EXPECT_EQ((mapped.motion.positions(0) - lumen.points).norm(), 0) << "what does not move lies where it was imaged";
   const Points moved = mapped.motion.positions(0.5);
   double worst = 0;

@@ -40,7 +40,7 @@ Diagnosis diagnosis() {
   d.split_by = FurtherData{{"pressure", "2 mmHg", 14, true}, {{"flow", "", 3, false}}};
   d.path = {{"contact", "stiffness", "spine", false, Objection::too_weak, "", 9, 8, {}}};
   d.suggested_case = "suggested.yaml";
-  d.cost = {12, 8, 3, 4.5};
+  d.cost = {12, 8, 0, 3, 4.5};
   return d;
 }
 

@@ -125,8 +125,30 @@ TEST(SetEvidence, FollowsWhatRunsShowed) {
   }
   const SetEvidence evidence(p, runs);
   EXPECT_NEAR(evidence.fit({0}, 0).amplitudes[0], 6, 0.3);
-  EXPECT_NEAR(evidence.beyond_runs(0, 6), 7.0 / 6, 1e-9);
-  EXPECT_TRUE(std::isinf(evidence.beyond_runs(1, 6)));
+  EXPECT_NEAR(evidence.beyond_runs(0, 6, true), 7.0 / 6, 1e-9);
+  EXPECT_TRUE(std::isinf(evidence.beyond_runs(1, 6, true)));
+}
+
+/// A coarser model's spring is a fifth too weak throughout: one run of the model says so.
+TEST(AmplitudeCurve, TakesItsFormFromACoarserModelAndItsSizeFromTheModel) {
+  const auto seen = [](double a) -> VectorXd { return VectorXd::LinSpaced(5, 1, 2) * (a / (1 + a)); };
+  MatrixXd columns(5, 4);
+  AmplitudeCurve curve;
+  for (int k = 0; k < 3; ++k) {
+    const double size = std::pow(4.0, k);
+    columns.col(k) = 0.8 * seen(size);
+    curve.add({size, k, 1, true});
+  }
+  columns.col(3) = seen(4.2);
+  curve.add({4.2, 3, 1, false});
+  curve.trust_the_model(columns, VectorXd::Ones(5));
+  ASSERT_EQ(curve.points().size(), 3U) << "the coarse run next to it is not needed";
+  for (const double size : {1.0, 4.2, 16.0}) {
+    VectorXd sum = VectorXd::Zero(5);
+    for (const AmplitudeCurve::Share& part : curve.at(size))
+      sum += part.share * part.point->factor * columns.col(part.point->column);
+    EXPECT_NEAR((sum - seen(size)).norm() / seen(size).norm(), 0, 0.02) << size;
+  }
 }
 
 /// Sources that are held out as a whole judge, and name nothing.

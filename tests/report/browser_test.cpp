@@ -171,10 +171,12 @@ class ReportPage : public ::testing::Test {
     Diagnosis diagnosis = ReportPage::diagnosis(Verdict::missing, "MISSING: x", effects);
     diagnosis.table.nothing = 0.01;
     diagnosis.table.groups = {{0.98,
+                               0.93,
                                {{"effect 0<i>", {}, "spine", CandidateKind::effect, 0.7, 1e6, "1", true},
                                 {"effect 1", {}, "spine", CandidateKind::effect, 0.3, {}, "1", false}}}};
     diagnosis.table.combinations = {{{0}, 0.98}};
     diagnosis.table.others = 0.01;
+    diagnosis.table.otherwise = {{Assumed::noise, 1.3, 0.05, {0.93}}};
     diagnosis.look_alike = (MatrixXd(2, 2) << 1, 0.5, 0.5, 1).finished();
     diagnosis.detectable = {{"x", "", "a.b", 2, "1", 0, 0.4}};
     write_record(folder / "diagnosis_0/diagnosis.json", diagnosis);

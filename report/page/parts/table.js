@@ -61,10 +61,21 @@ const lineOf = (table, { core, beside, probability }) =>
     beside ? "" : shares(table, core),
   );
 
+/** How much the name of what leads depends on what is assumed; none where nothing leads. */
+function certainty(table) {
+  const first = table.groups[0];
+  if (!first || first.probability < 0.5 || !table.otherwise.length) return null;
+  return element(
+    "p",
+    { class: "minor" },
+    `With noise 30 % smaller or larger, effects half or twice as large, or the model's own error half or twice as large, the chance of ${groupName(first)} is ${chance(first.least_probability)} at least.`,
+  );
+}
+
 function drawn(table) {
   const lines = merged(table),
     few = lines.filter((one) => one.probability < 0.01).reduce((sum, one) => sum + one.probability, 0);
-  return element(
+  const drawnLines = element(
     "table",
     { class: "chances" },
     ...lines.filter((one) => one.probability >= 0.01).map((one) => lineOf(table, one)),
@@ -72,6 +83,7 @@ function drawn(table) {
     line("Something that the catalogue does not have", table.outside, "var(--yardstick)"),
     table.others + few >= 0.005 ? line("Anything else", table.others + few, "var(--faint)") : null,
   );
+  return element("div", {}, drawnLines, certainty(table));
 }
 
 export function tableSection(report) {

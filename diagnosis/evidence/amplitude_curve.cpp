@@ -1,0 +1,53 @@
+#include "diagnosis/evidence/amplitude_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tether {
+namespace {
+
+/// How much larger than the other one of two sizes is.
+double factor_between(double a, double b) {
+  return std::exp(std::abs(std::log(a / b)));
+}
+
+}  // namespace
+
+void AmplitudeCurve::add(const Point& point) {
+  const auto after = std::find_if(points_.begin(), points_.end(),
+                                  [&](const Point& other) { return std::abs(other.size) > std::abs(point.size); });
+  points_.insert(after, point);
+}
+
+std::vector<AmplitudeCurve::Share> AmplitudeCurve::at(double size) const {
+  if (points_.empty()) return {};
+  std::size_t after = 0;
+  while (after < points_.size() && std::abs(points_[after].size) < std::abs(size)) ++after;
+  if (after == 0 || points_.size() == 1) return {{&points_[0], size / points_[0].size}};
+  const std::size_t to = std::min(after, points_.size() - 1), from = after == points_.size() ? 0 : to - 1;
+  const double share = std::log(size / points_[from].size) / std::log(points_[to].size / points_[from].size);
+  return {{&points_[from], 1 - share}, {&points_[to], share}};
+}
+
+void AmplitudeCurve::trust_the_model(const MatrixXd& columns, const VectorXd& precision) {
+  AmplitudeCurve coarse, fine;
+  for (const Point& point : points_) (point.is_coarse ? coarse : fine).points_.push_back(point);
+  if (coarse.points_.empty() || fine.points_.empty()) return;
+  double both = 0, own = 0;
+  for (const Point& point : fine.points_) {
+    VectorXd seen = VectorXd::Zero(columns.rows());
+    for (const Share& part : coarse.at(point.size))
+      seen += part.share * part.point->factor * columns.col(part.point->column);
+    both += point.factor * columns.col(point.column).dot(precision.cwiseProduct(seen));
+    own += seen.dot(precision.cwiseProduct(seen));
+  }
+  for (Point& point : points_)
+    if (point.is_coarse && both > 0) point.factor *= both / own;
+  std::erase_if(points_, [&](const Point& point) {
+    return point.is_coarse && std::any_of(fine.points_.begin(), fine.points_.end(), [&](const Point& other) {
+             return factor_between(point.size, other.size) < near_a_run;
+           });
+  });
+}
+
+}  // namespace tether

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "common/base/types.hpp"
+
+namespace tether {
+
+/// Factor of sizes within which a run tells what a size does.
+inline constexpr double near_a_run = 1.35;
+
+/// What a candidate of one amplitude does to the data on one side of zero, as runs showed it.
+class AmplitudeCurve {
+ public:
+  /// What a run showed: at its size the data change by `factor` times a column.
+  struct Point {
+    double size;
+    Eigen::Index column;
+    double factor = 1;
+    bool is_coarse = false;  ///< of a coarser model
+  };
+  /// So much of what a point's run showed.
+  struct Share {
+    const Point* point;
+    double share;
+  };
+
+  void add(const Point& point);
+  /// What a coarser model shows is scaled as runs of the model itself want it, and is left out near these. columns: of
+  /// all runs, each [n]; precision [n].
+  void trust_the_model(const MatrixXd& columns, const VectorXd& precision);
+
+  /// By magnitude.
+  const std::vector<Point>& points() const { return points_; }
+  /// Below the smallest run in proportion, between runs by the logarithm of the size, and beyond them as from the first
+  /// to the last. Empty if no run was made.
+  std::vector<Share> at(double size) const;
+
+ private:
+  std::vector<Point> points_;
+};
+
+}  // namespace tether
