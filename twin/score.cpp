@@ -18,9 +18,14 @@ std::string place_of(const ClaimedEffect& effect) {
   return place_of(effect.name, effect.where.value_or(""));
 }
 
+/// There, or in a part of that place.
+bool is_at(const ClaimedEffect& found, const std::string& where) {
+  const std::string place = found.where.value_or("");
+  return where.empty() || place == where || place.starts_with(where + ", ");
+}
+
 bool is(const ClaimedEffect& found, const Answer::Effect& hidden) {
-  return found.name == hidden.name &&
-         (hidden.where.empty() || found.where == hidden.where || found.where.starts_with(hidden.where + ", "));
+  return found.name == hidden.name && is_at(found, hidden.where);
 }
 
 bool is_accepted(const ClaimedEffect& effect) {

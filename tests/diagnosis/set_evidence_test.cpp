@@ -160,6 +160,25 @@ TEST(SetEvidence, DoesNotLookAtWhatIsSealed) {
   EXPECT_DOUBLE_EQ(SetEvidence(p, {}).fit({0}, 0).log_evidence, before);
 }
 
+/// What noise may make is more probable where there is more of it; a name is as sure as in the worst case.
+TEST(Posterior, SaysWhatANameDependsOn) {
+  const EffectProblem p = problem(7);
+  const Posterior posterior = posterior_of(p, SetEvidence(p, {}), std::vector<bool>(3, false));
+  Weighed all = weighed(p, SetEvidence(p, {}), posterior);
+  ASSERT_FALSE(all.groups.empty());
+  weigh_otherwise(all, p, {}, posterior);
+  ASSERT_EQ(all.otherwise.size(), 6U);
+  double less = 0, more = 0;
+  for (const WeighedOtherwise& one : all.otherwise) {
+    ASSERT_EQ(one.groups.size(), all.groups.size());
+    if (one.what == Assumed::noise) (one.factor < 1 ? less : more) = one.nothing;
+    for (std::size_t g = 0; g < one.groups.size(); ++g) EXPECT_GE(one.groups[g], all.groups[g].least);
+  }
+  EXPECT_LT(less, posterior.nothing);
+  EXPECT_GT(more, posterior.nothing);
+  for (const WeighedGroup& group : all.groups) EXPECT_LE(group.least, group.probability);
+}
+
 /// Of data drawn from the prior itself, what is said with a probability is right as often.
 TEST(Posterior, SaysHowOftenItIsRight) {
   std::mt19937_64 generator(11);
