@@ -26,11 +26,14 @@ double Amplitude::value(double amplitude) const {
 }
 
 bool is_variant(const Candidate& one, const Candidate& other) {
-  const bool is_part = one.band.is_all() != other.band.is_all();
-  if (is_part && !one.type.empty() && one.type == other.type && one.part == other.part && one.number == other.number)
-    return true;
-  const bool variant = one.variant_of == other.name || other.variant_of == one.name;
-  return variant && one.where == other.where && one.parameter == other.parameter;
+  const auto is_of = [](const Candidate& shape, const std::string& effect) {
+    return !effect.empty() && shape.variant_of == effect;
+  };
+  const bool same_number = !one.type.empty() && one.part == other.part && one.number == other.number;
+  if (same_number && one.type == other.type && one.band.is_all() != other.band.is_all()) return true;
+  if (same_number && one.band == other.band && (is_of(one, other.type) || is_of(other, one.type))) return true;
+  return (is_of(one, other.name) || is_of(other, one.name)) && one.where == other.where &&
+         one.parameter == other.parameter;
 }
 
 EffectProblem with_discrepancy(EffectProblem problem, double size) {

@@ -139,6 +139,23 @@ TEST(EffectSearch, AWrongSignIsNoSign) {
   EXPECT_LT(effect.z, -5);
 }
 
+/// A support that the model has, one of another shape beside it, and either in a part of its place.
+TEST(EffectSearch, ShapesAndPartsOfOneEffectAreVariants) {
+  Candidate support{"solid.support.regions.spine.damping", "", "", Candidate::Kind::input, {}};
+  support.type = "visco_elastic", support.part = "spine", support.number = "damping";
+  Candidate shape{"normal_visco_elastic", "spine", "", Candidate::Kind::effect, {}};
+  shape.type = shape.name, shape.part = "spine", shape.number = "damping", shape.variant_of = "visco_elastic";
+  EXPECT_TRUE(is_variant(support, shape));
+  Candidate half = support;
+  half.band = {0.5, 1};
+  EXPECT_TRUE(is_variant(half, support));
+  EXPECT_FALSE(is_variant(half, shape)) << "neither the same shape nor the same place";
+  Candidate elsewhere = shape, stiffness = shape;
+  elsewhere.part = "opposite", stiffness.number = "stiffness";
+  EXPECT_FALSE(is_variant(support, elsewhere));
+  EXPECT_FALSE(is_variant(support, stiffness));
+}
+
 TEST(EffectSearch, AVariantOfTheSameEffectIsNoOtherVerdict) {
   EffectProblem problem = band();
   add_candidate(problem, "normal_spring_1", response(1, 8.5, beat));
