@@ -1,0 +1,103 @@
+#include "diagnosis/search/wanted_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tether {
+namespace {
+
+constexpr double matters_still = 3.5;  ///< logarithm of evidence
+
+/// Runs of candidates by themselves that would change what the table says.
+class Wanted {
+ public:
+  Wanted(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior, RunsFor purpose)
+      : problem_(problem), evidence_(evidence), posterior_(posterior), exploring_(purpose == RunsFor::exploring) {}
+
+  /// Of sets that are not improbable, the members that the data ask for; much larger ones too as long as no candidate
+  /// explains the data by itself.
+  void add_likely() {
+    constexpr double matters = 0.01, much_larger = 5;
+    const bool explore = exploring_ && alone() < 0.5;
+    for (const EffectSet& set : posterior_.sets) {
+      if (set.probability + set.with_more < matters) continue;
+      const SetFit fit = evidence_.fit(set.members, 0);
+      for (std::size_t k = 0; k < set.members.size(); ++k) {
+        const std::size_t c = set.members[k];
+        const double size = fit.amplitudes[k];
+        if (!can_be_run(c, size) || !is_asked_for(c)) continue;
+        const double larger = amplitude_of(c).limited(much_larger * size);
+        if (is_far_from_runs(c, size)) wanted_.emplace(c, size);
+        if (explore && evidence_.is_beyond_all(c, larger / 2)) wanted_.emplace(c, larger);
+      }
+    }
+  }
+
+  /// Those that fall behind the best by less than what a run at another size may be wrong by.
+  void add_promising() {
+    constexpr double wrong = 0.15;  // of a gain
+    const double nothing = evidence_.fit({}, 0).log_evidence;
+    std::vector<std::pair<double, std::pair<std::size_t, double>>> all;
+    double best = nothing;
+    for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
+      const SetFit fit = evidence_.fit({c}, 0);
+      best = std::max(best, fit.log_evidence);
+      if (can_be_run(c, fit.amplitudes[0]) && is_far_from_runs(c, fit.amplitudes[0]))
+        all.push_back({fit.log_evidence + wrong * (fit.log_evidence - nothing), {c, fit.amplitudes[0]}});
+    }
+    for (const auto& [hope, run] : all)
+      if (hope > best - matters_still && hope > nothing + matters_still) wanted_.insert(run);
+  }
+
+  MatrixXd runs() const {
+    MatrixXd all = MatrixXd::Zero(problem_.changes.cols(), static_cast<Eigen::Index>(wanted_.size()));
+    Eigen::Index column = 0;
+    for (const auto& [candidate, amplitude] : wanted_)
+      all(problem_.candidates[candidate].amplitudes.front(), column++) = amplitude;
+    return all;
+  }
+
+ private:
+  bool is_far_from_runs(std::size_t c, double size) const {
+    return evidence_.beyond_runs(c, size, exploring_) > near_a_run;
+  }
+  const Amplitude& amplitude_of(std::size_t c) const {
+    return problem_.amplitudes[static_cast<std::size_t>(problem_.candidates[c].amplitudes.front())];
+  }
+  bool can_be_run(std::size_t c, double size) const {
+    const auto has = [&](const auto& run) { return run.first == c; };
+    return problem_.candidates[c].takes_runs() && std::isfinite(size) && size != 0 && !posterior_.left_out[c] &&
+           std::none_of(wanted_.begin(), wanted_.end(), has);
+  }
+  bool is_asked_for(std::size_t c) const {
+    constexpr double likely = 0.05, told = 3;
+    const double p = posterior_.of(c);
+    return p > likely && p / (1 - p) > told * posterior_.prior[c];
+  }
+  /// The probability that at most one candidate is needed.
+  double alone() const {
+    double sum = posterior_.nothing + posterior_.outside;
+    for (const EffectSet& set : posterior_.sets)
+      if (set.members.size() == 1) sum += set.probability + set.with_more;
+    return sum;
+  }
+
+  const EffectProblem& problem_;
+  const SetEvidence& evidence_;
+  const Posterior& posterior_;
+  bool exploring_;
+  std::set<std::pair<std::size_t, double>> wanted_;  ///< candidates and amplitudes
+};
+
+}  // namespace
+
+MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
+                     RunsFor purpose) {
+  Wanted wanted(problem, evidence, posterior, purpose);
+  wanted.add_likely();
+  wanted.add_promising();
+  return wanted.runs();
+}
+
+}  // namespace tether

@@ -1,0 +1,47 @@
+#include "diagnosis/search/weighing.hpp"
+
+#include <algorithm>
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr int rounds = 5;  ///< of runs, before what they tell is taken as it is
+
+/// Of each candidate, whether one of its numbers is.
+std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings& settings) {
+  std::vector<bool> refused;
+  for (const Candidate& candidate : problem.candidates)
+    refused.push_back(std::any_of(candidate.amplitudes.begin(), candidate.amplitudes.end(), [&](Index i) {
+      const std::string& name = problem.amplitudes[static_cast<std::size_t>(i)].name;
+      return std::find(settings.refused.begin(), settings.refused.end(), name) != settings.refused.end();
+    }));
+  return refused;
+}
+
+}  // namespace
+
+Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
+                       RunsFor purpose, std::vector<ShownRun> shown) {
+  const std::vector<bool> left_out = refused_in(problem, settings);
+  for (int round = 0; true; ++round) {
+    const SetEvidence evidence(problem, shown);
+    const Posterior posterior = posterior_of(problem, evidence, left_out);
+    const MatrixXd wanted = wanted_runs(problem, evidence, posterior, purpose);
+    if (wanted.cols() == 0 || round == rounds) {
+      Weighing weighing{weighed(problem, evidence, posterior), std::move(shown)};
+      if (purpose == RunsFor::telling) weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
+      return weighing;
+    }
+    const MatrixXd residuals = runs.residual_at(wanted);
+    for (Index k = 0; k < wanted.cols(); ++k) shown.push_back({wanted.col(k), residuals.col(k), runs.is_coarse});
+  }
+}
+
+Weighed weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at) {
+  Weighing explored = weigh_effects(problem, settings, {residual_at}, RunsFor::exploring);
+  return weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(explored.shown)).weighed;
+}
+
+}  // namespace tether
