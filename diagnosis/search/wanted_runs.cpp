@@ -8,6 +8,7 @@ namespace tether {
 namespace {
 
 constexpr double matters_still = 3.5;  ///< logarithm of evidence
+constexpr double wrong = 0.15;         ///< share of a gain that a run at another size may be off
 
 /// Runs of candidates by themselves that would change what the table says.
 class Wanted {
@@ -36,7 +37,6 @@ class Wanted {
 
   /// Those that fall behind the best by less than what a run at another size may be wrong by.
   void add_promising() {
-    constexpr double wrong = 0.15;  // of a gain
     const double nothing = evidence_.fit({}, 0).log_evidence;
     std::vector<std::pair<double, std::pair<std::size_t, double>>> all;
     double best = nothing;
@@ -50,6 +50,17 @@ class Wanted {
       if (hope > best - matters_still && hope > nothing + matters_still) wanted_.insert(run);
   }
 
+  /// Of probable sets, what may stand in place of a member: it does much the same, and falls behind by less than what a
+  /// run at another size, or of a coarser model, may be wrong by.
+  void add_alternatives() {
+    constexpr double probable = 0.05;
+    for (const EffectSet& set : posterior_.sets) {
+      if (set.probability + set.with_more < probable) break;
+      const double best = evidence_.fit(set.members, 0).log_evidence;
+      for (const std::size_t member : set.members) add_alternatives(set, member, best);
+    }
+  }
+
   MatrixXd runs() const {
     MatrixXd all = MatrixXd::Zero(problem_.changes.cols(), static_cast<Eigen::Index>(wanted_.size()));
     Eigen::Index column = 0;
@@ -59,6 +70,21 @@ class Wanted {
   }
 
  private:
+  void add_alternatives(const EffectSet& set, std::size_t member, double best) {
+    std::vector<std::size_t> rest = set.members;
+    std::erase(rest, member);
+    const double without = evidence_.fit(rest, 0).log_evidence;
+    rest.push_back(0);
+    for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
+      const bool alike = std::pow(evidence_.cosine(c, member), 2) > 0.5;
+      if (!alike || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
+      rest.back() = c;
+      const SetFit fit = evidence_.fit(rest, 0);
+      const double size = fit.amplitudes.back(), hope = fit.log_evidence + wrong * (fit.log_evidence - without);
+      if (hope > best - matters_still && can_be_run(c, size) && is_far_from_runs(c, size)) wanted_.emplace(c, size);
+    }
+  }
+
   bool is_far_from_runs(std::size_t c, double size) const {
     return evidence_.beyond_runs(c, size, exploring_) > near_a_run;
   }
@@ -97,6 +123,7 @@ MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, 
   Wanted wanted(problem, evidence, posterior, purpose);
   wanted.add_likely();
   wanted.add_promising();
+  wanted.add_alternatives();
   return wanted.runs();
 }
 
