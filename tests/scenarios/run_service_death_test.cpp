@@ -42,17 +42,19 @@ class RunService : public ::testing::Test {
     return end.get();
   }
   void expect_no_orphan() const {
-    for (const char* program : {"mpirun", "identification_master", "fsi_master", "fluid", "solid"}) {
-      for (int wait = 0; wait < 600 && process_of(program, candidates) != 0; ++wait)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      EXPECT_EQ(process_of(program, candidates), 0) << program << " is an orphan";
-    }
+    for (const char* program : {"mpirun", "identification_master", "fsi_master", "fluid", "solid"})
+      for (const fs::path& of : {candidates, coarse}) {
+        for (int wait = 0; wait < 600 && process_of(program, of) != 0; ++wait)
+          std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        EXPECT_EQ(process_of(program, of), 0) << program << " of " << of << " is an orphan";
+      }
   }
 
   TemporaryFolder folder;
   const fs::path given = folder.file("case.yaml", fmt::format(measured, TETHER_SOURCE));
   const std::string output = (folder / "out").string();
-  const fs::path candidates = folder / "out/candidates.yaml", first_run = folder / "out/candidates/runs/base/run.json";
+  const fs::path candidates = folder / "out/candidates.yaml", coarse = folder / "out/coarse.yaml",
+                 first_run = folder / "out/coarse/runs/base/run.json";
 };
 
 TEST_F(RunService, EndsWithTheDiagnosisThatIsKilled) {
@@ -68,7 +70,7 @@ TEST_F(RunService, EndsWithTheDiagnosisThatIsKilled) {
 TEST_F(RunService, ThatDiesEndsTheDiagnosisWithAMessage) {
   for (const char* program : {"identification_master", "solid"}) {
     fs::remove_all(output);
-    const ChildEnd end = killed(program, candidates);
+    const ChildEnd end = killed(program, coarse);
     EXPECT_EQ(end.exit_code, 1) << program;
     EXPECT_NE(end.errors.find(program), std::string::npos) << end.errors;
     EXPECT_NE(end.errors.find("the same command goes on from there"), std::string::npos) << end.errors;
