@@ -154,12 +154,12 @@ VectorXd SetEvidence::mix_at(std::size_t candidate, double size, const std::vect
 SetEvidence::Grid SetEvidence::grid_of(std::size_t candidate, const std::vector<Index>& columns,
                                        const VectorXd& places) const {
   const Amplitude& amplitude = amplitude_of(candidate);
-  const double scale = scale_of(amplitude), between = places(1) - places(0);
+  const double assumed = scale_of(amplitude), scale = assumed / assumed_.sizes, between = places(1) - places(0);
   Grid grid{VectorXd(places.size()), VectorXd(places.size()), MatrixXd(places.size(), columns.size())};
   for (Index g = 0; g < places.size(); ++g) {
     const double size = scale * seen_from * std::sinh(places(g)), way = scale * seen_from * std::cosh(places(g));
     const bool admissible = size != 0 && std::abs(amplitude.limited(size) - size) <= 1e-9 * std::abs(size);
-    const double density = (amplitude.one_sided ? 2 : 1) * prior_density(amplitude, size, scale);
+    const double density = (amplitude.one_sided ? 2 : 1) * prior_density(amplitude, size, assumed);
     grid.sizes(g) = size;
     grid.log_weight(g) = admissible ? std::log(density * way * between) : -infinite;
     grid.mix.row(g) = mix_at(candidate, admissible ? size : scale, columns);

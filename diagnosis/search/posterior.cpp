@@ -51,13 +51,16 @@ std::vector<double> log_odds(const EffectProblem& problem) {
 
 constexpr double improbable = 7;  ///< logarithm of odds
 constexpr double alike = 0.5;     ///< squared cosine of two that do much the same
+constexpr double about = 1.5;     ///< factor within which a run tells what an amplitude does
 
 class Sets {
  public:
   Sets(const EffectProblem& problem, const SetEvidence& evidence, const std::vector<bool>& left_out)
       : evidence_(evidence), log_odds_(log_odds(problem)) {
-    for (std::size_t c = 0; c < left_out.size(); ++c)
+    for (std::size_t c = 0; c < left_out.size(); ++c) {
+      takes_runs_.push_back(problem.candidates[c].takes_runs());
       if (!left_out[c]) candidates_.push_back(c);
+    }
   }
 
   Posterior posterior() {
@@ -72,12 +75,15 @@ class Sets {
     return normalised();
   }
 
-  /// Of sets that are not out of the question by another posterior.
+  /// Of sets that are not out of the question by another posterior, and of which runs of the model itself tell what
+  /// they do.
   Posterior among(const Posterior& known) {
     constexpr double possible = 1e-4;
     for (std::size_t size = 0; size <= 3; ++size)
       for (const EffectSet& set : known.sets)
-        if (set.members.size() == size && (size == 0 || set.probability + set.with_more > possible)) add(set.members);
+        if (set.members.size() == size && (size == 0 || set.probability + set.with_more > possible) &&
+            is_near_runs(set.members))
+          add(set.members);
     return normalised();
   }
 
@@ -88,6 +94,15 @@ class Sets {
     double all() const { return std::max(as_it_is, with_more); }
   };
 
+  /// At its most probable amplitudes.
+  bool is_near_runs(const Members& members) const {
+    const SetFit fit = evidence_.fit(members, 0);
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (takes_runs_[members[k]] && std::isfinite(fit.amplitudes[k]) &&
+          evidence_.beyond_runs(members[k], fit.amplitudes[k], false) > about)
+        return false;
+    return true;
+  }
   /// Whether a set is not improbable against the most probable one so far.
   bool counts(const Members& members) const {
     double most = -infinite;
@@ -174,6 +189,7 @@ class Sets {
 
   const SetEvidence& evidence_;
   std::vector<double> log_odds_;
+  std::vector<bool> takes_runs_;
   Members candidates_;
   std::map<Members, Weighed> sets_;
 };
@@ -183,7 +199,6 @@ const std::map<Assumed, std::array<double, 2>> otherwise{
     {Assumed::sizes, {0.5, 2}}, {Assumed::noise, {1 / 1.3, 1.3}}, {Assumed::discrepancy, {0.5, 2}}};
 
 constexpr double listed = 0.01;  ///< smallest probability of a candidate that is told
-constexpr double about = 1.5;    ///< factor within which a run tells what an amplitude does
 
 std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const std::vector<double>& each) {
   Members order;
