@@ -114,6 +114,10 @@ void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   if (!diagnosis.path.empty() && !diagnosis.path.back().accepted) all.push_back(refusal_text(diagnosis.path.back()));
 }
 
+std::string percent_of(double probability) {
+  return probability > 0.995 ? "above 99 %" : fmt::format("{:.0f} %", 100 * probability);
+}
+
 /// What the name of what leads depends on.
 void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const auto& table = diagnosis.table;
@@ -121,10 +125,10 @@ void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   if (table.otherwise.empty() || table.groups.empty()) return;
   const AlternativeGroup& first = table.groups.front();
   if (first.probability < even || first.least_probability > no_news) return;
-  all.push_back(fmt::format(
-      "Its probability is {:.0f} %, and {:.0f} % at least if effects may be half or twice as large, the noise is 30 % "
-      "off, or the model's own error half or twice what was assumed",
-      100 * first.probability, 100 * first.least_probability));
+  all.push_back(
+      fmt::format("Its probability is {}, and at least {} if effects may be half or twice as large, the noise is 30 % "
+                  "off, or the model's own error half or twice what was assumed",
+                  percent_of(first.probability), percent_of(first.least_probability)));
 }
 
 void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
