@@ -295,6 +295,29 @@ SetFit SetEvidence::fit(const Members& members, std::size_t discrepancy) const {
   return fit;
 }
 
+double SetEvidence::log_evidence(const Members& members) const {
+  VectorXd logs(discrepancies_.size());
+  for (std::size_t s = 0; s < discrepancies_.size(); ++s)
+    logs(static_cast<Index>(s)) = std::log(discrepancies_[s].prior) + fit(members, s).log_evidence;
+  return log_sum(logs);
+}
+
+void SetEvidence::suppose(std::size_t candidate, double amplitude, double share) {
+  const std::vector<Index> columns = columns_of({candidate});
+  const VectorXd mix = share * mix_at(candidate, amplitude, columns);
+  for (Products& products : products_) {
+    const Index data = products.gram.cols() - 1;
+    const VectorXd seen = products.gram(Eigen::all, columns) * mix;
+    products.gram.col(data).head(data) = seen.head(data);
+    products.gram.row(data).head(data) = seen.head(data).transpose();
+    products.gram(data, data) = mix.dot(seen(columns));
+  }
+}
+
+double SetEvidence::signal(std::size_t discrepancy) const {
+  return std::sqrt(products_[discrepancy].gram.bottomRightCorner<1, 1>().value());
+}
+
 double SetEvidence::beyond_runs(std::size_t candidate, double amplitude, bool coarse) const {
   double least = infinite;
   for (const AmplitudeCurve& side : curves_[candidate])

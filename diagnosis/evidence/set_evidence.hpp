@@ -41,6 +41,12 @@ class SetEvidence {
 
   /// members: numbers of candidates, at most three of one amplitude. discrepancy: number of one of `discrepancies()`.
   SetFit fit(const std::vector<std::size_t>& members, std::size_t discrepancy) const;
+  /// Over all sizes of discrepancy.
+  double log_evidence(const std::vector<std::size_t>& members) const;
+  /// Takes for the data so much of what a candidate of that first amplitude does, and nothing else.
+  void suppose(std::size_t candidate, double amplitude, double share = 1);
+  /// How far the data are from the model, over what its errors with that discrepancy make.
+  double signal(std::size_t discrepancy) const;
   /// Small ones first.
   const std::vector<DiscrepancySize>& discrepancies() const { return discrepancies_; }
   /// How far that is from the closest of its runs, as a factor; infinite if none was made. coarse: whether those of a

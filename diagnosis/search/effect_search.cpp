@@ -23,6 +23,8 @@ constexpr double even = 0.5;        ///< probability of a group that is tried
 /// Share of a group's member that is named alone: 95 % though logarithms of evidence are off by 1, as between runs.
 constexpr double alone = 0.98;
 
+/// What is named only at so many times the size that it may have is not what data like these look for.
+constexpr double beyond_patients = 5;
 constexpr double noteworthy = 2;     ///< of what an error is allowed
 constexpr double unexplainable = 6;  ///< misfit beyond noise, as above: neither noise nor errors allowed do that
 
@@ -45,7 +47,8 @@ class Search {
 
   SearchResult run() {
     const Scores scores = plain_.scores(problem_.changes, problem_.residual);
-    result_.effects = test_all(problem_, scores, settings_.alpha, result_.independent);
+    result_.effects = test_all(problem_, scores, result_.independent);
+    for (TestedEffect& effect : result_.effects) set_detectable(effect);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
     while (add_one()) continue;
     result_.amplitudes = now_.amplitudes;
@@ -65,6 +68,13 @@ class Search {
  private:
   double worth_of(const TestedEffect& effect) const { return worth(problem_, effect, result_.independent); }
   bool is_worth_more(const TestedEffect& a, const TestedEffect& b) const { return worth_of(a) > worth_of(b); }
+
+  void set_detectable(TestedEffect& effect) const {
+    const Candidate& candidate = problem_.candidates[effect.candidate];
+    const double scale = problem_.amplitudes[static_cast<std::size_t>(candidate.amplitudes.front())].scale;
+    effect.visible = result_.weighed.detectable[effect.candidate];
+    effect.testable = !(effect.visible > beyond_patients * scale);  // errors of the data have no scale
+  }
 
   double dispersion(const VectorXd& residual) const {
     return std::max(1.0, plain_.counted_misfit(residual) / result_.independent);
@@ -89,7 +99,7 @@ class Search {
   /// Its members that may be it, at their most probable amplitudes.
   std::vector<TestedEffect> likely_of(const WeighedGroup& group, const Trained& trained) const {
     const std::vector<TestedEffect> tested =
-        test_all(problem_, trained.scores(problem_.changes, now_.residual), settings_.alpha, result_.independent);
+        test_all(problem_, trained.scores(problem_.changes, now_.residual), result_.independent);
     std::vector<TestedEffect> all;
     for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
       if (k > 0 && group.shares.front() >= alone) break;

@@ -14,9 +14,6 @@ using Index = Eigen::Index;
 /// A difference of the misfits of two effects that tells them apart with 80 % probability (D.15).
 constexpr double tells = 12;
 
-/// What is seen only at so many times the size that it may have could be named by chance only.
-constexpr double beyond_patients = 5;
-
 std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
   std::vector<bool> one_sided;
   for (const Index i : of) one_sided.push_back(problem.amplitudes[static_cast<std::size_t>(i)].one_sided);
@@ -67,23 +64,6 @@ TestedEffect test(const EffectProblem& problem, std::size_t number, const Scores
   return effect;
 }
 
-/// (D.12)
-double visible(const EffectProblem& problem, const Scores& scores, Index amplitude, double alpha) {
-  const bool one_sided = problem.amplitudes[static_cast<std::size_t>(amplitude)].one_sided;
-  const double tests = static_cast<double>(problem.candidates.size()) * (one_sided ? 1 : 2);
-  const double information = scores.information(amplitude, amplitude);
-  return information > 0 ? (normal_quantile(1 - alpha / tests) + 0.842) / std::sqrt(information) : infinite;
-}
-
-/// Whether any of its amplitudes is seen at a size that it may have.
-bool is_testable(const EffectProblem& problem, const Scores& scores, std::size_t candidate, double alpha) {
-  const auto& own = problem.candidates[candidate].amplitudes;
-  return std::any_of(own.begin(), own.end(), [&](Index i) {
-    const double scale = problem.amplitudes[static_cast<std::size_t>(i)].scale;
-    return !(visible(problem, scores, i, alpha) > beyond_patients * scale);  // errors of the data have no scale
-  });
-}
-
 }  // namespace
 
 double chance_of(const EffectProblem& problem, std::size_t candidate, double gain) {
@@ -118,13 +98,11 @@ double cosine(const EffectProblem& problem, const Scores& scores, const TestedEf
   return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
 }
 
-std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double alpha, double count) {
+std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double count) {
   std::vector<TestedEffect> all;
   std::vector<double> p;
   for (std::size_t i = 0; i < problem.candidates.size(); ++i) {
     TestedEffect& effect = all.emplace_back(test(problem, i, scores, count));
-    effect.visible = visible(problem, scores, problem.candidates[i].amplitudes.front(), alpha);
-    effect.testable = is_testable(problem, scores, i, alpha);
     p.push_back(effect.p);
   }
   const std::vector<double> q = holm(p);

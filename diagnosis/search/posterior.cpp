@@ -289,7 +289,7 @@ Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence
 Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
   std::vector<double> each;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) each.push_back(posterior.of(c));
-  Weighed all{posterior.nothing, posterior.outside, 0, 0, posterior.discrepancy, groups_of(evidence, each), {}, {}};
+  Weighed all{posterior.nothing, posterior.outside, 0, 0, posterior.discrepancy, groups_of(evidence, each), {}, {}, {}};
   for (WeighedGroup& group : all.groups) describe(group, problem, evidence, posterior);
   std::map<std::vector<int>, double> combined;
   for (const EffectSet& set : posterior.sets) {

@@ -58,6 +58,7 @@ struct Weighed {
   std::vector<WeighedGroup> groups;
   std::vector<WeighedCombination> combinations;
   std::vector<WeighedOtherwise> otherwise;
+  std::vector<double> detectable;  ///< of each candidate, the size that these data would name (D.12) [q]
 };
 
 /// All candidates by themselves, pairs of the best with all, and the best of these with the best; two that do much the

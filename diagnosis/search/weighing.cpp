@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/search/detectable.hpp"
+
 namespace tether {
 namespace {
 
@@ -31,7 +33,10 @@ Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& setti
     const MatrixXd wanted = wanted_runs(problem, evidence, posterior, purpose);
     if (wanted.cols() == 0 || round == rounds) {
       Weighing weighing{weighed(problem, evidence, posterior), std::move(shown)};
-      if (purpose == RunsFor::telling) weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
+      if (purpose == RunsFor::telling) {
+        weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
+        weighing.weighed.detectable = detectable_sizes(problem, evidence, posterior);
+      }
       return weighing;
     }
     const MatrixXd residuals = runs.residual_at(wanted);
