@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
+#include "diagnosis/evidence/numerics.hpp"
 #include "diagnosis/evidence/patterns.hpp"
 
 namespace tether {
@@ -40,8 +41,9 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, c
   EffectProblem problem = evidence.problem();
   std::vector<const FinishedMotion*> all;
   for (const FinishedMotion& motion : sensitivities.motions) all.push_back(&motion);
-  add_model_changes(problem, {sensitivities.varied, evidence.residuals(all), sensitivities.is_coarse}, effects,
-                    given.diagnosis);
+  const MatrixXd residuals = evidence.residuals(all);
+  add_model_changes(problem, {sensitivities.varied, residuals, sensitivities.is_coarse}, effects, given.diagnosis);
+  if (sensitivities.is_coarse) allow_numerics(problem, residuals.col(0));
   add_data_errors(problem, evidence, base, allowed, units);
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
   return problem;

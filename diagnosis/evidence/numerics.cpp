@@ -8,6 +8,8 @@ namespace {
 
 /// Refined once more and again: the sum of the steps to the limit, of the first; at least first order.
 constexpr double limit = 2;
+/// Of what half as fine a model differs by, the deviation of what is wrong still: between a third and all.
+constexpr double left_by_refinement = 0.6;
 
 RefinedCase write(const std::filesystem::path& candidates, const DiagnosedCase& given, const std::string& name,
                   const std::string& meaning, std::vector<Overlay::Value> values) {
@@ -43,9 +45,14 @@ void add_numerics(EffectProblem& problem, const RefinedCase& refined, const Vect
   Amplitude amplitude{"share", refined.meaning, "1", true, limit};
   amplitude.upper = limit;
   problem.candidates.push_back(
-      {refined.name, {}, refined.meaning, Candidate::Kind::numerics, {problem.changes.cols()}, true});
+      {refined.name, {}, refined.meaning, Candidate::Kind::numerics, {problem.changes.cols()}, false});
   problem.amplitudes.push_back(amplitude);
   append_columns(problem.changes, change);
+}
+
+void allow_numerics(EffectProblem& problem, const VectorXd& coarse) {
+  const VectorXd difference = problem.residual - coarse;
+  if (difference.allFinite()) allow(problem, difference, left_by_refinement, "error of the model's step and mesh");
 }
 
 }  // namespace tether

@@ -30,4 +30,9 @@ LumenSurface lumen_in(const std::filesystem::path& case_file);
 /// Adds what refining changes as a candidate: amplitude 0 as the model is, 1 as the refined one.
 void add_numerics(EffectProblem& problem, const RefinedCase& refined, const VectorXd& change);
 
+/// Allows what step and mesh of the model may be wrong by: of the difference that twice of both make, a third where
+/// they converge with second order, all of it with first order. coarse: residual of the coarser model as it is [n].
+/// (D.8)
+void allow_numerics(EffectProblem& problem, const VectorXd& coarse);
+
 }  // namespace tether

@@ -138,14 +138,16 @@ std::vector<Index> SetEvidence::columns_of(const Members& members) const {
   return columns;
 }
 
-/// To first order where no run was made.
+/// To first order where no run was made; of several amplitudes the first.
 VectorXd SetEvidence::mix_at(std::size_t candidate, double size, const std::vector<Index>& columns) const {
   VectorXd mix = VectorXd::Zero(static_cast<Index>(columns.size()));
   const auto place_of = [&](Index column) {
     return std::find(columns.begin(), columns.end(), column) - columns.begin();
   };
+  const Index own = place_of(problem_.candidates[candidate].amplitudes.front());
+  if (!is_scalar(candidate)) return size * VectorXd::Unit(mix.size(), own);
   const AmplitudeCurve& side = curves_[candidate][size > 0 ? 0 : 1];
-  if (side.points().empty()) mix(place_of(problem_.candidates[candidate].amplitudes.front())) = size;
+  if (side.points().empty()) mix(own) = size;
   for (const AmplitudeCurve::Share& part : side.at(size))
     mix(place_of(part.point->column)) += part.share * part.point->factor;
   return mix;

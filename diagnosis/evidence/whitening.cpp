@@ -96,6 +96,16 @@ MatrixXd Whitening::covariance_of(const Evidence& evidence, const std::vector<st
   return all.selfadjointView<Eigen::Lower>();
 }
 
+std::vector<std::size_t> Whitening::sources() const {
+  std::vector<std::size_t> all;
+  for (const Group& group : groups_) all.insert(all.end(), static_cast<std::size_t>(group.modes.rows()), group.source);
+  return all;
+}
+
+void Whitening::widen(const std::vector<double>& factors) {
+  for (Group& group : groups_) group.modes /= factors[group.source];
+}
+
 MatrixXd Whitening::operator()(const MatrixXd& data) const {
   MatrixXd white(count_, data.cols());
   for (const Group& group : groups_)

@@ -18,6 +18,10 @@ class Whitening {
   MatrixXd operator()(const MatrixXd& data) const;
   /// The same problem in these numbers. `independent` is 1 where the noise's size is well known, else 0.
   EffectProblem operator()(EffectProblem problem) const;
+  /// Of each combination, the number of its source [k].
+  std::vector<std::size_t> sources() const;
+  /// Takes the noise of each source for so much larger.
+  void widen(const std::vector<double>& factors);
 
  private:
   /// Data that err together in space: a component of a frame, or values of a record, either used or held out.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/types.hpp"
+#include "diagnosis/results/adequacy.hpp"
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
@@ -91,6 +92,8 @@ struct Diagnosis {
   std::vector<std::string> sentences;
   std::string case_name, title;
   double alpha = 0.05, independent_data = 0, dispersion = 1;
+  std::vector<NoiseFactor> noise;
+  Adequacy adequacy;
   bool doubtful = false;
   ProbabilityTable table;
   std::vector<Finding> effects;
@@ -114,6 +117,8 @@ struct Diagnosis {
     field("alpha", self.alpha, "probability of a false alarm over all candidates");
     field("independent_data", self.independent_data, "number of independent training data");
     field("dispersion", self.dispersion, "misfit left per independent datum; intervals are widened by its root");
+    field("noise", self.noise, "of each source, how large it is as the data say (D.20)");
+    field("adequacy", self.adequacy, "probability that chance leaves as much, asked in five ways (D.20)");
     field("doubtful", self.doubtful, "more is left than noise and errors allowed make by chance");
     field("table", self.table, "how probable each explanation is");
     field("effects", self.effects, "accepted ones first, then by their evidence");

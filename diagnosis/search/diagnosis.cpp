@@ -1,6 +1,7 @@
 #include "diagnosis/search/diagnosis.hpp"
 
 #include "common/base/error.hpp"
+#include "diagnosis/evidence/noise_factors.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
 #include "diagnosis/search/trials.hpp"
@@ -51,6 +52,17 @@ std::vector<Split> splits_of(const DiagnosedCase& given, const DiagnosisReport& 
   return splits(report.problem, pairs, further_measurements(given, evidence, motions, columns));
 }
 
+/// Takes the noise of each source for as large as the data say.
+std::vector<NoiseFactor> widen_noise(Whitening& whitening, const Evidence& evidence, EffectProblem& problem) {
+  const std::vector<double> factors = noise_factors(problem, whitening.sources());
+  problem = with_noise(std::move(problem), whitening.sources(), factors);
+  whitening.widen(factors);
+  std::vector<NoiseFactor> all;
+  for (std::size_t source = 0; source < factors.size(); ++source)
+    all.push_back({evidence.field_of_source(source), factors[source]});
+  return all;
+}
+
 /// The model as it is. Throws RunError if it does not come to its end.
 FinishedMotion base_of(ModelRuns& runs) {
   FinishedMotion base = runs.make({base_run()}).front();
@@ -88,8 +100,9 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   EffectProblem problem = problem_of(given, evidence, base, sensitivities, effects);
   add_refined(problem, evidence, model.refined);
   const VectorXd as_it_is = problem.residual;
-  const Whitening whitening(evidence, problem);
-  report.problem = whitening(std::move(problem));
+  Whitening whitening(evidence, problem);
+  report.problem = whitening(problem);
+  report.noise = widen_noise(whitening, evidence, report.problem);
   Trials trials(report.problem, evidence, whitening, base, model.runs);
   Trials first_trials(report.problem, evidence, whitening, sensitivities.motions.front(), first_order);
   const SearchSettings how = search_settings(given.diagnosis, settings);

@@ -159,6 +159,8 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.alpha = report.alpha;
   d.independent_data = found.independent;
   d.dispersion = found.dispersion;
+  d.noise = report.noise;
+  d.adequacy = found.adequacy;
   d.doubtful = found.doubtful;
   d.table = table_of(problem, found.weighed);
   for (const TestedEffect& effect : found.effects) {

@@ -14,6 +14,7 @@ struct DiagnosisReport {
   SearchResult found;
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
   double alpha = 0.05;
+  std::vector<NoiseFactor> noise;
   DiagnosisCost cost;
 };
 

@@ -320,20 +320,20 @@ class Search {
     return all;
   }
 
-  /// Whether the data at hand or those held out, given these, are off by more than chance would have it, in all or in a
-  /// pattern, or an allowed error would have to be larger than it is by chance: four questions, of which chance answers
-  /// any with yes in a share of alpha.
-  bool is_doubtful() const {
-    const double each = settings_.alpha / 4, much = normal_quantile(1 - each);
-    if (result_.after.p < each || is_far_beyond_noise(much)) return true;
+  /// Of what is left now. (D.20)
+  Adequacy adequacy() const {
     const auto named = problem_.allowed_names.size() -
                        std::count(problem_.allowed_names.begin(), problem_.allowed_names.end(), std::string{});
-    if (!result_.strained.empty() &&
-        2 * static_cast<double>(named) * normal_tail(result_.strained.front().deviations) < each)
-      return true;
-    if (counted_.held_out.size() < 2) return false;
-    const double count = problem_.independent(counted_.held_out).sum();
-    return foretold_.misfit(now_.residual).sum() > count + much * std::sqrt(2 * count);
+    Adequacy found;
+    found.whole = chi_square_tail(plain_.counted_misfit(now_.residual), static_cast<int>(result_.independent));
+    found.pooled = result_.after.pooled;
+    found.local = result_.after.p;
+    if (!result_.strained.empty())
+      found.errors = std::min(1.0, 2 * static_cast<double>(named) * normal_tail(result_.strained.front().deviations));
+    if (!counted_.held_out.empty())
+      found.held_out = chi_square_tail(foretold_.misfit(now_.residual).sum(),
+                                       static_cast<int>(problem_.independent(counted_.held_out).sum()));
+    return found;
   }
 
   void judge() {
@@ -342,7 +342,8 @@ class Search {
       return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
     });
     result_.strained = strained_errors();
-    result_.doubtful = is_doubtful();
+    result_.adequacy = adequacy();
+    result_.doubtful = result_.adequacy.p() < settings_.alpha;
     if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
     if (leaves_too_much() && !result_.more)
       result_.verdict = Verdict::not_in_catalogue;

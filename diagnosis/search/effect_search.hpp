@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/results/adequacy.hpp"
 #include "diagnosis/results/diagnosis.hpp"
 #include "diagnosis/search/effect_tests.hpp"
 #include "diagnosis/search/weighing.hpp"
@@ -30,6 +31,7 @@ struct SearchResult {
                            ///< refitted: intervals are widened by its root
   std::optional<Gain> held_out;
   std::vector<StrainedError> strained;  ///< errors beyond twice what is allowed, the worst first
+  Adequacy adequacy;
   bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
 };
 

@@ -1,6 +1,6 @@
 #include "diagnosis/search/effect_tests.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -120,6 +120,20 @@ double worth(const EffectProblem& problem, const TestedEffect& effect, double co
   return gain - price;
 }
 
+namespace {
+
+/// That noise makes what all directions together are off by.
+double pooled_chance(const Scores& scores) {
+  const VectorXd size = scores.information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factor;
+  factor.setThreshold(1e-6);
+  factor.compute(size.asDiagonal() * scores.information * size.asDiagonal());
+  const VectorXd response = size.cwiseProduct(scores.response);
+  return chi_square_tail(response.dot(factor.solve(response)), static_cast<int>(factor.rank()));
+}
+
+}  // namespace
+
 LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual) {
   LackOfFit lack;
   if (problem.patterns.cols() == 0) return lack;
@@ -139,6 +153,7 @@ LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, cons
     }
   }
   lack.p = std::min(1.0, seen * smallest);
+  lack.pooled = pooled_chance(scores);
   lack.excess = std::max(0.0, lack.excess);
   const double limit = seen > 0 ? -normal_quantile(0.025 / seen) : 0;
   lack.beyond_noise = std::max({0.0, lack.excess - 1.645 * std::sqrt(2.0 * moments), lack.z * lack.z - limit * limit});

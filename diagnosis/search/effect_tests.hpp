@@ -47,6 +47,7 @@ double worth(const EffectProblem& problem, const TestedEffect& effect, double co
 /// How much of the misfit no noise, no allowed error and no accepted effect explains. (D.11)
 struct LackOfFit {
   double p = 1;             ///< that noise alone makes the worst pattern
+  double pooled = 1;        ///< that noise alone makes all of them together
   double excess = 0;        ///< of the patterns' squares over what noise makes
   double beyond_noise = 0;  ///< of them, or of the worst alone, over what noise makes in one of twenty cases
   std::size_t worst = 0;

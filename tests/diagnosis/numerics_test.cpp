@@ -48,7 +48,7 @@ TEST(Numerics, RefiningCompetesAsAnAmplitude) {
   ASSERT_EQ(problem.candidates.size(), 1U);
   EXPECT_EQ(problem.candidates[0].kind, Candidate::Kind::numerics);
   EXPECT_FALSE(problem.candidates[0].takes_runs());
-  EXPECT_TRUE(problem.candidates[0].confirmable);
+  EXPECT_FALSE(problem.candidates[0].confirmable);
   EXPECT_TRUE(problem.amplitudes[0].one_sided) << "the limit does not lie on the other side";
   EXPECT_LE(problem.amplitudes[0].value(10), 2);
   EXPECT_EQ(problem.changes.col(0), change);

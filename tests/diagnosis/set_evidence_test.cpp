@@ -151,6 +151,21 @@ TEST(AmplitudeCurve, TakesItsFormFromACoarserModelAndItsSizeFromTheModel) {
   }
 }
 
+/// Data that a candidate makes are as probable as if they had been measured: of one amplitude, and of several.
+TEST(SetEvidence, SupposesWhatACandidateMakes) {
+  EffectProblem p = problem(8);
+  SetEvidence supposed(p, {});
+  for (const auto& [candidate, column] : {std::pair<std::size_t, Index>{1, 1}, {2, 2}}) {
+    p.residual = 0.6 * 3 * p.changes.col(column);
+    const SetEvidence measured(p, {});
+    supposed.suppose(candidate, 3, 0.6);
+    EXPECT_NEAR(supposed.log_evidence({candidate}), measured.log_evidence({candidate}), 1e-9);
+    EXPECT_NEAR(supposed.log_evidence({}), measured.log_evidence({}), 1e-9);
+    const Eigen::LLT<MatrixXd> factor(errors(p, supposed.discrepancies()[1].size));
+    EXPECT_NEAR(supposed.signal(1), factor.matrixL().solve(p.residual).norm(), 1e-9);
+  }
+}
+
 /// Sources that are held out as a whole judge, and name nothing.
 TEST(SetEvidence, DoesNotLookAtWhatIsSealed) {
   EffectProblem p = problem(6);

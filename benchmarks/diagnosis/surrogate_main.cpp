@@ -15,145 +15,13 @@
 #include <iostream>
 #include <map>
 
-#include "diagnosis/evidence/diagnosed_case.hpp"
-#include "diagnosis/evidence/living_runs.hpp"
-#include "diagnosis/evidence/whitening.hpp"
 #include "diagnosis/search/diagnosis_report.hpp"
-#include "diagnosis/search/division.hpp"
-#include "diagnosis/search/effect_search.hpp"
-#include "twin/noise.hpp"
+#include "surrogate.hpp"
 
 using namespace tether;
 using Index = Eigen::Index;
 
 namespace {
-
-CommandLine quiet() {
-  CommandLine command;
-  command.quiet = true;
-  return command;
-}
-
-/// A case whose sensitivity runs are there: none is made again.
-struct Surrogate {
-  Surrogate(const std::string& case_file, const std::filesystem::path& folder)
-      : given(case_file),
-        runs(quiet(), folder / "candidates.yaml", folder),
-        effects(catalogue_of(given.file, given.diagnosis)),
-        sensitivities(sensitivities_of(
-            runs, Division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file)).undivided())),
-        evidence(given.data, given.lumen, sensitivities.motions.front()),
-        as_measured(problem_of(given, evidence, sensitivities.motions.front(), sensitivities, effects)),
-        whitening(evidence, as_measured),
-        problem(whitening(as_measured)) {
-    const DiagnosisCase& d = given.diagnosis;
-    settings = {d.alpha, d.unexplained, 0, d.most, d.refinements, d.confirmed};
-    const std::vector<TestedEffect> tested =
-        test_all(problem, Trained(problem).scores(problem.changes, problem.residual), d.alpha,
-                 problem.independent(problem.training).sum());
-    for (const TestedEffect& effect : tested) {
-      visible.push_back(effect.visible);
-      if (effect.testable && problem.candidates[effect.candidate].kind == Candidate::Kind::effect)
-        shown.push_back(effect.candidate);
-    }
-    saturation = VectorXd::Constant(problem.changes.cols(), infinite);
-    for (const std::size_t c : shown)
-      for (const Index i : problem.candidates[c].amplitudes) saturation(i) = 10 * visible[c];
-  }
-
-  /// Errors of surfaces and traces, and of what the model takes for known.
-  VectorXd errors(std::uint64_t seed) const {
-    VectorXd all(as_measured.residual.size());
-    std::map<std::size_t, std::vector<const Evidence::Part*>> of_source;
-    for (const auto& part : evidence.parts()) of_source[part.source].push_back(&part);
-    for (const auto& [source, parts] : of_source) {
-      const Noise& noise = evidence.noise(*parts.front());
-      const NoiseScale scale{noise.deviation, noise.correlation_length, noise.correlation_time};
-      if (parts.front()->is_record) {
-        std::vector<double> times;  // of equally spaced values: the share of each tells nothing else
-        for (Index i = 0; i < parts.front()->count; ++i) times.push_back(trace_interval * static_cast<double>(i));
-        all.segment(parts.front()->first, parts.front()->count) = noise_over_time(scale, times, seed * 64 + source);
-        continue;
-      }
-      std::vector<double> times;
-      for (const auto* part : parts) times.push_back(part->time);
-      const NoiseSeries series(scale, times, seed * 64 + source);
-      for (std::size_t k = 0; k < parts.size(); ++k)
-        all.segment(parts[k]->first, parts[k]->count) =
-            series(k, evidence.places().middleCols(parts[k]->first, parts[k]->count));
-    }
-    Random random(seed * 64 + 63, 0);
-    for (Index k = 0; k < problem.allowed.cols(); ++k)
-      if (std::isfinite(problem.allowed_deviation(k)))
-        all += allowed_share * problem.allowed_deviation(k) * random.normal() * as_measured.allowed.col(k);
-    return whitening(all);
-  }
-
-  VectorXd amplitudes(const std::vector<std::pair<std::size_t, double>>& hidden) const {
-    VectorXd all = VectorXd::Zero(problem.changes.cols());
-    for (const auto& [candidate, times] : hidden)
-      all(problem.candidates[candidate].amplitudes.front()) = times * visible[candidate];
-    return all;
-  }
-  VectorXd effect_of(const VectorXd& amplitudes) const {
-    const VectorXd saturated = amplitudes.array() / (1 + amplitudes.array().abs() / saturation.array());
-    return problem.changes * saturated;
-  }
-
-  SearchResult search(const VectorXd& residual, const std::vector<std::size_t>& without = {}) const {
-    EffectProblem drawn = problem;
-    drawn.residual = residual;
-    for (auto c = without.rbegin(); c != without.rend(); ++c) {
-      drawn.changes(Eigen::all, drawn.candidates[*c].amplitudes).setZero();  // it explains nothing
-      for (const Index i : drawn.candidates[*c].amplitudes)
-        drawn.amplitudes[static_cast<std::size_t>(i)].scale = 1e-300;
-    }
-    return search_effects(drawn, settings, [&](const MatrixXd& tried) -> MatrixXd {
-      MatrixXd residuals(residual.size(), tried.cols());
-      for (Index k = 0; k < tried.cols(); ++k) residuals.col(k) = residual - effect_of(tried.col(k));
-      return residuals;
-    });
-  }
-
-  static constexpr double trace_interval = 0.01, allowed_share = 1;
-  DiagnosedCase given;
-  LivingRuns runs;
-  std::vector<PlacedEffect> effects;
-  Sensitivities sensitivities;
-  Evidence evidence;
-  EffectProblem as_measured;
-  Whitening whitening;
-  EffectProblem problem;
-  SearchSettings settings;
-  std::vector<double> visible;
-  std::vector<std::size_t> shown;  ///< effects that the data can show
-  VectorXd saturation;
-};
-
-int group_of(const SearchResult& result, std::size_t candidate) {
-  for (const TestedEffect& effect : result.effects)
-    if (effect.candidate == candidate) return effect.group;
-  return -1;
-}
-
-bool accepts(const SearchResult& result, std::size_t candidate) {
-  for (const TestedEffect& effect : result.effects)
-    if (effect.candidate == candidate && effect.accepted) return true;
-  return false;
-}
-
-/// Named itself, or in the group of one that is.
-bool names(const SearchResult& result, std::size_t candidate) {
-  if (accepts(result, candidate)) return true;
-  const int group = group_of(result, candidate);
-  for (const TestedEffect& effect : result.effects)
-    if (effect.accepted && group >= 0 && effect.group == group) return true;
-  return false;
-}
-
-bool names_anything(const SearchResult& result) {
-  return result.verdict == Verdict::missing || result.verdict == Verdict::ambiguous;
-}
 
 /// Counts of a scenario's trials, by words.
 struct Tally {
@@ -177,35 +45,6 @@ void print(const std::string& name, const std::string& times, Tally& tally, int 
                            tally.amplitudes > 0 ? fmt::format("{:.0f} %", 100.0 * tally.inside / tally.amplitudes) : "",
                            verdicts)
             << std::flush;
-}
-
-/// As benchmarks/diagnosis/run judges.
-std::string judgement(const SearchResult& result, const std::vector<std::size_t>& hidden, Verdict verdict) {
-  if (!names_anything(result)) {
-    if (hidden.empty() && result.verdict == verdict) return "right";
-    return result.verdict == Verdict::nothing_missing && !(hidden.empty() && verdict == Verdict::nothing_missing)
-               ? "missed"
-               : "careful";
-  }
-  if (hidden.empty()) return result.verdict == Verdict::ambiguous ? "careful" : "wrong";
-  std::size_t itself = 0, alike = 0, accepted = 0, fitting = 0;
-  for (const std::size_t h : hidden) {
-    itself += accepts(result, h) ? 1 : 0;
-    alike += names(result, h) ? 1 : 0;
-  }
-  for (const TestedEffect& effect : result.effects) {
-    if (!effect.accepted) continue;
-    ++accepted;
-    for (const std::size_t h : hidden)
-      if (effect.candidate == h || (effect.group >= 0 && effect.group == group_of(result, h))) {
-        ++fitting;
-        break;
-      }
-  }
-  if (itself == hidden.size() && accepted == hidden.size() && result.verdict == Verdict::missing) return "right";
-  if (alike == hidden.size() && fitting == accepted) return "alike";
-  if (result.verdict == Verdict::ambiguous) return "careful";
-  return hidden.size() > 1 && fitting == accepted ? "in part" : "wrong";
 }
 
 /// Whether all that is named does to these data nearly what the candidates that were taken away do.
@@ -264,15 +103,6 @@ void run(const Surrogate& surrogate, const Scenario& scenario, int trials) {
           }
   }
   print(scenario.name, scenario.times, tally, trials);
-}
-
-/// "visco_elastic at spine".
-std::string name_of(const Candidate& candidate) {
-  Finding finding;
-  finding.name = candidate.name;
-  finding.where = candidate.where;
-  if (!candidate.parameter.empty()) finding.parameter = candidate.parameter;
-  return tether::name_of(finding);
 }
 
 /// A bulge of the data that no candidate makes: around half the vessel's height, twice a beat.
