@@ -76,6 +76,7 @@ struct EffectProblem {
   VectorXd precision;      ///< W of each [n]
   VectorXd independent;    ///< how many independent data each is [n]
   std::vector<int> block;  ///< of each: a patch of a frame, alike in its errors
+  std::vector<int> moment;  ///< of each: alike for data of one moment; of a record its own
   std::vector<Eigen::Index> training, held_out;
   std::vector<Eigen::Index> sealed;  ///< of those held out: whole sources, which name nothing
 

@@ -103,6 +103,10 @@ std::size_t Evidence::closest_frame(double time) const {
   return best;
 }
 
+int Evidence::moment_of(const Part& part) const {
+  return static_cast<int>(part.is_record ? parts_.size() + part.source : closest_frame(part.time));
+}
+
 double Evidence::distance_from(const Points& lumen, const Part& part) const {
   FinishedMotion still;
   still.motion.positions = [&lumen](double) { return lumen; };

@@ -50,6 +50,8 @@ class Evidence {
   /// Of the data, which component of a vector they are.
   const std::vector<int>& components() const { return component_; }
   Noise noise(const Part& part) const { return noise_of(part.source); }
+  /// A number that frames of the same moment share; of a record its own.
+  int moment_of(const Part& part) const;
   std::string field_of_source(std::size_t source) const { return sources_[source]->facts().field(); }
   Noise noise_of(std::size_t source) const { return sources_[source]->facts().noise; }
 

@@ -29,7 +29,7 @@ class Whitening {
     std::vector<Eigen::Index> rows;
     bool held_out = false, sealed = false;
     std::size_t source = 0;
-    int series = 0, component = 0;
+    int series = 0, component = 0, moment = 0;
     MatrixXd modes;          ///< [k x rows]
     VectorXd variance;       ///< of each over that of the longest wave [k]
     Eigen::Index first = 0;  ///< of its combinations among all

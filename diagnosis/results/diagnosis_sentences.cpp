@@ -114,6 +114,17 @@ void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   if (!diagnosis.path.empty() && !diagnosis.path.back().accepted) all.push_back(refusal_text(diagnosis.path.back()));
 }
 
+/// How the first of what was found foretells moments; whether nothing but the fit itself speaks for it.
+void add_foretold(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const auto& groups = diagnosis.table.groups;
+  const bool is_asked = !groups.empty() && groups.front().foretold;
+  if (is_asked)
+    all.push_back(fmt::format("Each moment foretold from the others: better with it for {} of {}",
+                              groups.front().foretold->better, groups.front().foretold->moments));
+  else if (!diagnosis.held_out)
+    all.push_back("Not confirmed: no frames are held out");
+}
+
 std::string percent_of(double probability) {
   return probability > 0.995 ? "above 99 %" : fmt::format("{:.0f} %", 100 * probability);
 }
@@ -189,7 +200,7 @@ std::vector<std::string> look_alike_sentences(const Diagnosis& diagnosis) {
 std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain) {
   std::vector<std::string> all;
   if (diagnosis.verdict == Verdict::ambiguous && diagnosis.split_by) all.push_back(split_sentence(*diagnosis.split_by));
-  if (!diagnosis.held_out && any_accepted(diagnosis)) all.push_back("Not confirmed: no frames are held out");
+  if (any_accepted(diagnosis)) add_foretold(all, diagnosis);
   if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));
   add_rest(all, diagnosis);
   return all;

@@ -6,6 +6,7 @@
 
 #include "common/io/record.hpp"
 #include "diagnosis/results/finding.hpp"
+#include "diagnosis/results/phase_gain.hpp"
 
 namespace tether {
 
@@ -60,11 +61,13 @@ struct Alternative {
 struct AlternativeGroup {
   static constexpr const char* type_name = "alternative_group";
   double probability = 0, least_probability = 0;
+  std::optional<PhaseGain> foretold;
   std::vector<Alternative> members;
 
   static void fields(auto& self, auto&& field) {
     field("probability", self.probability, "that it is one of them, whatever else");
     field("least_probability", self.least_probability, "the smallest of these, with any one thing assumed otherwise");
+    field("foretold", self.foretold, "how much better each moment is foretold with it; null: not asked");
     field("members", self.members, "the most probable first");
   }
 };

@@ -194,12 +194,19 @@ class Search {
                                   chance_of(problem_, effect.candidate, effect.confirmed_gain / dispersion));
   }
 
+  /// By data that are held out, or by each moment that the others foretell; where neither can be asked it stands.
+  static bool is_confirmed(const TestedEffect& effect, const WeighedGroup& group) {
+    const bool foretold = group.foretold && group.foretold->positive >= sure;
+    return foretold || (effect.held_out ? effect.held_out->positive >= sure : !group.foretold);
+  }
+
   /// Why the data at hand and those held out do not ask for the effect; none if they do.
-  std::optional<Objection> objection(const TestedEffect& effect, double dispersion, const LackOfFit& left) const {
+  std::optional<Objection> objection(const TestedEffect& effect, double dispersion, const LackOfFit& left,
+                                     const WeighedGroup& group) const {
     if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha)
       return Objection::too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
-    if (confirmable && effect.held_out && effect.held_out->positive < sure) return Objection::not_confirmed;
+    if (confirmable && !is_confirmed(effect, group)) return Objection::not_confirmed;
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return Objection::lack_of_fit_stays;
     if (effect.at_limit) return Objection::beyond_its_limit;
     return std::nullopt;
@@ -261,7 +268,7 @@ class Search {
     effect.held_out = confirmation(now_.residual, residual);
     SearchStep step{
         effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
-    step.objection = objection(effect, dispersion(residual), step.left);
+    step.objection = objection(effect, dispersion(residual), step.left, group);
     if (!step.objection && group.probability < sure) step.objection = Objection::not_sure;
     if (!step.objection && group.least < even) step.objection = Objection::assumed;
     return step;

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <set>
 
+#include "diagnosis/search/phase_gain.hpp"
+
 namespace tether {
 namespace {
 
@@ -321,6 +323,21 @@ void weigh_otherwise(Weighed& weighed, const EffectProblem& problem, const std::
         group.least = std::min(group.least, told.groups.back());
       }
     }
+}
+
+void foretell_moments(Weighed& weighed, const EffectProblem& problem, const std::vector<ShownRun>& runs,
+                      const Posterior& posterior) {
+  constexpr double even = 0.5;
+  for (WeighedGroup& group : weighed.groups) {
+    const std::size_t first = group.members.front();
+    const auto with = std::find_if(posterior.sets.begin(), posterior.sets.end(), [&](const EffectSet& set) {
+      return std::binary_search(set.members.begin(), set.members.end(), first);
+    });
+    if (group.probability < even || with == posterior.sets.end()) continue;
+    Members without = with->members;
+    std::erase(without, first);
+    group.foretold = phase_gain(problem, runs, with->members, without);
+  }
 }
 
 }  // namespace tether

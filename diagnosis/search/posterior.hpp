@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnosis/evidence/set_evidence.hpp"
+#include "diagnosis/results/phase_gain.hpp"
 #include "diagnosis/results/probability_table.hpp"
 
 namespace tether {
@@ -35,6 +36,8 @@ struct WeighedGroup {
   std::vector<double> amplitudes;    ///< the most probable one of each; of several amplitudes NaN
   std::vector<bool>
       by_runs;  ///< whether a run of each, of the model itself, showed what it does at about that amplitude
+  /// Of the most probable set with its first member, over that without; of groups as probable as not.
+  std::optional<PhaseGain> foretold;
   bool has(std::size_t candidate) const;
 };
 
@@ -60,6 +63,11 @@ struct Weighed {
   std::vector<WeighedOtherwise> otherwise;
   std::vector<double> detectable;  ///< of each candidate, the size that these data would name (D.12) [q]
 };
+
+/// Of groups that are as probable as not, how much better each moment is foretold with them. runs: what showed what
+/// candidates do.
+void foretell_moments(Weighed& weighed, const EffectProblem& problem, const std::vector<ShownRun>& runs,
+                      const Posterior& posterior);
 
 /// All candidates by themselves, pairs of the best with all, and the best of these with the best; two that do much the
 /// same are one or the other, since what they do together is not the sum of what each does. left_out: of each

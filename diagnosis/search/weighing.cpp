@@ -35,6 +35,7 @@ Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& setti
       Weighing weighing{weighed(problem, evidence, posterior), std::move(shown)};
       if (purpose == RunsFor::telling) {
         weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
+        foretell_moments(weighing.weighed, problem, weighing.shown, posterior);
         weighing.weighed.detectable = detectable_sizes(problem, evidence, posterior);
       }
       return weighing;

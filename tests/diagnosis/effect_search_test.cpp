@@ -11,6 +11,7 @@
 
 #include "diagnosis/search/detectable.hpp"
 #include "diagnosis/search/further_measurement.hpp"
+#include "diagnosis/search/phase_gain.hpp"
 
 namespace tether {
 namespace effect_search_test {
@@ -68,6 +69,7 @@ EffectProblem band(bool naive = false) {
     for (int i = 0; i < places; ++i) {
       const int block = m * regions + i / in_region;
       problem.block.push_back(m * 8 + i / 12);
+      problem.moment.push_back(m);
       problem.patterns(m * places + i, block) = 1;
       (m % 3 == 2 ? problem.held_out : problem.training).push_back(m * places + i);
     }
@@ -390,6 +392,25 @@ TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
   EXPECT_NE(one.verdict, Verdict::not_in_catalogue);
   EXPECT_TRUE(one.more);
   EXPECT_FALSE(found(problem).more);
+}
+
+/// Each moment from all others: what is there foretells, what noise looks like does not.
+TEST(EffectSearch, WhatIsThereForetellsEachMoment) {
+  EffectProblem problem = band(true);
+  const auto gain = [&](double size, std::mt19937_64& generator) {
+    std::normal_distribution<double> normal;
+    problem.residual = size * problem.changes.col(2);
+    for (double& datum : problem.residual) datum += normal(generator);
+    return phase_gain(problem, {}, {2}, {}).value();
+  };
+  std::mt19937_64 generator(29);
+  const PhaseGain found = gain(2, generator);
+  EXPECT_EQ(found.moments, moments);
+  EXPECT_GT(found.better, moments / 2);
+  EXPECT_GT(found.positive, 0.99);
+  EXPECT_LE(share([&](auto& g) { return gain(0, g).positive > 0.95; }, 100), 0.05);
+  problem.moment.assign(problem.moment.size(), 0);
+  EXPECT_FALSE(phase_gain(problem, {}, {2}, {}).has_value()) << "no other moment says anything";
 }
 
 /// What is said to be detectable is named in four of five data sets, in its group; with half of it hardly ever. Blocks

@@ -1,0 +1,61 @@
+#include "diagnosis/search/phase_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/comparison/chances.hpp"
+
+namespace tether {
+namespace {
+
+using Members = std::vector<std::size_t>;
+
+constexpr int fewest_moments = 4;
+
+/// Of the data that may name something.
+std::set<int> moments_of(const EffectProblem& problem) {
+  std::set<int> moments;
+  for (const auto* rows : {&problem.training, &problem.held_out})
+    for (const Eigen::Index i : *rows)
+      if (std::count(problem.sealed.begin(), problem.sealed.end(), i) == 0)
+        moments.insert(problem.moment[static_cast<std::size_t>(i)]);
+  return moments;
+}
+
+EffectProblem without_moment(EffectProblem problem, int moment) {
+  for (std::size_t i = 0; i < problem.moment.size(); ++i)
+    if (problem.moment[i] == moment) problem.sealed.push_back(static_cast<Eigen::Index>(i));
+  return problem;
+}
+
+/// By how much more probable the data are with one set than with the other, as a logarithm.
+double lead(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Members& with,
+            const Members& without) {
+  const SetEvidence evidence(problem, runs);
+  return evidence.log_evidence(with) - evidence.log_evidence(without);
+}
+
+}  // namespace
+
+std::optional<PhaseGain> phase_gain(const EffectProblem& problem, const std::vector<ShownRun>& runs,
+                                    const Members& with, const Members& without) {
+  const std::set<int> moments = moments_of(problem);
+  if (static_cast<int>(moments.size()) < fewest_moments) return std::nullopt;
+  const double all = lead(problem, runs, with, without);
+  PhaseGain gain;
+  double squares = 0;
+  for (const int moment : moments) {
+    const double one = all - lead(without_moment(problem, moment), runs, with, without);
+    gain.value += one;
+    squares += one * one;
+    gain.better += one > 0 ? 1 : 0;
+    ++gain.moments;
+  }
+  const double n = gain.moments, variance = std::max(0.0, (squares - gain.value * gain.value / n) / (n - 1));
+  gain.deviation = std::sqrt(n * variance);
+  gain.positive = gain.deviation > 0 ? 1 - normal_tail(gain.value / gain.deviation) : gain.value > 0 ? 1 : 0;
+  return gain;
+}
+
+}  // namespace tether
