@@ -46,14 +46,17 @@ std::string nothing_missing_sentence(const Diagnosis& diagnosis) {
           : fmt::format("enough (the best, {}, might be more than chance)", name_of(diagnosis.path.front())));
 }
 
-std::string split_sentence(const FurtherData& best) {
+std::string percent_of(double probability) {
+  return probability > 0.995 ? "above 99 %" : fmt::format("{:.0f} %", 100 * probability);
+}
+
+/// answer: what it is asked for.
+std::string split_sentence(const FurtherData& best, const char* answer) {
   if (best.tells)
-    return fmt::format("Measuring {} would tell them apart ({}: expected difference of the misfit {:.0f})",
-                       best.measurement, best.assuming, best.expected_difference);
-  return fmt::format(
-      "No pressure, no flow and no more or better frames would tell them apart; most would {} ({}: expected "
-      "difference of the misfit {:.1f} of {:.0f} that it takes)",
-      best.measurement, best.assuming, best.expected_difference, telling);
+    return fmt::format("Measuring {} would {} (chance {}; {})", best.measurement, answer, percent_of(best.probability),
+                       best.assuming);
+  return fmt::format("No pressure, no flow and no more or better frames would {}; most would {} (chance {}; {})",
+                     answer, best.measurement, percent_of(best.probability), best.assuming);
 }
 
 std::string held_out_sentence(const Gain& gain) {
@@ -123,10 +126,6 @@ void add_foretold(std::vector<std::string>& all, const Diagnosis& diagnosis) {
                               groups.front().foretold->better, groups.front().foretold->moments));
   else if (!diagnosis.held_out)
     all.push_back("Not confirmed: no frames are held out");
-}
-
-std::string percent_of(double probability) {
-  return probability > 0.995 ? "above 99 %" : fmt::format("{:.0f} %", 100 * probability);
 }
 
 /// What the name of what leads depends on.
@@ -199,7 +198,10 @@ std::vector<std::string> look_alike_sentences(const Diagnosis& diagnosis) {
 
 std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain) {
   std::vector<std::string> all;
-  if (diagnosis.verdict == Verdict::ambiguous && diagnosis.split_by) all.push_back(split_sentence(*diagnosis.split_by));
+  if (diagnosis.verdict == Verdict::ambiguous && diagnosis.split_by)
+    all.push_back(split_sentence(*diagnosis.split_by, "tell them apart"));
+  if (diagnosis.verdict == Verdict::undecided && diagnosis.split_by)
+    all.push_back(split_sentence(*diagnosis.split_by, "show whether it is there"));
   if (any_accepted(diagnosis)) add_foretold(all, diagnosis);
   if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));
   add_rest(all, diagnosis);

@@ -26,18 +26,26 @@ std::vector<ShownRun> as_many(std::vector<ShownRun> runs, Eigen::Index amplitude
   return runs;
 }
 
-/// Accepted effects with rivals that these data cannot tell from them. runs: of the sensitivities; the pairs' are
-/// added.
+/// Accepted effects with rivals that these data cannot tell from them; where none is accepted, what was tried and
+/// nothing. runs: of the sensitivities; the pairs' are added.
 std::vector<Rivals> rivals_in(const DiagnosisReport& report, const Trials& trials, std::vector<FinishedMotion>& runs) {
   std::vector<Rivals> pairs;
   const auto with = [&](const TestedEffect& effect) {
     runs.push_back(trials.motion_with(effect.run));
     return static_cast<Eigen::Index>(runs.size()) - 1;
   };
+  const VectorXd nothing = VectorXd::Zero(report.problem.changes.cols());
+  runs.push_back(trials.motion_with(nothing));
+  const auto base = static_cast<Eigen::Index>(runs.size()) - 1;
+  const bool is_accepted = std::any_of(report.found.effects.begin(), report.found.effects.end(),
+                                       [](const TestedEffect& effect) { return effect.accepted; });
+  for (const TestedEffect& tried : report.found.effects)
+    if (!is_accepted && tried.confirmed)
+      pairs.push_back({trials.residual_with(tried.run), report.problem.residual, with(tried), base, base});
   for (const TestedEffect& rival : report.found.effects)
     for (const TestedEffect& one : report.found.effects)
       if (one.accepted && rival.rival && !rival.accepted && one.group == rival.group)
-        pairs.push_back({trials.residual_with(one.run), trials.residual_with(rival.run), with(one), with(rival)});
+        pairs.push_back({trials.residual_with(one.run), trials.residual_with(rival.run), with(one), with(rival), base});
   return pairs;
 }
 

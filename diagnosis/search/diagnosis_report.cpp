@@ -101,7 +101,8 @@ Attempt attempt_of(const EffectProblem& problem, const SearchStep& step) {
 }
 
 FurtherDatum further_datum(const Split& split) {
-  return {split.measurement, split.assuming, split.difference, split.difference >= telling};
+  return {split.measurement, split.assuming, split.difference, chance_to_tell(split.difference),
+          split.difference >= telling};
 }
 
 std::optional<FurtherData> further_data(const std::vector<Split>& splits) {

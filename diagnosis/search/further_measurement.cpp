@@ -52,8 +52,10 @@ double expected_difference(const EffectProblem& problem, const Rivals& rivals, c
   const AllowedErrors allowed = joint.allowed();
   const VectorXd difference =
       joint.stacked(rivals.other_residual - rivals.residual, joint.between(rivals.run, rivals.other_run));
-  const VectorXd one = joint.stacked(problem.residual - rivals.residual, joint.between(rivals.run, 0)),
-                 other = joint.stacked(problem.residual - rivals.other_residual, joint.between(rivals.other_run, 0));
+  const VectorXd one = joint.stacked(problem.residual - rivals.residual, joint.between(rivals.run, rivals.base)),
+                 other = joint.stacked(problem.residual - rivals.other_residual,
+                                       joint.between(rivals.other_run, rivals.base));
+  if (one.isZero() || other.isZero()) return difference.dot(allowed(difference).col(0));
   return std::min(left(allowed, difference, one), left(allowed, difference, other));
 }
 

@@ -12,6 +12,7 @@
 #include "diagnosis/search/detectable.hpp"
 #include "diagnosis/search/further_measurement.hpp"
 #include "diagnosis/search/phase_gain.hpp"
+#include "diagnosis/results/further_data.hpp"
 
 namespace tether {
 namespace effect_search_test {
@@ -506,6 +507,21 @@ TEST(FurtherMeasurement, TellsRivalsApart) {
   problem.allowed_deviation = VectorXd::Constant(1, 100);
   problem.allowed_runs = {{0, 1, 1.0}};
   EXPECT_LT(expected_difference(problem, rivals, &trace), 0.1) << "the input explains it as well";
+}
+
+/// Whether an effect is there at all: what it would do to the data, old and new.
+TEST(FurtherMeasurement, TellsAnEffectFromNothing) {
+  EffectProblem problem = band(true);
+  problem.residual = 0.1 * problem.changes.col(2);
+  const Rivals pair{VectorXd::Zero(problem.residual.size()), problem.residual, 1, 0, 0};
+  FurtherMeasurement trace{"trace", "", MatrixXd::Zero(10, 2), VectorXd::Constant(10, 0.5), 1};
+  trace.values.col(1).setConstant(2);
+  const double old = VectorXd(problem.residual(problem.training)).squaredNorm();
+  EXPECT_NEAR(expected_difference(problem, pair, nullptr), old, 1e-9);
+  EXPECT_NEAR(expected_difference(problem, pair, &trace), old + 10 * 0.5 * 4, 1e-9);
+  EXPECT_NEAR(chance_to_tell(telling), 0.807, 1e-3);
+  EXPECT_NEAR(chance_to_tell(6), 0.5, 1e-9);
+  EXPECT_LT(chance_to_tell(0), 1e-9);
 }
 
 TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {

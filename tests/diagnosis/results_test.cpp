@@ -37,7 +37,7 @@ Diagnosis diagnosis() {
   d.detectable = {{"contact", "spine", "stiffness", 3, "1", 0, 0.2}};
   d.lack_of_fit.before = LackOfFitFound{0.01, 5, 3, "spine", PatternForm::end_to_end, 0.25, -4};
   d.strained_errors = {{"bias", 2.5}};
-  d.split_by = FurtherData{{"pressure", "2 mmHg", 14, true}, {{"flow", "", 3, false}}};
+  d.split_by = FurtherData{{"pressure", "2 mmHg", 14, 0.86, true}, {{"flow", "", 3, 0.2, false}}};
   d.path = {{"contact", "stiffness", "spine", false, Objection::too_weak, "", 9, 8, {}}};
   d.suggested_case = "suggested.yaml";
   d.cost = {12, 8, 0, 3, 4.5};
