@@ -96,13 +96,14 @@ class Search {
     return nullptr;
   }
 
-  /// Its members that may be it, at their most probable amplitudes.
+  /// Its members that may be it, at their most probable amplitudes. Beside what is accepted already all of them: their
+  /// shares are of what each does alone, runs of both together decide.
   std::vector<TestedEffect> likely_of(const WeighedGroup& group, const Trained& trained) const {
     const std::vector<TestedEffect> tested =
         test_all(problem_, trained.scores(problem_.changes, now_.residual), result_.independent);
     std::vector<TestedEffect> all;
     for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
-      if (k > 0 && group.shares.front() >= alone) break;
+      if (k > 0 && group.shares.front() >= alone && now_.accepted.empty()) break;
       TestedEffect& effect = all.emplace_back(*std::find_if(
           tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members[k]; }));
       if (std::isfinite(group.amplitudes[k])) effect.amplitudes(0) = group.amplitudes[k];
@@ -245,7 +246,8 @@ class Search {
       effect.held_out = confirmation(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
-      effect.rival = chosen && one != chosen && !was_too_weak(effect.candidate);
+      effect.rival = chosen && one != chosen && !was_too_weak(effect.candidate) &&
+                     (before.accepted.empty() || one->best() < chosen->best() + hopeless);
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
