@@ -9,6 +9,7 @@
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
 #include "diagnosis/results/probability_table.hpp"
+#include "diagnosis/results/published.hpp"
 #include "diagnosis/results/statement.hpp"
 
 namespace tether {
@@ -100,6 +101,7 @@ struct Diagnosis {
   LackOfFitChange lack_of_fit;
   std::vector<StrainedError> strained_errors;
   bool more = false;
+  std::vector<PublishedQuantities> published;
   std::optional<FurtherData> split_by;
   std::vector<Attempt> path;
   std::optional<std::string> suggested_case, corrected_case;
@@ -123,6 +125,8 @@ struct Diagnosis {
     field("lack_of_fit", self.lack_of_fit, "of the model as it is, and with what was accepted");
     field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
     field("more", self.more, "another effect is wanted, but no more were to be added");
+    field("published", self.published,
+          "what is published of a vessel, in the model as it is, then with what was accepted, then rivals");
     field("split_by", self.split_by, "what would tell rivals apart");
     field("path", self.path, "attempts in their order");
     field("suggested_case", self.suggested_case, "file beside this one: the case with what was accepted");

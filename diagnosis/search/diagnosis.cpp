@@ -3,6 +3,7 @@
 #include "common/base/error.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
+#include "diagnosis/search/published_models.hpp"
 #include "diagnosis/search/trials.hpp"
 
 namespace tether {
@@ -112,6 +113,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
+  report.published = published_models(given, report, trials, base, model.runs);
   report.cost = cost_of(model, sensitivities);
   return report;
 }
