@@ -106,7 +106,7 @@ double published(const Json& model, const std::string& name) {
   return 0;
 }
 
-/// Another noise, another name and a tighter frame table are another data set of the same model.
+/// Another noise and another name: another data set of the same model.
 TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
   const Json alone = diagnosed("held", "{effects: {visco_elastic: {where: spine}}}");
   const auto with = [&](const std::string& name, const std::string& words) {
@@ -118,18 +118,20 @@ TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
     return Json::parse(content_of(folder / name / "diagnosis.json"));
   };
   const Json first = with("first", "");
-  EXPECT_EQ(first["cost"]["runs_made"], first["cost"]["runs"]) << "those of another folder are not known here";
+  EXPECT_EQ(first["cost"]["runs_made"], alone["cost"]["runs_made"]) << "those of another folder are not known here";
   EXPECT_EQ(first["effects"], alone["effects"]) << "the same as with a folder of its own";
 
   const Json second = with("second", "observations: {surfaces: {twin: {noise: {deviation: 0.06 mm}}}}\n");
   const int of_first_order = second["cost"]["sensitivity_runs"];
   EXPECT_EQ(of_first_order, first["cost"]["sensitivity_runs"]);
-  EXPECT_LE(second["cost"]["runs_made"], second["cost"]["runs"].get<int>() - of_first_order - 1) << said;
+  EXPECT_LE(second["cost"]["runs_made"], second["cost"]["runs"].get<int>() - of_first_order - 1)
+      << "none of what numbers do, nor of the model as it is\n"
+      << said;
   EXPECT_TRUE(fs::is_symlink(folder / "second/coarse/runs/base"));
   EXPECT_EQ(with("third", "")["cost"]["runs_made"], 0) << "the same data under another name";
 
   const Json other = with("other", "solid: {viscosity: 5e2}\n");
-  EXPECT_EQ(other["cost"]["runs_made"], other["cost"]["runs"]) << "another model";
+  EXPECT_GE(other["cost"]["runs_made"], of_first_order) << "another model: its runs are all its own";
 
   ASSERT_EQ(first["published"].size(), 2U) << said;
   const Json before = first["published"][0], after = first["published"][1];
