@@ -108,7 +108,7 @@ double published(const Json& model, const std::string& name) {
 
 /// Another noise and another name: another data set of the same model.
 TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
-  const Json alone = diagnosed("held", "{effects: {visco_elastic: {where: spine}}}");
+  const Json alone = diagnosed("held", "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}");
   const auto with = [&](const std::string& name, const std::string& words) {
     const fs::path file = folder.file(name + ".yaml", "base: twin/case.yaml\nname: " + name + "\n" + words);
     const ChildEnd end = tether(
