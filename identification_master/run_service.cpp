@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/base/error.hpp"
-#include "common/io/record_file.hpp"
 
 namespace tether {
 namespace {
@@ -13,18 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 using protocol::ParameterInfo;
 
-fs::path record_in(const std::string& folder) {
-  return fs::path(folder) / "run.json";
-}
-
-/// What a folder holds; nothing if no run ended there that this version understands.
-std::optional<MadeRun> stored_in(const std::string& folder) {
-  if (!fs::exists(record_in(folder))) return std::nullopt;
-  try {
-    return read_record<MadeRun>(record_in(folder));
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+/// What is in a folder is no finished run any more; one that is shared stays.
+void give_up(const fs::path& folder) {
+  fs::remove(fs::is_symlink(folder) ? folder : folder / "run.json");
 }
 
 protocol::RunEnded told(const std::string& folder, const MadeRun& run, bool is_new) {
@@ -33,15 +23,18 @@ protocol::RunEnded told(const std::string& folder, const MadeRun& run, bool is_n
 
 }  // namespace
 
-RunService::RunService(RunMakers& makers, std::string case_hash, std::int64_t steps)
-    : makers_(makers), case_hash_(std::move(case_hash)), steps_(steps), at_work_(makers.groups()) {}
+RunService::RunService(RunMakers& makers, std::string case_hash, std::int64_t steps, RunStore shared)
+    : makers_(makers),
+      case_hash_(std::move(case_hash)),
+      steps_(steps),
+      shared_(std::move(shared)),
+      at_work_(makers.groups()) {}
 
 protocol::Ready RunService::operator()(const protocol::OrderRuns& m) {
   for (const protocol::RunOrder& order : m.runs) {
     Work work{order, m.guide, run_of(order)};
-    const std::optional<MadeRun> stored = stored_in(order.folder);
-    if (stored && is_same_run(*stored, work.run))
-      ended_.push_back(told(order.folder, *stored, false));
+    if (const auto made = stored(work.run, order.folder))
+      ended_.push_back(told(order.folder, *made, false));
     else
       waiting_.push_back(std::move(work));
   }
@@ -54,6 +47,13 @@ protocol::RunEnded RunService::operator()(const protocol::NextRun&) {
   protocol::RunEnded first = std::move(ended_.front());
   ended_.pop_front();
   return first;
+}
+
+std::optional<MadeRun> RunService::stored(const MadeRun& wanted, const std::string& folder) const {
+  const std::optional<MadeRun> own = made_run_in(folder);
+  if (!own || !is_same_run(*own, wanted)) return shared_.lend(wanted, folder);
+  shared_.take(*own, folder);
+  return own;
 }
 
 MadeRun RunService::run_of(const protocol::RunOrder& order) const {
@@ -86,7 +86,7 @@ void RunService::begin_waiting() {
     at_work_[group] = std::move(waiting_.front());
     waiting_.pop_front();
     const Work& work = *at_work_[group];
-    fs::remove(record_in(work.order.folder));
+    give_up(work.order.folder);
     protocol::Simulate run = request(work.order);
     run.guide = work.guide;
     makers_.begin(group, run);
@@ -102,7 +102,8 @@ void RunService::end_next() {
   if (!end.how.failure.empty()) done.run.failure = end.how.failure;
   done.run.evaluations = end.how.evaluations;
   done.run.cpu_seconds = end.cpu_seconds;
-  write_record(record_in(done.order.folder), done.run);
+  write_made_run(done.order.folder, done.run);
+  shared_.take(done.run, done.order.folder);
   ended_.push_back(told(done.order.folder, done.run, true));
 }
 

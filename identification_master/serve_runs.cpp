@@ -1,6 +1,9 @@
 #include "identification_master/serve_runs.hpp"
 
+#include <cstdlib>
+
 #include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
@@ -37,6 +40,21 @@ std::string hash_of(const protocol::Hello& model, const CaseFile& file) {
   return fmt::format("{:016x}", hash_case(echo_json("image", file.common().image), time));
 }
 
+/// What a case says of a field of a section, as text.
+std::string said_of(const YamlNode* section, std::string_view field) {
+  const YamlNode* node = section == nullptr ? nullptr : section->find(field);
+  return node == nullptr ? "" : yaml_text(*node);
+}
+
+/// Those of the environment, if it names a folder. Runs of other versions, with other solver settings or without the
+/// columns of these points are not taken for these.
+RunStore shared_runs(const CaseFile& file) {
+  const char* folder = std::getenv(protocol::shared_runs);
+  if (folder == nullptr) return {};
+  const YamlNode tree = read_case_tree(file.path());
+  return {folder, TETHER_VERSION + said_of(&tree, "coupling") + said_of(tree.find("output"), "points")};
+}
+
 /// Answers until Stop. What a handler throws ends the service.
 void answer_all(protocol::Channel& front_end, RunService& service) {
   front_end.send(pack(service.hello()));
@@ -60,7 +78,7 @@ void serve_runs(const CommandLine& command, const std::filesystem::path& socket,
   const std::vector<Partner*> groups = launch_groups(count, command.case_file, output, session);
   GroupRunMakers makers(session, groups);
   RunService service(makers, hash_of(makers.model(), given.file),
-                     command.steps.value_or(given.file.common().time.steps()));
+                     command.steps.value_or(given.file.common().time.steps()), shared_runs(given.file));
   answer_all(*front_end, service);
   for (Partner* group : groups) group->stop("no more runs are wanted");
 }

@@ -29,7 +29,7 @@ int told(const CommandLine& command) {
 struct Verb {
   const char *name, *purpose;
   int (*act)(const CommandLine&);
-  bool makes_steps = false, shares_work = false, needs_case = true;
+  bool makes_steps = false, shares_work = false, needs_case = true, shares_runs = false;
 };
 
 constexpr std::array verbs{
@@ -37,9 +37,9 @@ constexpr std::array verbs{
     Verb{"compare", "compare a run with the measurements; simulates first if need be", told<ComparisonResult, compare>,
          true},
     Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
-         told<Explanation, explain>, false, true},
-    Verb{"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false,
-         true},
+         told<Explanation, explain>, false, true, true, true},
+    Verb{"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false, true,
+         true, true},
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
          told<fs::path, make_twin>},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
@@ -57,6 +57,7 @@ Program program_of(const Verb& verb) {
   program.purpose = verb.purpose;
   program.needs_case = verb.needs_case;
   program.shares_work = verb.shares_work;
+  program.shares_runs = verb.shares_runs;
   program.makes_steps = verb.makes_steps;
   program.reference = case_reference;
   program.validate = check_case;

@@ -66,6 +66,8 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
     app.add_option("--processes", c.processes, "groups of processes to share the work between")
         ->type_name("N")
         ->check(whole_and_positive());
+  if (program.shares_runs)
+    app.add_option("--runs", c.runs, "folder of runs that several data sets of one model share")->type_name("DIR");
   if (!program.roles.empty()) {
     c.role = program.roles.front();
     app.add_option("--role", c.role, "what it is to its master (default " + c.role + ")")

@@ -16,6 +16,7 @@ struct CommandLine {
   std::optional<int> steps;      ///< stop after that many, whatever the case says
   std::string role;              ///< one of the program's roles; empty if it has but one
   int processes = 0;             ///< to share the work between; 0: the program decides
+  std::filesystem::path runs;    ///< a folder of runs that several data sets share; empty: none
   bool validate = false, list_effects = false, resume = false, overwrite = false, quiet = false;
 };
 
@@ -36,6 +37,7 @@ struct Program {
   std::vector<std::string> roles = {};
   bool needs_case = true;
   bool shares_work = false;  ///< has the option --processes
+  bool shares_runs = false;  ///< has the option --runs
   bool makes_steps = true;   ///< has the options --steps and --resume
 };
 

@@ -10,6 +10,8 @@ namespace tether::protocol {
 
 /// The environment variable that tells an identification_master where somebody listens who wants runs.
 inline constexpr const char* run_service_socket = "TETHER_RUN_SERVICE";
+/// And in which folder are the runs that it shares with others, if it does.
+inline constexpr const char* shared_runs = "TETHER_SHARED_RUNS";
 
 /// Packets through a Unix socket: int64 kind, int64 length, the bytes. Waiting takes no time of a core; that the other
 /// process has ended, in whatever way, is noticed at once.

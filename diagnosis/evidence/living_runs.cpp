@@ -25,6 +25,7 @@ CommandLine of_service(CommandLine command, const fs::path& case_file, const fs:
 Command service_for(const CommandLine& command, const fs::path& socket) {
   Command run = parallel_run(program, command);
   run.environment.emplace_back(protocol::run_service_socket, socket.string());
+  if (!command.runs.empty()) run.environment.emplace_back(protocol::shared_runs, fs::absolute(command.runs).string());
   return run;
 }
 

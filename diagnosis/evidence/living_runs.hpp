@@ -17,7 +17,8 @@ namespace tether {
 class LivingRuns : public ModelRuns {
  public:
   /// Starts it on a case. output: below it are the folders of the runs, and what the programs write. command: how many
-  /// processes share the work, how many steps are made, whether to be quiet. Throws InputError if the case is refused.
+  /// processes share the work, how many steps are made, which folder of runs is shared, whether to be quiet. Throws
+  /// InputError if the case is refused.
   LivingRuns(const CommandLine& command, const std::filesystem::path& case_file, std::filesystem::path output);
   ~LivingRuns() override;
 

@@ -10,6 +10,7 @@
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
 #include "diagnosis/results/probability_table.hpp"
+#include "diagnosis/results/published.hpp"
 #include "diagnosis/results/statement.hpp"
 
 namespace tether {
@@ -92,7 +93,7 @@ struct Diagnosis {
   std::vector<std::string> sentences;
   std::string case_name, title;
   double alpha = 0.05, independent_data = 0, dispersion = 1;
-  std::vector<NoiseFactor> noise;
+  std::vector<NoiseFactor> noise_factors;
   Adequacy adequacy;
   bool doubtful = false;
   ProbabilityTable table;
@@ -103,6 +104,7 @@ struct Diagnosis {
   LackOfFitChange lack_of_fit;
   std::vector<StrainedError> strained_errors;
   bool more = false;
+  std::vector<PublishedQuantities> published;
   std::optional<FurtherData> split_by;
   std::vector<Attempt> path;
   std::optional<std::string> suggested_case, corrected_case;
@@ -117,7 +119,7 @@ struct Diagnosis {
     field("alpha", self.alpha, "probability of a false alarm over all candidates");
     field("independent_data", self.independent_data, "number of independent training data");
     field("dispersion", self.dispersion, "misfit left per independent datum; intervals are widened by its root");
-    field("noise", self.noise, "of each source, how large it is as the data say (D.20)");
+    field("noise_factors", self.noise_factors, "of each source, how large it is as the data say (D.20)");
     field("adequacy", self.adequacy, "probability that chance leaves as much, asked in five ways (D.20)");
     field("doubtful", self.doubtful, "more is left than noise and errors allowed make by chance");
     field("table", self.table, "how probable each explanation is");
@@ -128,6 +130,8 @@ struct Diagnosis {
     field("lack_of_fit", self.lack_of_fit, "of the model as it is, and with what was accepted");
     field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
     field("more", self.more, "another effect is wanted, but no more were to be added");
+    field("published", self.published,
+          "what is published of a vessel, in the model as it is, then with what was accepted, then rivals");
     field("split_by", self.split_by, "what would tell rivals apart");
     field("path", self.path, "attempts in their order");
     field("suggested_case", self.suggested_case, "file beside this one: the case with what was accepted");

@@ -4,6 +4,7 @@
 #include "diagnosis/evidence/noise_factors.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
+#include "diagnosis/search/published_models.hpp"
 #include "diagnosis/search/trials.hpp"
 
 namespace tether {
@@ -110,7 +111,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   const VectorXd as_it_is = problem.residual;
   Whitening whitening(evidence, problem);
   report.problem = whitening(problem);
-  report.noise = widen_noise(whitening, evidence, report.problem);
+  report.noise_factors = widen_noise(whitening, evidence, report.problem);
   Trials trials(report.problem, evidence, whitening, base, model.runs);
   Trials first_trials(report.problem, evidence, whitening, sensitivities.motions.front(), first_order);
   const SearchSettings how = search_settings(given.diagnosis, settings);
@@ -133,6 +134,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
+  report.published = published_models(given, report, trials, base, model.runs);
   report.cost = cost_of(model, sensitivities);
   return report;
 }

@@ -22,51 +22,11 @@ const Amplitude& amplitude_of(const EffectProblem& problem, const TestedEffect& 
   return problem.amplitudes[static_cast<std::size_t>(amplitudes[static_cast<std::size_t>(own)])];
 }
 
-/// The number of an effect's amplitude that says most: the largest in its scale.
-Index main_amplitude(const EffectProblem& problem, const TestedEffect& effect) {
-  Index best = 0;
-  double most = -1;
-  for (Index own = 0; own < effect.amplitudes.size(); ++own) {
-    const double scale = amplitude_of(problem, effect, own).scale;
-    const double size = std::abs(effect.amplitudes(own)) / (scale > 0 ? scale : 1);
-    if (size > most) best = own, most = size;
-  }
-  return best;
-}
-
 FoundAmplitude found_amplitude(const EffectProblem& problem, const TestedEffect& effect, Index own) {
   const Amplitude& amplitude = amplitude_of(problem, effect, own);
   const FoundValue found = value_of(problem, effect, own);
   return {amplitude.name, amplitude.meaning, found.value,    found.lower,
           found.upper,    amplitude.unit,    amplitude.base, effect.at_limit};
-}
-
-Finding finding_of(const EffectProblem& problem, const TestedEffect& effect) {
-  const Candidate& candidate = problem.candidates[effect.candidate];
-  Finding finding;
-  finding.name = candidate.name;
-  finding.parameter = if_any(candidate.parameter);
-  finding.where = candidate.where;
-  finding.meaning = candidate.meaning;
-  finding.kind = candidate.kind;
-  finding.source = if_any(candidate.data.field);
-  finding.frame = if_known(candidate.data.frame);
-  finding.accepted = effect.accepted;
-  finding.rival = effect.rival;
-  finding.testable = effect.testable;
-  finding.z = effect.z;
-  finding.p = effect.p;
-  finding.q = effect.q;
-  finding.amplitude = found_amplitude(problem, effect, main_amplitude(problem, effect));
-  for (Index own = 0; own < effect.amplitudes.size(); ++own)
-    finding.parameters.push_back(found_amplitude(problem, effect, own));
-  finding.confirmed_by_runs = effect.confirmed;
-  finding.misfit_removed = effect.confirmed ? effect.confirmed_gain : effect.gain;
-  finding.retained_information = effect.retained;
-  if (effect.group >= 0) finding.group = std::to_string(effect.group + 1);
-  if (effect.group >= 0) finding.cosine = effect.cosine;
-  finding.held_out_gain = effect.held_out;
-  return finding;
 }
 
 std::optional<LackOfFitFound> lack_of(const EffectProblem& problem, const LackOfFit& lack) {
@@ -140,6 +100,45 @@ Statement statement_of(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+Eigen::Index main_amplitude(const EffectProblem& problem, const TestedEffect& effect) {
+  Index best = 0;
+  double most = -1;
+  for (Index own = 0; own < effect.amplitudes.size(); ++own) {
+    const double scale = amplitude_of(problem, effect, own).scale;
+    const double size = std::abs(effect.amplitudes(own)) / (scale > 0 ? scale : 1);
+    if (size > most) best = own, most = size;
+  }
+  return best;
+}
+
+Finding finding_of(const EffectProblem& problem, const TestedEffect& effect) {
+  const Candidate& candidate = problem.candidates[effect.candidate];
+  Finding finding;
+  finding.name = candidate.name;
+  finding.parameter = if_any(candidate.parameter);
+  finding.where = candidate.where;
+  finding.meaning = candidate.meaning;
+  finding.kind = candidate.kind;
+  finding.source = if_any(candidate.data.field);
+  finding.frame = if_known(candidate.data.frame);
+  finding.accepted = effect.accepted;
+  finding.rival = effect.rival;
+  finding.testable = effect.testable;
+  finding.z = effect.z;
+  finding.p = effect.p;
+  finding.q = effect.q;
+  finding.amplitude = found_amplitude(problem, effect, main_amplitude(problem, effect));
+  for (Index own = 0; own < effect.amplitudes.size(); ++own)
+    finding.parameters.push_back(found_amplitude(problem, effect, own));
+  finding.confirmed_by_runs = effect.confirmed;
+  finding.misfit_removed = effect.confirmed ? effect.confirmed_gain : effect.gain;
+  finding.retained_information = effect.retained;
+  if (effect.group >= 0) finding.group = std::to_string(effect.group + 1);
+  if (effect.group >= 0) finding.cosine = effect.cosine;
+  finding.held_out_gain = effect.held_out;
+  return finding;
+}
+
 FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Index own) {
   const Amplitude& amplitude = amplitude_of(problem, effect, own);
   const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own);
@@ -160,7 +159,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.alpha = report.alpha;
   d.independent_data = found.independent;
   d.dispersion = found.dispersion;
-  d.noise = report.noise;
+  d.noise_factors = report.noise_factors;
   d.adequacy = found.adequacy;
   d.doubtful = found.doubtful;
   d.table = table_of(problem, found.weighed);
@@ -173,6 +172,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.lack_of_fit = {lack_of(problem, found.before), lack_of(problem, found.after)};
   d.strained_errors = found.strained;
   d.more = found.more;
+  d.published = report.published;
   d.split_by = further_data(report.splits);
   for (const SearchStep& step : found.path) d.path.push_back(attempt_of(problem, step));
   d.suggested_case = if_any(report.suggested);

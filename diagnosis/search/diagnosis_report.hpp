@@ -12,14 +12,21 @@ struct DiagnosisReport {
   std::string suggested, corrected;  ///< cases with the effect, with corrected data; empty: none
   EffectProblem problem;
   SearchResult found;
+  std::vector<PublishedQuantities> published;  ///< what it changes
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
   double alpha = 0.05;
-  std::vector<NoiseFactor> noise;
+  std::vector<NoiseFactor> noise_factors;
   DiagnosisCost cost;
 };
 
 /// What diagnosis.json says of it: names, units and values of the case in the place of candidates and amplitudes.
 Diagnosis diagnosis_of(const DiagnosisReport& report);
+
+/// What diagnosis.json says of one candidate.
+Finding finding_of(const EffectProblem& problem, const TestedEffect& effect);
+
+/// The number of an effect's amplitude that says most: the largest in its scale.
+Eigen::Index main_amplitude(const EffectProblem& problem, const TestedEffect& effect);
 
 /// Value of the model's number with the effect, and its 95 % interval; for one-sided amplitudes not below the base.
 struct FoundValue {

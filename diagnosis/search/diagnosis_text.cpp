@@ -22,6 +22,25 @@ std::string line_of(const Finding& finding) {
   return line + (finding.accepted ? "  ACCEPTED\n" : "\n");
 }
 
+/// A line for each quantity, a column for each model; two rivals at most, the others are in diagnosis.json.
+std::string published_text(const std::vector<PublishedQuantities>& models) {
+  if (models.empty()) return "";
+  const std::size_t count = std::min<std::size_t>(4, models.size());
+  std::string text = fmt::format("\n  {:<38}", "what it changes (95 %)");
+  for (std::size_t m = 0; m < count; ++m)
+    text += fmt::format(" {:<26}", m == 0   ? "as it is"
+                                   : m == 1 ? "with what was accepted"
+                                            : fmt::format("rival {}", m - 1));
+  for (std::size_t i = 0; i < models.front().quantities.size(); ++i) {
+    text += fmt::format("\n  {:<38}", name_of(models.front().quantities[i]));
+    for (std::size_t m = 0; m < count; ++m) text += fmt::format(" {:<26}", value_text(models[m].quantities[i]));
+  }
+  text += "\n";
+  for (std::size_t m = 2; m < count; ++m)
+    text += fmt::format("  rival {}: {}\n", m - 1, fmt::join(models[m].effects, "; "));
+  return text + "\n";
+}
+
 std::string visible_text(const Diagnosis& diagnosis) {
   int seen = 0, all = 0;
   for (std::size_t i = 0; i < diagnosis.effects.size(); ++i) {
@@ -49,7 +68,7 @@ std::string text_of(const Diagnosis& diagnosis) {
   const auto& effects = diagnosis.effects;
   for (std::size_t i = 0; i < std::min(shown, effects.size()); ++i) text += line_of(effects[i]);
   if (effects.size() > shown) text += fmt::format("  and {} more in diagnosis.json\n", effects.size() - shown);
-  return text + visible_text(diagnosis);
+  return text + published_text(diagnosis.published) + visible_text(diagnosis);
 }
 
 std::vector<std::string> draw_ranking(const Diagnosis& diagnosis, const std::filesystem::path& output) {

@@ -21,11 +21,16 @@ class Trials {
   /// Of amplitudes that were run before.
   VectorXd residual_with(const VectorXd& amplitudes) const;
   const FinishedMotion& motion_with(const VectorXd& amplitudes) const;
+  /// The run with these amplitudes; null if there is none.
+  const FinishedMotion* find(const VectorXd& amplitudes) const;
+  /// Amplitudes of the runs of a candidate of one number by itself.
+  std::vector<double> sizes_of(std::size_t candidate) const;
 
  private:
   struct Trial {
     FinishedMotion motion;
     VectorXd residual;
+    VectorXd amplitudes;  ///< [q]
   };
   /// What the model's numbers are then, those that differ.
   NamedValues values_of(const VectorXd& amplitudes) const;

@@ -13,6 +13,7 @@ import { estimateSection } from "./parts/estimates.js";
 import { forceSection } from "./parts/force.js";
 import { modelsSection } from "./parts/path.js";
 import { provenanceSection } from "./parts/provenance.js";
+import { publishedSection } from "./parts/published.js";
 import { rankingSection } from "./parts/ranking.js";
 import { tableSection } from "./parts/table.js";
 import { traceSection } from "./parts/traces.js";
@@ -25,6 +26,7 @@ function parts(report) {
     () => wallSection(report),
     runs.length ? () => heatSection(runs) : null,
     () => tableSection(report),
+    () => publishedSection(report),
     () => rankingSection(report),
     () => lookAlikeSection(report),
     () => detectableSection(report),

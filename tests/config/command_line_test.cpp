@@ -22,7 +22,7 @@ Outcome run(std::vector<std::string> arguments, const std::function<int(const Co
   };
   program.validate = [](const CommandLine& c) { CaseFile(c.case_file).finish(); };
   program.run = body;
-  program.shares_work = shares_work;
+  program.shares_work = program.shares_runs = shares_work;
   arguments.insert(arguments.begin(), "pump");
   std::vector<char*> argv;
   for (auto& argument : arguments) argv.push_back(argument.data());
@@ -45,12 +45,15 @@ TEST(CommandLine, HandsOverWhatWasTyped) {
     typed = c;
     return 0;
   };
-  EXPECT_EQ(run({file, "--output", "o", "--steps", "7", "--processes", "2", "--resume", "--quiet"}, keep, true).code,
-            exit_done);
+  EXPECT_EQ(
+      run({file, "--output", "o", "--steps", "7", "--processes", "2", "--runs", "r", "--resume", "--quiet"}, keep, true)
+          .code,
+      exit_done);
   EXPECT_EQ(typed.case_file, file);
   EXPECT_EQ(typed.output, "o");
   EXPECT_EQ(typed.steps, 7);
   EXPECT_EQ(typed.processes, 2);
+  EXPECT_EQ(typed.runs, "r");
   EXPECT_TRUE(typed.resume && typed.quiet && !typed.overwrite && !typed.validate);
 }
 

@@ -86,6 +86,27 @@ TEST_F(WholeDiagnosis, FindsTheHiddenSpringAndItsStiffness) {
   EXPECT_LE(trials(), 4) << "a linear model is known after two of each";
 }
 
+/// The volume's strain falls by 5 % a unit of spring.
+TEST_F(WholeDiagnosis, SaysWhatItChangesInPublishedQuantities) {
+  const DiagnosisReport found = report();
+  const FoundValue stiffness = value_of(found.problem, found.found.effects.front(), 0);
+  ASSERT_EQ(found.published.size(), 2U);
+  EXPECT_EQ(found.published[0].model, ModelRole::as_it_is);
+  const QuantityFound before = found.published[0].quantities.at(0), after = found.published[1].quantities.at(0);
+  EXPECT_EQ(before.quantity, Quantity::strain);
+  EXPECT_NEAR(before.value, 20, 1e-9);
+  EXPECT_FALSE(before.lower.has_value());
+  EXPECT_EQ(found.published[1].model, ModelRole::accepted);
+  EXPECT_EQ(found.published[1].effects.size(), 1U);
+  EXPECT_NEAR(after.value, 20 - 5 * stiffness.value, 1e-9);
+  EXPECT_NEAR(after.lower.value(), 20 - 5 * stiffness.upper, 1e-6);
+  EXPECT_NEAR(after.upper.value(), 20 - 5 * stiffness.lower, 1e-6);
+}
+
+TEST_F(WholeDiagnosis, SaysNothingOfItWhereNothingIsAccepted) {
+  EXPECT_TRUE(report({.refused = {runs.infos[0].name}}).published.empty());
+}
+
 TEST_F(WholeDiagnosis, WhatWasRefusedIsNotAcceptedAgain) {
   const DiagnosisReport found = report({.refused = {runs.infos[0].name}});
   EXPECT_FALSE(found.found.effects.front().accepted);

@@ -19,7 +19,7 @@ struct FakeRuns : ModelRuns {
                          0, infinite, undefined, 1});
   }
   const std::vector<protocol::ParameterInfo>& parameters() const override { return infos; }
-  std::vector<std::string> columns() const override { return {}; }
+  std::vector<std::string> columns() const override { return {"fluid.volume"}; }
   RunsCost cost() const override { return {static_cast<int>(made.size()), static_cast<int>(made.size()), 0, 0}; }
   std::vector<FinishedMotion> make(const std::vector<WantedRun>& wanted) override {
     std::vector<FinishedMotion> all;
@@ -49,7 +49,14 @@ struct FakeRuns : ModelRuns {
            !(has("outlet_half") && z < middle);
   }
   FinishedMotion motion(const NamedValues& values) const {
-    return {{0, 0.8, lumen.points, [this, values](double time) { return at(time, values); }}, {}};
+    return {{0, 0.8, lumen.points, [this, values](double time) { return at(time, values); }},
+            [this, values](const std::string&) { return volume(values); }};
+  }
+  /// Grows by a fifth, and by a twentieth less a unit of spring.
+  RunTrace volume(const NamedValues& values) const {
+    double grown = 0.2;
+    for (const double value : values.values) grown -= 0.05 * strength * value;
+    return {{0, 0.4, 0.8}, {100, 100 * (1 + grown), 100}, "cm3"};
   }
 
   const LumenSurface& lumen;

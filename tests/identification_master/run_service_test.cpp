@@ -32,6 +32,11 @@ struct FakeMakers : RunMakers {
   }
 };
 
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream from(file);
+  return {std::istreambuf_iterator<char>(from), {}};
+}
+
 class Service : public ::testing::Test {
  protected:
   protocol::RunOrder order(const std::string& name, double stiffness) const {
@@ -85,6 +90,61 @@ TEST_F(Service, AnotherCaseOtherValuesOrStepsAreAnotherRun) {
   EXPECT_FALSE(made(longer, {order("a", 4)})[0].made);
   std::ofstream(folder / "a/run.json") << "{\"case\": 17}";
   EXPECT_TRUE(made(longer, {order("a", 4)})[0].made) << "a file of another version";
+}
+
+TEST_F(Service, SharesRunsByWhatTheyDependOn) {
+  const RunStore store(folder / "shared", "1");
+  RunService first(makers, "abc", 20, store), second(makers, "abc", 20, store);
+  EXPECT_TRUE(made(first, {order("one/a", 3)})[0].made);
+  std::ofstream(folder / "one/a/lumen.motion") << "of 3";
+  const auto lent = made(second, {order("two/b", 3)});
+  EXPECT_FALSE(lent[0].made);
+  EXPECT_EQ(lent[0].cpu_seconds, 0);
+  EXPECT_EQ(content_of(folder / "two/b/lumen.motion"), "of 3");
+
+  RunService other_model(makers, "abd", 20, store), other_steps(makers, "abc", 30, store);
+  RunService other_solver(makers, "abc", 20, RunStore(folder / "shared", "2"));
+  EXPECT_TRUE(made(second, {order("two/b", 4)})[0].made) << "another value in the place of a run that is lent";
+  EXPECT_TRUE(made(other_model, {order("three/b", 3)})[0].made);
+  EXPECT_TRUE(made(other_steps, {order("four/b", 3)})[0].made);
+  EXPECT_TRUE(made(other_solver, {order("five/b", 3)})[0].made);
+  EXPECT_EQ(content_of(folder / "one/a/lumen.motion"), "of 3");
+  EXPECT_FALSE(made(first, {order("one/a", 3)})[0].made);
+}
+
+TEST_F(Service, TwoThatMakeTheSameRunKeepTheFirst) {
+  const RunStore store(folder / "shared", "1");
+  RunService first(makers, "abc", 20, store);
+  FakeMakers others;
+  RunService second(others, "abc", 20, store);
+  first(protocol::OrderRuns{{order("one/a", 3)}, ""});
+  second(protocol::OrderRuns{{order("two/a", 3)}, ""});
+  std::ofstream(folder / "one/a/lumen.motion") << "of the first";
+  std::ofstream(folder / "two/a/lumen.motion") << "of the second";
+  EXPECT_TRUE(first(protocol::NextRun{}).made);
+  EXPECT_TRUE(second(protocol::NextRun{}).made);
+  for (const char* name : {"one/a", "two/a"}) EXPECT_EQ(content_of(folder / name / "lumen.motion"), "of the first");
+}
+
+TEST_F(Service, GivesItsOwnRunsToThoseThatAreShared) {
+  made(service, {order("one/a", 3), order("one/b", 9)});
+  const RunStore store(folder / "shared", "1");
+  RunService again(makers, "abc", 20, store), other(makers, "abc", 20, store);
+  EXPECT_FALSE(made(again, {order("one/a", 3), order("one/b", 9)})[1].made);
+  std::filesystem::remove_all(folder / "one");
+  const auto lent = made(other, {order("two/a", 3), order("two/b", 9)});
+  EXPECT_FALSE(lent[0].made);
+  EXPECT_FALSE(lent[1].made);
+  EXPECT_EQ(lent[1].failure, "too much");
+}
+
+TEST_F(Service, MakesAgainWhatWasDeletedFromThoseThatAreShared) {
+  const RunStore store(folder / "shared", "1");
+  RunService first(makers, "abc", 20, store);
+  made(first, {order("one/a", 3)});
+  std::filesystem::remove_all(folder / "shared");
+  EXPECT_TRUE(made(first, {order("one/a", 3)})[0].made);
+  EXPECT_TRUE(std::filesystem::exists(folder / "one/a/run.json"));
 }
 
 TEST_F(Service, RefusesWhatTheModelDoesNotHave) {

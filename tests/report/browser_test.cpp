@@ -177,6 +177,9 @@ class ReportPage : public ::testing::Test {
     diagnosis.table.combinations = {{{0}, 0.98}};
     diagnosis.table.others = 0.01;
     diagnosis.table.otherwise = {{Assumed::noise, 1.3, 0.05, {0.93}}};
+    diagnosis.published = {
+        {ModelRole::as_it_is, {}, {{Quantity::distensibility, "", 2.5, {}, {}, "1e-3/mmHg"}}},
+        {ModelRole::accepted, {"effect_0<i> at spine"}, {{Quantity::distensibility, "", 2.1, 1.9, 2.25, "1e-3/mmHg"}}}};
     diagnosis.look_alike = (MatrixXd(2, 2) << 1, 0.5, 0.5, 1).finished();
     diagnosis.detectable = {{"x", "", "a.b", 2, "1", 0, 0.4}};
     write_record(folder / "diagnosis_0/diagnosis.json", diagnosis);
@@ -258,6 +261,7 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
       names: document.querySelector("#ranking .name").textContent, title: document.title, wide: root.scrollWidth,
       first: at(0), last: at(2), models: document.querySelectorAll("#models tbody tr").length,
       charts: [...document.querySelectorAll(".chart")].filter((chart) => !chart.querySelector("svg")).length,
+      published: [...document.querySelectorAll("#published tr")].map((row) => row.textContent.replaceAll("\u00a0", " ")),
       chances: [...document.querySelectorAll("#chances tr")].map((row) => row.textContent),
       sections: [...document.querySelectorAll("section")].map((s) => s.id), tiles: document.querySelector(".tiles").textContent,
       law: document.querySelector("#force .note").textContent.replaceAll("\u00a0", " ") };)js");
@@ -272,9 +276,12 @@ TEST_F(ReportPage, ShowsBeforeAndAfterInABrowser) {
   EXPECT_EQ(found["models"], 2);
   EXPECT_EQ(found["charts"], 0) << "without a drawing";
   EXPECT_LE(found["wide"], 900) << "nothing sticks out";
-  const Json expected{"errors",     "wall",   "heat",       "chances", "ranking",    "look-alikes",
+  const Json expected{"errors",     "wall",   "heat",       "chances", "published",  "ranking", "look-alikes",
                       "detectable", "models", "parameters", "force",   "provenance", "glossary"};
   EXPECT_EQ(found["sections"], expected);
+  const Json published{"model as it iswith what was foundeffect 0<i> at spine",
+                       "distensibility [1 × 10⁻³/mmHg]2.52.11.9 to 2.25"};
+  EXPECT_EQ(found["published"], published);
   const Json chances{
       "effect 0<i> · spine, or what does much the same"
       "effect 0<i> · spine 70 % at about 1 × 10⁶; effect 1 · spine 30 %98 %",

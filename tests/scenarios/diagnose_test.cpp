@@ -98,6 +98,54 @@ TEST_F(Diagnose, FindsTheHiddenSupport) {
   EXPECT_NE(std::find(group.begin(), group.end(), "visco_elastic"), group.end()) << said;
 }
 
+/// Of the published quantities of one model.
+double published(const Json& model, const std::string& name) {
+  for (const Json& quantity : model["quantities"])
+    if (quantity["quantity"] == name) return quantity["value"];
+  ADD_FAILURE() << "no " << name << " in " << model;
+  return 0;
+}
+
+/// Another noise and another name: another data set of the same model.
+TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
+  const Json alone = diagnosed("held", "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}");
+  const auto with = [&](const std::string& name, const std::string& words) {
+    const fs::path file = folder.file(name + ".yaml", "base: twin/case.yaml\nname: " + name + "\n" + words);
+    const ChildEnd end = tether(
+        {"diagnose", file.string(), "--output", (folder / name).string(), "--runs", (folder / "shared").string()});
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    said = end.output;
+    return Json::parse(content_of(folder / name / "diagnosis.json"));
+  };
+  const Json first = with("first", "");
+  EXPECT_EQ(first["cost"]["runs_made"], alone["cost"]["runs_made"]) << "those of another folder are not known here";
+  EXPECT_EQ(first["effects"], alone["effects"]) << "the same as with a folder of its own";
+
+  const Json second = with("second", "observations: {surfaces: {twin: {noise: {deviation: 0.06 mm}}}}\n");
+  const int of_first_order = second["cost"]["sensitivity_runs"];
+  EXPECT_EQ(of_first_order, first["cost"]["sensitivity_runs"]);
+  EXPECT_LE(second["cost"]["runs_made"], second["cost"]["runs"].get<int>() - of_first_order - 1)
+      << "none of what numbers do, nor of the model as it is\n"
+      << said;
+  EXPECT_TRUE(fs::is_symlink(folder / "second/coarse/runs/base"));
+  EXPECT_EQ(with("third", "")["cost"]["runs_made"], 0) << "the same data under another name";
+
+  const Json other = with("other", "solid: {viscosity: 5e2}\n");
+  EXPECT_GE(other["cost"]["runs_made"], of_first_order) << "another model: its runs are all its own";
+
+  ASSERT_EQ(first["published"].size(), 2U) << said;
+  const Json before = first["published"][0], after = first["published"][1];
+  EXPECT_EQ(before["model"], "as_it_is");
+  EXPECT_EQ(after["model"], "accepted");
+  EXPECT_LT(published(after, "distensibility"), published(before, "distensibility")) << "springs hold the wall";
+  EXPECT_GT(published(after, "pulse_wave_velocity"), published(before, "pulse_wave_velocity"));
+  for (const Json& quantity : after["quantities"]) {
+    EXPECT_LE(quantity["lower"], quantity["value"]) << quantity;
+    EXPECT_GE(quantity["upper"], quantity["value"]) << quantity;
+  }
+  EXPECT_NE(said.find("what it changes (95 %)"), std::string::npos) << said;
+}
+
 TEST_F(Diagnose, FindsNothingWhereNothingIsHidden) {
   const Json found = diagnosed("same", "{verdict: nothing_missing}");
   EXPECT_EQ(found["verdict"], "nothing_missing") << said;

@@ -1,0 +1,169 @@
+#include "diagnosis/search/published_models.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/comparison/beat_quantities.hpp"
+
+namespace tether {
+namespace {
+
+using Index = Eigen::Index;
+
+/// NAME of all numbers PREFIX.NAME.*, in their order.
+std::vector<std::string> names_below(const std::string& prefix, const std::vector<protocol::ParameterInfo>& numbers) {
+  std::vector<std::string> names;
+  for (const protocol::ParameterInfo& number : numbers) {
+    if (!number.name.starts_with(prefix)) continue;
+    std::string name = number.name.substr(prefix.size());
+    name.resize(name.rfind('.'));
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+BeatFacts facts_of(const DiagnosedCase& given, const ModelRuns& runs) {
+  BeatFacts facts{given.file.units(), runs.columns(), names_below("fluid.inlets.", runs.parameters()),
+                  names_below("fluid.outlets.", runs.parameters())};
+  facts.imaged = given.file.common().image.pressure;
+  for (const protocol::ParameterInfo& number : runs.parameters())
+    if (number.name == "fluid.density") facts.density = number.value;
+  if (!given.data.lumen.empty()) facts.period = given.data.lumen.front()->settings().period;
+  return facts;
+}
+
+VectorXd values_of(const std::vector<QuantityFound>& quantities) {
+  VectorXd values(static_cast<Index>(quantities.size()));
+  for (Index i = 0; i < values.size(); ++i) values(i) = quantities[static_cast<std::size_t>(i)].value;
+  return values;
+}
+
+/// One model's quantities and how each of its effects moves them.
+class Published {
+ public:
+  Published(const DiagnosisReport& report, const Trials& trials, BeatFacts facts, const FinishedMotion& base)
+      : report_(report), trials_(trials), facts_(std::move(facts)), base_(beat_quantities(base, facts_)) {}
+
+  std::vector<PublishedQuantities> all() const {
+    std::vector<const TestedEffect*> accepted = accepted_in_order();
+    if (accepted.empty() || base_.empty()) return {};
+    std::vector<PublishedQuantities> models{{ModelRole::as_it_is, {}, base_}};
+    add(models, ModelRole::accepted, accepted);
+    for (const TestedEffect& rival : report_.found.effects)
+      for (std::size_t k = 0; k < accepted.size(); ++k)
+        if (rival.rival && !rival.accepted && rival.group == accepted[k]->group && changes_model(rival)) {
+          std::vector<const TestedEffect*> with(accepted.begin(), accepted.begin() + static_cast<std::ptrdiff_t>(k));
+          with.push_back(&rival);
+          add(models, ModelRole::rival, with);
+        }
+    return models;
+  }
+
+ private:
+  const Candidate& candidate_of(const TestedEffect& effect) const {
+    return report_.problem.candidates[effect.candidate];
+  }
+  bool changes_model(const TestedEffect& effect) const { return candidate_of(effect).takes_runs(); }
+  Index size_of(const TestedEffect& effect) const { return (effect.run.array() != 0).count(); }
+
+  /// Each has all before it in its run.
+  std::vector<const TestedEffect*> accepted_in_order() const {
+    std::vector<const TestedEffect*> all;
+    for (const TestedEffect& effect : report_.found.effects)
+      if (effect.accepted && effect.confirmed && changes_model(effect)) all.push_back(&effect);
+    std::stable_sort(all.begin(), all.end(), [&](const auto* a, const auto* b) { return size_of(*a) < size_of(*b); });
+    return all;
+  }
+
+  /// effects: the last one's run has them all.
+  void add(std::vector<PublishedQuantities>& models, ModelRole role,
+           const std::vector<const TestedEffect*>& effects) const {
+    const std::optional<VectorXd> found = quantities_with(effects.back()->run);
+    if (!found) return;
+    PublishedQuantities model{role, {}, base_};
+    VectorXd below = VectorXd::Zero(found->size()), above = below;  // squares
+    VectorXd before = values_of(base_);
+    bool is_known = true;
+    for (const TestedEffect* effect : effects) {
+      model.effects.push_back(text_of(finding_of(report_.problem, *effect)));
+      const VectorXd with = quantities_with(effect->run).value_or(before);
+      const Ends ends = ends_of(*effect, with - before, effects.size() == 1);
+      below += ends.least.cwiseMin(ends.most).cwiseMin(0).cwiseAbs2();
+      above += ends.least.cwiseMax(ends.most).cwiseMax(0).cwiseAbs2();
+      before = with;
+      is_known = is_known && !effect->at_limit;
+    }
+    for (Index i = 0; i < found->size(); ++i) {
+      QuantityFound& quantity = model.quantities[static_cast<std::size_t>(i)];
+      quantity.value = (*found)(i);
+      if (!is_known) continue;
+      quantity.lower = quantity.value - std::sqrt(below(i));
+      quantity.upper = quantity.value + std::sqrt(above(i));
+    }
+    models.push_back(std::move(model));
+  }
+
+  std::optional<VectorXd> quantities_with(const VectorXd& run) const {
+    if (run.size() == 0) return std::nullopt;
+    const FinishedMotion* motion = trials_.find(run);
+    if (motion == nullptr || motion->failed()) return std::nullopt;
+    return values_of(beat_quantities(*motion, facts_));
+  }
+
+  /// How far quantities are from those found at either end of an effect's interval.
+  struct Ends {
+    VectorXd least, most;
+  };
+  /// change: what the effect does, as found. Linear in the amplitude between runs: the run without the effect, that
+  /// with it as found, and of an effect by itself all that were made. (D.22)
+  Ends ends_of(const TestedEffect& effect, const VectorXd& change, bool by_itself) const {
+    const AmplitudeRange range = range_of(report_.problem, effect);
+    const auto& own = candidate_of(effect).amplitudes;
+    if (!by_itself || own.size() != 1) return {(range.least - 1) * change, (range.most - 1) * change};
+    const double size = effect.run(own.front());
+    std::vector<std::pair<double, VectorXd>> shown{{0, VectorXd::Zero(change.size())}, {size, change}};
+    for (const double other : trials_.sizes_of(effect.candidate)) {
+      VectorXd alone = VectorXd::Zero(effect.run.size());
+      alone(own.front()) = other;
+      if (const auto with = quantities_with(alone); with && other != size)
+        shown.emplace_back(other, *with - values_of(base_));
+    }
+    std::sort(shown.begin(), shown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return {between(shown, range.least * size) - change, between(shown, range.most * size) - change};
+  }
+
+  /// Linear between neighbours; beyond the last as between the last two.
+  static VectorXd between(const std::vector<std::pair<double, VectorXd>>& shown, double size) {
+    std::size_t to = 1;
+    while (to + 1 < shown.size() && shown[to].first < size) ++to;
+    const auto& [a, at_a] = shown[to - 1];
+    const auto& [b, at_b] = shown[to];
+    return at_a + (size - a) / (b - a) * (at_b - at_a);
+  }
+
+  const DiagnosisReport& report_;
+  const Trials& trials_;
+  BeatFacts facts_;
+  std::vector<QuantityFound> base_;
+};
+
+}  // namespace
+
+AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect) {
+  const auto& own = problem.candidates[effect.candidate].amplitudes;
+  const Index main = main_amplitude(problem, effect);
+  const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(own[static_cast<std::size_t>(main)])];
+  const double size = effect.amplitudes(main), half = 1.96 * effect.deviations(main);
+  if (size == 0) return {};
+  if (amplitude.one_sided && effect.confirmed) return {std::exp(-half / size), std::exp(half / size)};
+  const double part = half / std::abs(size);
+  return {amplitude.one_sided ? std::max(0.0, 1 - part) : 1 - part, 1 + part};
+}
+
+std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const DiagnosisReport& report,
+                                                  const Trials& trials, const FinishedMotion& base,
+                                                  const ModelRuns& runs) {
+  return Published(report, trials, facts_of(given, runs), base).all();
+}
+
+}  // namespace tether

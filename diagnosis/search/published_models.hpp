@@ -1,0 +1,24 @@
+#pragma once
+
+#include "diagnosis/evidence/model_runs.hpp"
+#include "diagnosis/results/published.hpp"
+#include "diagnosis/search/diagnosis_report.hpp"
+#include "diagnosis/search/trials.hpp"
+
+namespace tether {
+
+/// What an effect's amplitude may be.
+struct AmplitudeRange {
+  double least = 1, most = 1;  ///< ends of its 95 % interval over the amplitude found
+};
+
+/// Of the number of an effect that says most.
+AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect);
+
+/// Quantities of the model as it is, with all that was accepted, and with each rival of that in its place, from runs
+/// that there are. base: the run of the model as it is. Empty where nothing was accepted that changes the model.
+std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const DiagnosisReport& report,
+                                                  const Trials& trials, const FinishedMotion& base,
+                                                  const ModelRuns& runs);
+
+}  // namespace tether
