@@ -8,6 +8,7 @@
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
+#include "diagnosis/results/noise.hpp"
 #include "diagnosis/results/probability_table.hpp"
 #include "diagnosis/results/statement.hpp"
 
@@ -99,6 +100,7 @@ struct Diagnosis {
   std::vector<Detectable> detectable;
   LackOfFitChange lack_of_fit;
   std::vector<StrainedError> strained_errors;
+  std::vector<NoiseCheck> noise;
   bool more = false;
   std::optional<FurtherData> split_by;
   std::vector<Attempt> path;
@@ -122,6 +124,7 @@ struct Diagnosis {
     field("detectable", self.detectable, "per candidate, in the order of `effects`");
     field("lack_of_fit", self.lack_of_fit, "of the model as it is, and with what was accepted");
     field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
+    field("noise", self.noise, "what the case states of it, held against what the accepted model leaves, by source");
     field("more", self.more, "another effect is wanted, but no more were to be added");
     field("split_by", self.split_by, "what would tell rivals apart");
     field("path", self.path, "attempts in their order");

@@ -169,6 +169,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.held_out = found.held_out;
   d.lack_of_fit = {lack_of(problem, found.before), lack_of(problem, found.after)};
   d.strained_errors = found.strained;
+  d.noise = report.noise;
   d.more = found.more;
   d.split_by = further_data(report.splits);
   for (const SearchStep& step : found.path) d.path.push_back(attempt_of(problem, step));

@@ -13,6 +13,7 @@ struct DiagnosisReport {
   EffectProblem problem;
   SearchResult found;
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
+  std::vector<NoiseCheck> noise;
   double alpha = 0.05;
   DiagnosisCost cost;
 };
