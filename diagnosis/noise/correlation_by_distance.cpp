@@ -11,7 +11,8 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr int bins = 24;
-constexpr double reach = 5;  ///< lengths, beyond which nothing is alike
+constexpr double reach = 5;    ///< lengths, beyond which nothing is alike
+constexpr double fewest = 20;  ///< pairs whose mean says anything
 
 /// A fit's covariance of what is left once the free columns are fitted, over its variance.
 MatrixXd expected(const NoiseField& field, const NoiseFit& fit) {
@@ -57,7 +58,7 @@ std::vector<CorrelationBin> correlation_by_distance(const std::vector<NoiseField
         if (bin < all.size()) add(all[bin], apart, products(i, j) / variance, one(i, j), other(i, j));
       }
   }
-  std::erase_if(all, [](const CorrelationBin& bin) { return bin.pairs == 0; });
+  std::erase_if(all, [](const CorrelationBin& bin) { return bin.pairs < fewest; });
   for (CorrelationBin& bin : all)
     for (double* sum : {&bin.distance, &bin.measured, &bin.exponential, &bin.gaussian}) *sum /= bin.pairs;
   return all;

@@ -1,6 +1,8 @@
 #include "diagnosis/noise/noise_field.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -20,6 +22,25 @@ std::vector<Index> drawn(Index from, Index count) {
   return rows;
 }
 
+/// The least deviation of the places from their middle in any direction: of a tube 0.7 radii.
+double least_spread(const Points& places) {
+  const Points apart = places.colwise() - places.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(apart * apart.transpose() / static_cast<double>(places.cols()));
+  return std::sqrt(std::max(0.0, axes.eigenvalues()(0)));
+}
+
+Points averaged(const Points& places, const Points& normals) {
+  const double near = least_spread(places);
+  if (near == 0) return normals;  // in a plane: a contour's normals are its own
+  Points mean = normals;
+  for (Index i = 0; i < places.cols(); ++i) {
+    const Eigen::ArrayXd apart = (places.colwise() - places.col(i)).colwise().squaredNorm();
+    mean.col(i) = normals * (-apart / (2 * near * near)).exp().matrix();
+  }
+  mean.colwise().normalize();
+  return mean;
+}
+
 }  // namespace
 
 std::vector<NoiseField> thinned(std::vector<NoiseField> fields, Index most) {
@@ -36,9 +57,9 @@ std::vector<NoiseField> thinned(std::vector<NoiseField> fields, Index most) {
   return fields;
 }
 
-MatrixXd offset_and_shift(const Points& normals) {
+MatrixXd offset_and_shift(const Points& places, const Points& normals) {
   MatrixXd columns(normals.cols(), 4);
-  columns << VectorXd::Ones(normals.cols()), normals.transpose();
+  columns << VectorXd::Ones(normals.cols()), averaged(places, normals).transpose();
   return columns;
 }
 

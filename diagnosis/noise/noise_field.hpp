@@ -23,7 +23,8 @@ struct NoiseField {
 /// At most so many places of each field, drawn at random: near ones and far ones. The same every time.
 std::vector<NoiseField> thinned(std::vector<NoiseField> fields, Eigen::Index most);
 
-/// A uniform offset and a rigid shift, of distances along the normals [n x 4].
-MatrixXd offset_and_shift(const Points& normals);
+/// A uniform offset and a rigid shift, of distances along the normals [n x 4]. Normals are averaged over the places
+/// near each: those of data are rough with their errors, and columns that know these would take them out.
+MatrixXd offset_and_shift(const Points& places, const Points& normals);
 
 }  // namespace tether

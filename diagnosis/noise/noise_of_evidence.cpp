@@ -62,7 +62,7 @@ NoiseField field_of(const Evidence& evidence, const Frames& frames, std::vector<
   }
   normals.colwise().normalize();
   field.places = places;
-  field.free = offset_and_shift(normals);
+  field.free = offset_and_shift(places, normals);
   return field;
 }
 

@@ -69,7 +69,7 @@ class RestingPairs {
     const std::vector<std::size_t> samples = common_samples(frames);
     if (samples.empty()) return;
     const MeanPlaces mean = mean_places(frames, samples);
-    NoiseField field{mean.places, offset_and_shift(mean.normals), {}};
+    NoiseField field{mean.places, offset_and_shift(mean.places, mean.normals), {}};
     std::vector<Pair> resting;
     for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
       const double moved = root_mean_square(motion(frames, i, samples));
@@ -124,7 +124,7 @@ std::optional<NoiseField> residual_field(std::vector<SeenFrame> frames, const Ru
   const std::vector<std::size_t> samples = common_samples(frames);
   if (samples.empty()) return std::nullopt;
   const MeanPlaces mean = mean_places(frames, samples);
-  NoiseField field{mean.places, beside(offset_and_shift(mean.normals), slope(mean.places)), {}};
+  NoiseField field{mean.places, beside(offset_and_shift(mean.places, mean.normals), slope(mean.places)), {}};
   const double step = 1e-3 * (run.end - run.start);
   for (const SeenFrame& frame : frames) {
     const double before = std::max(run.start, frame.time - step), after = std::min(run.end, frame.time + step);
@@ -150,7 +150,7 @@ std::optional<NoiseField> differences(const SeenSeries& one, const SeenSeries& o
   const std::vector<std::size_t> samples = common_samples(both);
   if (samples.empty() || both.size() < found) return std::nullopt;
   const MeanPlaces mean = mean_places(both, samples);
-  NoiseField field{mean.places, offset_and_shift(mean.normals), {}};
+  NoiseField field{mean.places, offset_and_shift(mean.places, mean.normals), {}};
   for (std::size_t k = 0; k < first.size(); ++k) {
     field.frames.push_back({(distances(first[k], samples) - distances(second[k], samples)) / std::sqrt(2),
                             MatrixXd(mean.places.cols(), 0), first[k].time});
@@ -207,8 +207,10 @@ std::vector<SeenNoise> residual_noise(const Observations& data, const RunMotion&
 
 SeenNoise noise_between(const TriangleSurface& first, const TriangleSurface& second) {
   std::vector<Closest> closest = SignedSurface(second).closest(first.points);
+  constexpr std::size_t most = 3000;  // five times what is used
+  const std::size_t step = closest.size() / most + 1;
   std::vector<Index> used;
-  for (std::size_t i = 0; i < closest.size(); ++i)
+  for (std::size_t i = 0; i < closest.size(); i += step)
     if (!closest[i].on_rim) used.push_back(static_cast<Index>(i));
   Points normals(3, static_cast<Index>(used.size()));
   VectorXd apart(normals.cols());
@@ -217,7 +219,8 @@ SeenNoise noise_between(const TriangleSurface& first, const TriangleSurface& sec
     normals.col(i) = at.normal;
     apart(i) = at.distance / std::sqrt(2);
   }
-  NoiseField field{first.points(Eigen::all, used), offset_and_shift(normals), {}};
+  const Points places = first.points(Eigen::all, used);
+  NoiseField field{places, offset_and_shift(places, normals), {}};
   field.frames.push_back({apart, MatrixXd(apart.size(), 0), 0});
   return {NoiseOrigin::repeated, "", {}, {}, {std::move(field)}};
 }

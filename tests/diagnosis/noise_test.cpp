@@ -34,7 +34,7 @@ struct Drawn {
 
 /// Errors in frames 0.1 apart, with an offset and a shift that are not small.
 NoiseField noise_on(const Tube& tube, const Drawn& drawn, std::uint64_t seed) {
-  NoiseField field{tube.places, offset_and_shift(tube.normals), {}};
+  NoiseField field{tube.places, offset_and_shift(tube.places, tube.normals), {}};
   VectorXd last;
   for (int k = 0; k < drawn.frames; ++k) {
     const Random random(seed, static_cast<std::uint64_t>(k));
