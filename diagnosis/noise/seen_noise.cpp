@@ -212,14 +212,15 @@ SeenNoise noise_between(const TriangleSurface& first, const TriangleSurface& sec
   std::vector<Index> used;
   for (std::size_t i = 0; i < closest.size(); i += step)
     if (!closest[i].on_rim) used.push_back(static_cast<Index>(i));
-  Points normals(3, static_cast<Index>(used.size()));
+  Points normals(3, static_cast<Index>(used.size())), places = normals;
   VectorXd apart(normals.cols());
   for (Index i = 0; i < normals.cols(); ++i) {
     const Closest& at = closest[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])];
     normals.col(i) = at.normal;
+    // Midway: a place that has the first's errors in it would foretell them.
+    places.col(i) = (first.points.col(used[static_cast<std::size_t>(i)]) + at.point) / 2;
     apart(i) = at.distance / std::sqrt(2);
   }
-  const Points places = first.points(Eigen::all, used);
   NoiseField field{places, offset_and_shift(places, normals), {}};
   field.frames.push_back({apart, MatrixXd(apart.size(), 0), 0});
   return {NoiseOrigin::repeated, "", {}, {}, {std::move(field)}};

@@ -126,7 +126,9 @@ TEST_F(FrontEnd, WritesAndTellsTheNoiseOfTwoSurfaces) {
   const MeasuredNoise& one = noise.measurements.front();
   EXPECT_EQ(one.from, NoiseOrigin::repeated);
   EXPECT_GT(one.points, 380);
-  EXPECT_EQ(one.fits.size(), 2u);
+  EXPECT_EQ(one.fits.front().shape, CorrelationShape::gaussian);
+  EXPECT_NEAR(one.fits.front().deviation.value, 0.3, 0.06);
+  EXPECT_NEAR(one.fits.front().correlation_length.value, 5, 1.5);
   EXPECT_NE(end.output.find(one.line), std::string::npos) << end.output;
   EXPECT_EQ(one.line.rfind("noise: {deviation: ", 0), 0u) << one.line;
   EXPECT_TRUE(fs::exists(folder_ / "noise/plots/noise_repeated_one_stl_and_two_stl.png"));
