@@ -44,6 +44,8 @@ constexpr std::array verbs{
          told<fs::path, make_twin>},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
     Verb{"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true},
+    Verb{"measure-noise", "measure the noise of the data, which a diagnosis wants stated: of a case, or of two files",
+         told<NoiseMeasurements, measure_noise>},
     Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR",
          told<fs::path, report>},
     Verb{"validate", "find mistakes in a case without running it", validate},
@@ -81,10 +83,10 @@ int conform(int argc, char** argv) {
 std::string usage() {
   std::string text =
       "Fluid-structure models of vessels that agree with images.\n\nUsage: tether VERB CASE.yaml [options]\n\n";
-  for (const auto& verb : verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.purpose);
-  text += fmt::format("  {:<10} {}\n", "conform",
+  for (const auto& verb : verbs) text += fmt::format("  {:<13} {}\n", verb.name, verb.purpose);
+  text += fmt::format("  {:<13} {}\n", "conform",
                       "check a fluid or solid program of one's own: tether conform PROGRAM [ARGUMENTS]");
-  text += fmt::format("  {:<10} {}\n", "schema", "print the JSON schema of a file of results: tether schema [FILE]");
+  text += fmt::format("  {:<13} {}\n", "schema", "print the JSON schema of a file of results: tether schema [FILE]");
   return text + "\ntether VERB --help lists the options of a verb.\n";
 }
 
@@ -93,6 +95,8 @@ std::string usage() {
 int front_end(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "conform") return conform(argc - 2, argv + 2);
+  if (word == "measure-noise" && argc > 3 && argv[2][0] != '-' && argv[3][0] != '-')
+    return measure_noise_of_files(argc - 2, argv + 2);
   if (word == "schema") return print_schema(argc - 2, argv + 2);
   const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.name == word; });
   if (verb != verbs.end()) return run_main(argc - 1, argv + 1, program_of(*verb));

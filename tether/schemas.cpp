@@ -9,6 +9,7 @@
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
+#include "diagnosis/results/noise.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
@@ -32,7 +33,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"explain.json", schema<Explanation>}, {"steps.json", schema<StepsMade>},
       {"force.json", schema<ForceFound>},    {"estimate.json", schema<Estimate>},
       {"run.json", schema<MadeRun>},         {"score.json", schema<Score>},
-      {"effects.json", schema<EffectsList>},
+      {"effects.json", schema<EffectsList>}, {"noise.json", schema<NoiseMeasurements>},
   };
   return all;
 }

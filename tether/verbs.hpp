@@ -7,6 +7,7 @@
 #include "common/config/command_line.hpp"
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
+#include "diagnosis/results/noise.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "twin/score.hpp"
@@ -60,6 +61,15 @@ Made<Diagnosis> diagnose(const CommandLine& command);
 
 /// Finds the parameters that the case names from its measurements: estimate.json and .csv, a plot, the identified case.
 Made<Estimate> identify(const CommandLine& command);
+
+/// Measures the noise of the case's surfaces and contours: from repeated segmentations, from frames at rest, from what
+/// the run leaves: noise.json, plots (docs/noise.md). Simulates first if there is no such run.
+Made<NoiseMeasurements> measure_noise(const CommandLine& command);
+/// From two surface files of the same moment, in the files' unit of length.
+Made<NoiseMeasurements> measure_noise(const std::filesystem::path& first, const std::filesystem::path& second,
+                                      const std::filesystem::path& output);
+/// tether measure-noise FIRST SECOND [--output DIR]
+int measure_noise_of_files(int argc, char** argv);
 
 /// Writes report.html, a page to look at and to mail, into the folder of results that the command names
 /// (docs/report.md); its path is the result.

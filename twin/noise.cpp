@@ -28,14 +28,15 @@ Eigen::MatrixXd shares_of(const std::vector<double>& times, double correlation_t
 
 }  // namespace
 
-RandomField::RandomField(double correlation_length, Random random) : random_(random) {
+RandomField::RandomField(double correlation_length, Random random, CorrelationShape shape) : random_(random) {
   if (correlation_length <= 0) return;
   wave_numbers_.resize(3, waves);
   cosine_.resize(waves);
   sine_.resize(waves);
   for (Eigen::Index m = 0; m < waves; ++m) {
     const Vec3 direction(random.normal(), random.normal(), random.normal());
-    wave_numbers_.col(m) = direction / (std::abs(random.normal()) * correlation_length);  // (T.1)
+    const double spread = shape == CorrelationShape::exponential ? std::abs(random.normal()) : 1;
+    wave_numbers_.col(m) = direction / (spread * correlation_length);  // (T.1)
     cosine_[m] = random.normal() / std::sqrt(waves);
     sine_[m] = random.normal() / std::sqrt(waves);
   }

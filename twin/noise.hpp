@@ -1,16 +1,18 @@
 #pragma once
 
 #include "common/base/types.hpp"
+#include "diagnosis/results/noise.hpp"
 #include "twin/random.hpp"
 
 /// Errors as a segmenter makes them: alike at neighbouring places and moments.
 namespace tether {
 
-/// A random function of the place with mean 0, variance 1 and the correlation exp(-r/l) (D.2), as a sum of waves whose
-/// numbers are drawn from that correlation's spectrum (T.1) (Rahimi and Recht 2007). l = 0: alike nowhere.
+/// A random function of the place with mean 0, variance 1 and a correlation, exp(-r/l) (D.2) if nothing else is said,
+/// as a sum of waves whose numbers are drawn from that correlation's spectrum (T.1) (Rahimi and Recht 2007). l = 0:
+/// alike nowhere.
 class RandomField {
  public:
-  RandomField(double correlation_length, Random random);
+  RandomField(double correlation_length, Random random, CorrelationShape shape = CorrelationShape::exponential);
   /// At one column each.
   VectorXd operator()(const Points& x) const;
 

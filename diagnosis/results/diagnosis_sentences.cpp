@@ -155,6 +155,8 @@ void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
         "More stands out beside it, which this diagnosis does not look for: refit it first, as tether explain does");
   if (diagnosis.verdict == Verdict::not_in_catalogue) add_closest(all, diagnosis);
   add_what_is_left(all, diagnosis);
+  for (const NoiseCheck& check : diagnosis.noise)
+    if (check.contradicts) all.push_back(sentence_of(check));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "diagnosis/results/diagnosis.hpp"
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
+#include "diagnosis/results/noise.hpp"
 
 namespace tether {
 
@@ -13,5 +14,6 @@ TETHER_RECORD(Diagnosis);
 TETHER_RECORD(Explanation);
 TETHER_RECORD(StepsMade);
 TETHER_RECORD(ForceFound);
+TETHER_RECORD(NoiseMeasurements);
 
 }  // namespace tether

@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "diagnosis/evidence/noise_factors.hpp"
+#include "diagnosis/noise/noise_of_evidence.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
 #include "diagnosis/search/published_models.hpp"
@@ -72,6 +73,18 @@ std::vector<NoiseFactor> widen_noise(Whitening& whitening, const Evidence& evide
   return all;
 }
 
+/// What the case states of the noise, held against what is left with all that was accepted. as_data: the problem before
+/// it was whitened, which lacks what was divided off later.
+std::vector<NoiseCheck> noise_left(const VectorXd& accepted, const Evidence& evidence, const EffectProblem& as_data,
+                                   Trials& trials) {
+  trials.residual_at(accepted);  // provides the run
+  std::vector<Eigen::Index> moved;
+  for (Eigen::Index i = 0; i < as_data.changes.cols(); ++i)
+    if (accepted(i) != 0) moved.push_back(i);
+  const VectorXd left = residuals_of(evidence, {trials.motion_with(accepted)}, as_data.residual).col(0);
+  return noise_checks(evidence, as_data, left, as_data.changes(Eigen::all, moved));
+}
+
 /// The model as it is. Throws RunError if it does not come to its end.
 FinishedMotion base_of(ModelRuns& runs) {
   FinishedMotion base = runs.make({base_run()}).front();
@@ -108,9 +121,9 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   const Evidence evidence(given.data, given.lumen, base);
   EffectProblem problem = problem_of(given, evidence, base, sensitivities, effects);
   add_refined(problem, evidence, model.refined);
-  const VectorXd as_it_is = problem.residual;
+  const EffectProblem as_data = problem;
   Whitening whitening(evidence, problem);
-  report.problem = whitening(problem);
+  report.problem = whitening(std::move(problem));
   report.noise_factors = widen_noise(whitening, evidence, report.problem);
   Trials trials(report.problem, evidence, whitening, base, model.runs);
   Trials first_trials(report.problem, evidence, whitening, sensitivities.motions.front(), first_order);
@@ -126,13 +139,14 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
     for (FinishedMotion& motion : add_sensitivities(sensitivities, first_order, parts))
       motions.push_back(std::move(motion));
     add_model_changes(report.problem,
-                      {parts, whitening(residuals_of(evidence, motions, as_it_is)), sensitivities.is_coarse}, effects,
-                      given.diagnosis);
+                      {parts, whitening(residuals_of(evidence, motions, as_data.residual)), sensitivities.is_coarse},
+                      effects, given.diagnosis);
     weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring,
                              as_many(weighing.shown, report.problem.changes.cols()));
   }
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
+  report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
   report.published = published_models(given, report, trials, base, model.runs);
   report.cost = cost_of(model, sensitivities);

@@ -171,6 +171,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.held_out = found.held_out;
   d.lack_of_fit = {lack_of(problem, found.before), lack_of(problem, found.after)};
   d.strained_errors = found.strained;
+  d.noise = report.noise;
   d.more = found.more;
   d.published = report.published;
   d.split_by = further_data(report.splits);

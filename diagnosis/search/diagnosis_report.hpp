@@ -14,6 +14,7 @@ struct DiagnosisReport {
   SearchResult found;
   std::vector<PublishedQuantities> published;  ///< what it changes
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
+  std::vector<NoiseCheck> noise;
   double alpha = 0.05;
   std::vector<NoiseFactor> noise_factors;
   DiagnosisCost cost;

@@ -172,6 +172,7 @@ class ReportPage : public ::testing::Test {
     diagnosis.table.nothing = 0.01;
     diagnosis.table.groups = {{0.98,
                                0.93,
+                               {},
                                {{"effect 0<i>", {}, "spine", CandidateKind::effect, 0.7, 1e6, "1", true},
                                 {"effect 1", {}, "spine", CandidateKind::effect, 0.3, {}, "1", false}}}};
     diagnosis.table.combinations = {{{0}, 0.98}};

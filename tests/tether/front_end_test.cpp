@@ -1,12 +1,17 @@
 // The front-end beside a fsi_master that is a shell script: what reaches it, what comes back, what a person reads.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "common/base/child_process.hpp"
 #include "common/io/record_file.hpp"
+#include "diagnosis/results/noise.hpp"
 #include "fsi_master/results/run_summary.hpp"
+#include "tests/scenarios/surface_file.hpp"
+#include "twin/noise.hpp"
 
 namespace tether {
 namespace {
@@ -90,6 +95,44 @@ In results:
 )");
   for (const char* picture : {"pressures.png", "flows.png", "displacements.png", "coupling.png"})
     EXPECT_GT(fs::file_size(folder_ / "results/plots" / picture), 5000u) << picture;
+}
+
+/// A tube of radius 10 and length 60 with errors of the deviation 0.3, alike over 5, a fifth of the variance nowhere.
+void write_tube(const fs::path& path, std::uint64_t seed) {
+  constexpr int around = 20, along = 21;
+  Points x(3, around * along), out(3, around * along);
+  for (int i = 0; i < x.cols(); ++i) {
+    const double angle = 2 * std::numbers::pi * (i % around) / around;
+    out.col(i) = Vec3(std::cos(angle), std::sin(angle), 0);
+    x.col(i) = 10 * out.col(i) + Vec3(0, 0, 60.0 / 20 * (i / around));
+  }
+  const VectorXd error = 0.3 * (std::sqrt(0.8) * RandomField(5, Random(seed, 0), CorrelationShape::gaussian)(x) +
+                                std::sqrt(0.2) * RandomField(0, Random(seed, 1))(x));
+  x += out * error.asDiagonal();
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < around * (along - 1); ++i) {
+    const int side = i / around * around + (i + 1) % around;
+    triangles.push_back({i, side, side + around}), triangles.push_back({i, side + around, i + around});
+  }
+  write_stl(path, x, triangles);
+}
+
+TEST_F(FrontEnd, WritesAndTellsTheNoiseOfTwoSurfaces) {
+  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2);
+  const ChildEnd end = tether("measure-noise one.stl two.stl --output noise");
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  const auto noise = read_record<NoiseMeasurements>(folder_ / "noise/noise.json");
+  ASSERT_EQ(noise.measurements.size(), 1u);
+  const MeasuredNoise& one = noise.measurements.front();
+  EXPECT_EQ(one.from, NoiseOrigin::repeated);
+  EXPECT_GT(one.points, 380);
+  EXPECT_EQ(one.fits.front().shape, CorrelationShape::gaussian);
+  EXPECT_NEAR(one.fits.front().deviation.value, 0.3, 0.06);
+  EXPECT_NEAR(one.fits.front().correlation_length.value, 5, 1.5);
+  EXPECT_NE(end.output.find(one.line), std::string::npos) << end.output;
+  EXPECT_EQ(one.line.rfind("noise: {deviation: ", 0), 0u) << one.line;
+  EXPECT_TRUE(fs::exists(folder_ / "noise/plots/noise_repeated_one_stl_and_two_stl.png"));
+  EXPECT_EQ(tether("measure-noise one.stl none.stl").exit_code, 2);
 }
 
 TEST_F(FrontEnd, HandsTheOptionsOn) {

@@ -34,6 +34,18 @@ TEST(RandomField, HasTheStatedCorrelationInAllDirections) {
           << i << " " << j;
 }
 
+TEST(RandomField, HasAGaussianCorrelationIfWanted) {
+  Points x = Points::Zero(3, 4);
+  x.col(1) = Vec3(0.3, 0, 0), x.col(2) = Vec3(0, 0.7, 0), x.col(3) = Vec3(0, 0, 1.5);
+  const Eigen::MatrixXd c =
+      covariance([&](std::uint64_t seed) { return RandomField(0.7, Random(seed, 3), CorrelationShape::gaussian)(x); });
+  for (Eigen::Index i = 0; i < 4; ++i)
+    for (Eigen::Index j = 0; j < 4; ++j)
+      EXPECT_NEAR(c(i, j), std::exp(-(x.col(i) - x.col(j)).squaredNorm() / (2 * 0.7 * 0.7)),
+                  (i == j ? std::sqrt(2) : 1) * tolerance)
+          << i << " " << j;
+}
+
 TEST(RandomField, WithoutALengthIsAlikeNowhere) {
   const Eigen::MatrixXd c =
       covariance([](std::uint64_t seed) { return RandomField(0, Random(seed, 0))(Points::Zero(3, 4)); });

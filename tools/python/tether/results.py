@@ -10,7 +10,7 @@ import pathlib
 
 import numpy
 
-_files = ("explain.json", "diagnosis.json", "estimate.json", "comparison.json", "score.json", "summary.json")
+_files = ("explain.json", "diagnosis.json", "estimate.json", "comparison.json", "score.json", "noise.json", "summary.json")
 
 
 class Record:

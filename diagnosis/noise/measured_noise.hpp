@@ -1,0 +1,22 @@
+#pragma once
+
+#include "diagnosis/noise/noise_field.hpp"
+#include "diagnosis/results/noise.hpp"
+#include "observation_manager/measurements/noise.hpp"
+
+namespace tether {
+
+/// Deviation, correlation length, nugget and shape of what is seen of errors, with 95 % intervals, and the correlation
+/// time where there are three frames of the same places at least. stated: held against it, where a deviation and a
+/// length are given. most: data of a frame that are used, drawn from all; the work grows with its cube, and less where
+/// there are many fields. Throws RunError if no field has more data than columns. (D.23)
+MeasuredNoise measured_noise(const std::vector<NoiseField>& fields, const Noise& stated, Eigen::Index most = 600);
+
+/// What a datum's errors have in common with those of the same place at other moments, of one spatial correlation.
+std::optional<MeasuredNumber> correlation_time_of(const std::vector<NoiseField>& fields, const NoiseFit& fit);
+
+/// Products of what is left of the values once the columns are fitted, by distance, and what the two fits expect there.
+std::vector<CorrelationBin> correlation_by_distance(const std::vector<NoiseField>& fields,
+                                                    const std::vector<NoiseFit>& fits);
+
+}  // namespace tether
