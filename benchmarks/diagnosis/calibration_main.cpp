@@ -2,9 +2,9 @@
 ///
 ///     diagnosis_calibration CASE.yaml DIR DRAWS [FAMILY]
 ///
-/// What is hidden is drawn from what the diagnosis expects beforehand: how many candidates, which, how large; so are all
-/// errors. Families beside "as assumed" draw data in another way than the diagnosis takes them for. Prints a line for
-/// everything that was said: family, draw, kind, what was said, what is so.
+/// What is hidden is drawn from what the diagnosis expects beforehand: how many candidates, which, how large; so are
+/// all errors. Families beside "as assumed" draw data in another way than the diagnosis takes them for. Prints a line
+/// for everything that was said: family, draw, kind, what was said, what is so.
 ///
 ///     group     probability of a group           one of it is hidden (1 or 0)
 ///     member    share of a named group's first   it is the hidden one
@@ -59,8 +59,7 @@ double laplace(Random& random, double deviation) {
 /// As a diagnosis expects it beforehand (D.19).
 double drawn_size(const Amplitude& amplitude, Random& random) {
   const double scale = amplitude.scale > 0 && std::isfinite(amplitude.scale) ? amplitude.scale : 1;
-  const double size =
-      amplitude.doubles ? laplace(random, scale) : scale * std::tan(M_PI * (random.uniform() - 0.5));
+  const double size = amplitude.doubles ? laplace(random, scale) : scale * std::tan(M_PI * (random.uniform() - 0.5));
   return amplitude.limited(amplitude.one_sided ? std::abs(size) : size);
 }
 
@@ -68,7 +67,8 @@ Draw drawn(const Surrogate& surrogate, const std::vector<double>& odds, std::uin
   Random random(seed, 7);
   constexpr std::size_t most = 3;
   constexpr std::array small{0.1, 0.2, 0.4, 0.7, 1.0};
-  Draw draw{{}, VectorXd::Zero(surrogate.problem.changes.cols()), small.at(static_cast<std::size_t>(5 * random.uniform()))};
+  Draw draw{
+      {}, VectorXd::Zero(surrogate.problem.changes.cols()), small.at(static_cast<std::size_t>(5 * random.uniform()))};
   for (std::size_t c = 0; c < odds.size(); ++c) {
     const bool is_there = random.uniform() < odds[c] / (1 + odds[c]);
     const auto& own = surrogate.problem.candidates[c].amplitudes;
@@ -76,7 +76,8 @@ Draw drawn(const Surrogate& surrogate, const std::vector<double>& odds, std::uin
     const double multiple = multiples.at(static_cast<std::size_t>(4 * random.uniform()));
     for (const Index i : own) {
       const Amplitude& amplitude = surrogate.problem.amplitudes[static_cast<std::size_t>(i)];
-      const double size = own.size() == 1 ? drawn_size(amplitude, random) : multiple * amplitude.scale * random.normal();
+      const double size =
+          own.size() == 1 ? drawn_size(amplitude, random) : multiple * amplitude.scale * random.normal();
       if (is_there && draw.hidden.size() < most) draw.amplitudes(i) = size;
     }
     if (is_there && draw.hidden.size() < most) draw.hidden.push_back(c);
@@ -92,7 +93,8 @@ class Calibration {
  public:
   Calibration(const Surrogate& surrogate, const Family& family) : surrogate_(surrogate), family_(family) {
     const SetEvidence evidence(surrogate.problem, {});
-    odds_ = posterior_of(surrogate.problem, evidence, std::vector<bool>(surrogate.problem.candidates.size(), false)).prior;
+    odds_ =
+        posterior_of(surrogate.problem, evidence, std::vector<bool>(surrogate.problem.candidates.size(), false)).prior;
   }
 
   void run(int number) {

@@ -27,8 +27,7 @@ CommandLine quiet() {
 }
 
 std::unique_ptr<ModelRuns> runs_in(const std::filesystem::path& folder, const DiagnosedCase& given) {
-  if (!exists(folder / "coarse.yaml"))
-    return std::make_unique<LivingRuns>(quiet(), folder / "candidates.yaml", folder);
+  if (!exists(folder / "coarse.yaml")) return std::make_unique<LivingRuns>(quiet(), folder / "candidates.yaml", folder);
   const auto file = write_coarse(folder / "candidates.yaml", given);
   return std::make_unique<CoarseRuns>(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
                                       file.stem().string());
@@ -63,8 +62,8 @@ Surrogate::Surrogate(const std::string& case_file, const std::filesystem::path& 
   EffectProblem drawn = problem;
   drawn.residual = errors(1);
   const SetEvidence told(drawn, {});
-  visible = detectable_sizes(
-      drawn, told, posterior_of(drawn, told, std::vector<bool>(problem.candidates.size(), false)));
+  visible =
+      detectable_sizes(drawn, told, posterior_of(drawn, told, std::vector<bool>(problem.candidates.size(), false)));
   saturation = VectorXd::Constant(problem.changes.cols(), infinite);
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (problem.candidates[c].kind != Candidate::Kind::effect) continue;

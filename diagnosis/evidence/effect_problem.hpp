@@ -72,10 +72,10 @@ struct AllowedRun {
 
 /// Data set against a model, and all that might change it, to first order.
 struct EffectProblem {
-  VectorXd residual;       ///< r, data minus model, training and held-out [n]
-  VectorXd precision;      ///< W of each [n]
-  VectorXd independent;    ///< how many independent data each is [n]
-  std::vector<int> block;  ///< of each: a patch of a frame, alike in its errors
+  VectorXd residual;        ///< r, data minus model, training and held-out [n]
+  VectorXd precision;       ///< W of each [n]
+  VectorXd independent;     ///< how many independent data each is [n]
+  std::vector<int> block;   ///< of each: a patch of a frame, alike in its errors
   std::vector<int> moment;  ///< of each: alike for data of one moment; of a record its own
   std::vector<Eigen::Index> training, held_out;
   std::vector<Eigen::Index> sealed;  ///< of those held out: whole sources, which name nothing

@@ -56,8 +56,16 @@ void Whitening::add_groups(const Evidence& evidence, const EffectProblem& proble
   for (const auto& [key, own] : parted) {
     const Evidence::Part& of = evidence.parts()[std::get<0>(key)];
     const Noise noise = evidence.noise(of);
-    Group group{own, held_out, evidence.source(of).facts().held_out, of.source, of.frame.series, std::get<1>(key),
-                evidence.moment_of(of), {}, {}, count_};
+    Group group{own,
+                held_out,
+                evidence.source(of).facts().held_out,
+                of.source,
+                of.frame.series,
+                std::get<1>(key),
+                evidence.moment_of(of),
+                {},
+                {},
+                count_};
     const VectorXd weight = problem.independent(own).cwiseSqrt();
     MatrixXd together = (1 - nugget) * correlation(evidence, noise, own, own);
     together.diagonal().setOnes();
@@ -128,7 +136,8 @@ EffectProblem Whitening::operator()(EffectProblem problem) const {
   problem.patterns = (*this)(problem.patterns);
   problem.precision = VectorXd::Ones(count_);
   problem.independent = VectorXd::Zero(count_);
-  problem.training.clear(), problem.held_out.clear(), problem.sealed.clear(), problem.block.clear(), problem.moment.clear();
+  problem.training.clear(), problem.held_out.clear(), problem.sealed.clear(), problem.block.clear(),
+      problem.moment.clear();
   for (const Group& group : groups_)
     for (Index k = 0; k < group.modes.rows(); ++k) {
       const Index i = group.first + k;

@@ -6,11 +6,11 @@
 namespace tether {
 namespace {
 
-constexpr double named_at = 0.95;           ///< probability of what is named
-constexpr double in_80_of_100 = 0.842;  ///< quantile of the normal distribution
-constexpr double faint = 2.5;           ///< deviations of a signal that is named by none
+constexpr double named_at = 0.95;              ///< probability of what is named
+constexpr double in_80_of_100 = 0.842;         ///< quantile of the normal distribution
+constexpr double faint = 2.5;                  ///< deviations of a signal that is named by none
 constexpr double wider = 1.3, precise = 1.02;  ///< of a size, as factors
-constexpr double much_the_same = 0.5;         ///< squared cosine
+constexpr double much_the_same = 0.5;          ///< squared cosine
 constexpr int most_steps = 40;
 
 /// What would be named if one candidate were all that the model lacks.
@@ -82,8 +82,7 @@ std::vector<double> detectable_sizes(const EffectProblem& problem, const SetEvid
                                      const Posterior& posterior) {
   Power power(problem, evidence, posterior);
   std::vector<double> sizes;
-  for (std::size_t c = 0; c < problem.candidates.size(); ++c)
-    sizes.push_back(power.size_of(c));
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) sizes.push_back(power.size_of(c));
   return sizes;
 }
 

@@ -23,7 +23,8 @@ struct Rivals {
 
 /// By how much the misfit of one rival would exceed that of the other if the other were true, on average: the other
 /// scaled as fits best, and the errors that are allowed taken out, those of the inputs alike in old and new data. Of an
-/// effect and none, by how much that of none would exceed the effect's if that were there. (D.15) measurement: null for the data at hand alone.
+/// effect and none, by how much that of none would exceed the effect's if that were there. (D.15) measurement: null for
+/// the data at hand alone.
 double expected_difference(const EffectProblem& problem, const Rivals& rivals, const FurtherMeasurement* measurement);
 
 /// A measurement and what it would tell.

@@ -26,7 +26,8 @@ ProbabilityTable table_of(const EffectProblem& problem, const Weighed& weighed) 
   table.others = weighed.others;
   table.more = weighed.more;
   for (const WeighedGroup& group : weighed.groups) {
-    AlternativeGroup& told = table.groups.emplace_back(AlternativeGroup{group.probability, group.least, group.foretold, {}});
+    AlternativeGroup& told =
+        table.groups.emplace_back(AlternativeGroup{group.probability, group.least, group.foretold, {}});
     for (std::size_t k = 0; k < group.members.size(); ++k) told.members.push_back(alternative_of(problem, group, k));
   }
   for (const WeighedCombination& one : weighed.combinations)

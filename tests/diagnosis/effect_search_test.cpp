@@ -9,10 +9,10 @@
 #include <numbers>
 #include <random>
 
+#include "diagnosis/results/further_data.hpp"
 #include "diagnosis/search/detectable.hpp"
 #include "diagnosis/search/further_measurement.hpp"
 #include "diagnosis/search/phase_gain.hpp"
-#include "diagnosis/results/further_data.hpp"
 
 namespace tether {
 namespace effect_search_test {
