@@ -111,6 +111,16 @@ void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis)
     all.push_back(fmt::format("Farthest off: {}", where_left(*after)));
 }
 
+void add_noise(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  constexpr double noteworthy = 1.05;
+  for (const NoiseFactor& noise : diagnosis.noise_factors)
+    if (noise.factor > noteworthy)
+      all.push_back(fmt::format("The noise of {} is taken for {:.2f} times what is stated, as the data have it",
+                                noise.source, noise.factor));
+  for (const NoiseCheck& check : diagnosis.noise)
+    if (check.contradicts) all.push_back(sentence_of(check));
+}
+
 void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   if (any_accepted(diagnosis))
     all.push_back(fmt::format("Closest, but not enough: {}", fmt::join(accepted_texts(diagnosis), "; and ")));
@@ -155,8 +165,7 @@ void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
         "More stands out beside it, which this diagnosis does not look for: refit it first, as tether explain does");
   if (diagnosis.verdict == Verdict::not_in_catalogue) add_closest(all, diagnosis);
   add_what_is_left(all, diagnosis);
-  for (const NoiseCheck& check : diagnosis.noise)
-    if (check.contradicts) all.push_back(sentence_of(check));
+  add_noise(all, diagnosis);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ enum class Quantity {
   distensibility,
   pulse_wave_velocity,
   peak_flow,
-  flow_share
+  flow_share,
+  displacement
 };
 
 template <>
@@ -29,6 +30,8 @@ inline constexpr auto words_of<Quantity> = std::to_array<WordOf<Quantity>>({
     {Quantity::pulse_wave_velocity, "pulse_wave_velocity", "of Bramwell and Hill, from distensibility and density"},
     {Quantity::peak_flow, "peak_flow", "the largest out of an outlet"},
     {Quantity::flow_share, "flow_share", "of all that flows out in a beat, what leaves by an outlet"},
+    {Quantity::displacement, "displacement",
+     "from the model as it is: root mean square over the lumen, at the measured moment of most"},
 });
 
 /// One of them in one model.

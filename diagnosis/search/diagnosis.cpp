@@ -148,7 +148,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
   report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
-  report.published = published_models(given, report, trials, base, model.runs);
+  report.published = published_models(given, evidence, report, trials, base, model.runs);
   report.cost = cost_of(model, sensitivities);
   return report;
 }

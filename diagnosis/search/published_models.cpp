@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/comparison/beat_quantities.hpp"
+#include "diagnosis/comparison/displacement.hpp"
 
 namespace tether {
 namespace {
@@ -32,6 +33,14 @@ BeatFacts facts_of(const DiagnosedCase& given, const ModelRuns& runs) {
   return facts;
 }
 
+/// Of all frames that show where the lumen is.
+std::vector<double> measured_times(const Evidence& evidence) {
+  std::vector<double> times;
+  for (const Evidence::Part& part : evidence.parts())
+    if (evidence.fallible(part).in_place) times.push_back(part.time);
+  return times;
+}
+
 VectorXd values_of(const std::vector<QuantityFound>& quantities) {
   VectorXd values(static_cast<Index>(quantities.size()));
   for (Index i = 0; i < values.size(); ++i) values(i) = quantities[static_cast<std::size_t>(i)].value;
@@ -41,8 +50,15 @@ VectorXd values_of(const std::vector<QuantityFound>& quantities) {
 /// One model's quantities and how each of its effects moves them.
 class Published {
  public:
-  Published(const DiagnosisReport& report, const Trials& trials, BeatFacts facts, const FinishedMotion& base)
-      : report_(report), trials_(trials), facts_(std::move(facts)), base_(beat_quantities(base, facts_)) {}
+  Published(const DiagnosedCase& given, const Evidence& evidence, const DiagnosisReport& report, const Trials& trials,
+            BeatFacts facts, const FinishedMotion& base)
+      : given_(given),
+        report_(report),
+        trials_(trials),
+        facts_(std::move(facts)),
+        base_run_(base),
+        times_(measured_times(evidence)),
+        base_(quantities_of(base)) {}
 
   std::vector<PublishedQuantities> all() const {
     std::vector<const TestedEffect*> accepted = accepted_in_order();
@@ -107,7 +123,14 @@ class Published {
     if (run.size() == 0) return std::nullopt;
     const FinishedMotion* motion = trials_.find(run);
     if (motion == nullptr || motion->failed()) return std::nullopt;
-    return values_of(beat_quantities(*motion, facts_));
+    return values_of(quantities_of(*motion));
+  }
+  std::vector<QuantityFound> quantities_of(const FinishedMotion& run) const {
+    std::vector<QuantityFound> all = beat_quantities(run, facts_);
+    if (times_.empty()) return all;
+    const double moved = displacement_between(run, base_run_, given_.lumen, times_);
+    all.push_back({Quantity::displacement, "", facts_.units.to_mm(moved), {}, {}, "mm"});
+    return all;
   }
 
   /// How far quantities are from those found at either end of an effect's interval.
@@ -141,9 +164,12 @@ class Published {
     return at_a + (size - a) / (b - a) * (at_b - at_a);
   }
 
+  const DiagnosedCase& given_;
   const DiagnosisReport& report_;
   const Trials& trials_;
   BeatFacts facts_;
+  const FinishedMotion& base_run_;
+  std::vector<double> times_;  ///< of frames
   std::vector<QuantityFound> base_;
 };
 
@@ -160,10 +186,10 @@ AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect
   return {amplitude.one_sided ? std::max(0.0, 1 - part) : 1 - part, 1 + part};
 }
 
-std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const DiagnosisReport& report,
-                                                  const Trials& trials, const FinishedMotion& base,
-                                                  const ModelRuns& runs) {
-  return Published(report, trials, facts_of(given, runs), base).all();
+std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const Evidence& evidence,
+                                                  const DiagnosisReport& report, const Trials& trials,
+                                                  const FinishedMotion& base, const ModelRuns& runs) {
+  return Published(given, evidence, report, trials, facts_of(given, runs), base).all();
 }
 
 }  // namespace tether

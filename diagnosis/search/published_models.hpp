@@ -17,8 +17,8 @@ AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect
 
 /// Quantities of the model as it is, with all that was accepted, and with each rival of that in its place, from runs
 /// that there are. base: the run of the model as it is. Empty where nothing was accepted that changes the model.
-std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const DiagnosisReport& report,
-                                                  const Trials& trials, const FinishedMotion& base,
-                                                  const ModelRuns& runs);
+std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const Evidence& evidence,
+                                                  const DiagnosisReport& report, const Trials& trials,
+                                                  const FinishedMotion& base, const ModelRuns& runs);
 
 }  // namespace tether

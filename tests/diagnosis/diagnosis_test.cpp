@@ -103,6 +103,19 @@ TEST_F(WholeDiagnosis, SaysWhatItChangesInPublishedQuantities) {
   EXPECT_NEAR(after.upper.value(), 20 - 5 * stiffness.lower, 1e-6);
 }
 
+/// A unit of spring holds a third of the lumen back by half a millimetre.
+TEST_F(WholeDiagnosis, SaysHowFarItMovesTheLumen) {
+  const DiagnosisReport found = report();
+  const FoundValue stiffness = value_of(found.problem, found.found.effects.front(), 0);
+  ASSERT_EQ(found.published.size(), 2U);
+  EXPECT_EQ(found.published[0].quantities.at(1).value, 0);
+  const QuantityFound moved = found.published[1].quantities.at(1);
+  EXPECT_EQ(moved.quantity, Quantity::displacement);
+  EXPECT_EQ(moved.unit, "mm");
+  EXPECT_NEAR(moved.value, 0.5 * stiffness.value * std::sqrt(1.0 / 3), 0.04 * moved.value);
+  EXPECT_NEAR(moved.upper.value() / moved.value, stiffness.upper / stiffness.value, 1e-6);
+}
+
 TEST_F(WholeDiagnosis, SaysNothingOfItWhereNothingIsAccepted) {
   EXPECT_TRUE(report({.refused = {runs.infos[0].name}}).published.empty());
 }

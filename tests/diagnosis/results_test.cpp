@@ -37,6 +37,7 @@ Diagnosis diagnosis() {
   d.detectable = {{"contact", "spine", "stiffness", 3, "1", 0, 0.2}};
   d.lack_of_fit.before = LackOfFitFound{0.01, 5, 3, "spine", PatternForm::end_to_end, 0.25, -4};
   d.strained_errors = {{"bias", 2.5}};
+  d.noise_factors = {{"observations.surfaces.ct", 1.16}, {"observations.traces.p", 1.0}};
   d.split_by = FurtherData{{"pressure", "2 mmHg", 14, 0.86, true}, {{"flow", "", 3, 0.2, false}}};
   d.path = {{"contact", "stiffness", "spine", false, Objection::too_weak, "", 9, 8, {}}};
   d.suggested_case = "suggested.yaml";
@@ -90,6 +91,27 @@ TEST(Results, ReadWhatTheyHold) {
   EXPECT_FALSE(read.lack_of_fit.after);
   EXPECT_EQ(read.look_alike, MatrixXd(MatrixXd::Identity(2, 2)));
   EXPECT_EQ(read.split_by->others[0].measurement, "flow");
+}
+
+/// What a person should know beside a diagnosis: of its noise, of what to measure next, of moments foretold.
+TEST(Results, RemarksAreOfWhatIsNoteworthy) {
+  Diagnosis d = diagnosis();
+  const auto says = [&](const std::string& words) {
+    const std::vector<std::string> all = remarks_on(d, HeldOutGain::told);
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("The noise of observations.surfaces.ct is taken for 1.16 times what is stated"));
+  EXPECT_FALSE(says("observations.traces.p")) << "as stated";
+  EXPECT_TRUE(says("Measuring pressure would tell them apart (chance 86 %; 2 mmHg)"));
+  d.split_by->tells = false;
+  EXPECT_TRUE(says("No pressure, no flow and no more or better frames would tell them apart; most would pressure"));
+  d.effects[0].accepted = true;
+  EXPECT_TRUE(says("Not confirmed: no frames are held out"));
+  d.table.groups.emplace_back().foretold = PhaseGain{20, 4, 10, 9, 0.999};
+  EXPECT_TRUE(says("Each moment foretold from the others: better with it for 9 of 10"));
+  EXPECT_FALSE(says("Not confirmed"));
+  d.verdict = Verdict::undecided;
+  EXPECT_TRUE(says("would show whether it is there; most would pressure"));
 }
 
 /// As a schema has it: 2.0 is a whole number, 2.5 is none.
