@@ -270,7 +270,7 @@ SetFit SetEvidence::over_vectors(const Members& vectors, std::size_t next, const
     scales(static_cast<Index>(own.size())) = scale_of(problem_.amplitudes[static_cast<std::size_t>(amplitude)]);
     own.push_back(std::find(columns.begin(), columns.end(), amplitude) - columns.begin());
   }
-  SetFit best{-infinite, {}};
+  SetFit best{-infinite, std::vector<double>(scalars.size(), undefined)};
   VectorXd logs(multiples.size());
   for (std::size_t k = 0; k < multiples.size(); ++k) {
     const Taken taken =

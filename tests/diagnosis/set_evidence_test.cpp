@@ -111,6 +111,18 @@ TEST(SetEvidence, OfAVectorIsThatOfWiderErrors) {
   EXPECT_NEAR(evidence.fit({2}, 0).log_evidence, std::log(sum), 1e-9);
 }
 
+/// A number that may not be otherwise explains nothing, beside a vector either.
+TEST(SetEvidence, OfWhatCannotBeIsNone) {
+  EffectProblem p = problem(9);
+  p.amplitudes[0].lower = p.amplitudes[0].upper = p.amplitudes[0].base;
+  const SetEvidence evidence(p, {});
+  for (const std::vector<std::size_t>& members : {std::vector<std::size_t>{0}, {0, 1}, {0, 2}, {0, 1, 2}}) {
+    const SetFit fit = evidence.fit(members, 0);
+    EXPECT_EQ(fit.log_evidence, -infinite);
+    EXPECT_EQ(fit.amplitudes.size(), members.size());
+  }
+}
+
 /// What saturates is not weighed by its first order.
 TEST(SetEvidence, FollowsWhatRunsShowed) {
   EffectProblem p = problem(5);
