@@ -13,7 +13,7 @@ constexpr double wider = 1.3, precise = 1.02;  ///< of a size, as factors
 constexpr double much_the_same = 0.5;          ///< squared cosine
 constexpr int most_steps = 40;
 
-/// What would be named if one candidate were all that the model lacks.
+/// What would be probable if one candidate were all that the model lacks.
 class Power {
  public:
   Power(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior)

@@ -24,7 +24,7 @@ struct TestedEffect {
   int group = -1;        ///< effects that look alike have the same number
   double cosine = 0;     ///< with the first of the group
   bool testable = true;  ///< the data would show it at a size that it may have
-  double visible = 0;  ///< smallest size of its first amplitude that would be named in 80 of 100 such data sets (D.12)
+  double visible = 0;  ///< smallest size of its first amplitude that the data would show, in 80 of 100 such sets (D.12)
 };
 
 /// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10)

@@ -61,7 +61,7 @@ struct Weighed {
   std::vector<WeighedGroup> groups;
   std::vector<WeighedCombination> combinations;
   std::vector<WeighedOtherwise> otherwise;
-  std::vector<double> detectable;  ///< of each candidate, the size that these data would name (D.12) [q]
+  std::vector<double> detectable;  ///< of each candidate, the size that these data would show (D.12) [q]
 };
 
 /// Of groups that are as probable as not, how much better each moment is foretold with them. runs: what showed what
