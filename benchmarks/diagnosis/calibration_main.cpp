@@ -155,6 +155,11 @@ class Calibration {
     const std::string judged = judgement(result, {c}, Verdict::missing);
     print("power", size, judged == "right" || judged == "alike");
     print("power judged", fmt::format("{} at {}", name_of(surrogate_.problem.candidates[c]), size), judged);
+    std::string objections;
+    for (const SearchStep& step : result.path)
+      objections +=
+          fmt::format("{}{}", objections.empty() ? "" : " ", step.objection ? word_of(*step.objection) : "none");
+    print("power objections", fmt::format("{} at {:.2f}", size, result.weighed.nothing), objections);
   }
 
   const Surrogate& surrogate_;
