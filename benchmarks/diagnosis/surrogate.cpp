@@ -33,18 +33,6 @@ std::unique_ptr<ModelRuns> runs_in(const std::filesystem::path& folder, const Di
                                       file.stem().string());
 }
 
-/// Normal numbers with the correlation exp(-r^2/(2 l^2)), as a sum of waves.
-VectorXd smooth_field(double length, const Points& places, Random random) {
-  constexpr int waves = 600;
-  VectorXd values = VectorXd::Zero(places.cols());
-  for (int m = 0; m < waves; ++m) {
-    const Vec3 wave = Vec3(random.normal(), random.normal(), random.normal()) / length;
-    const Eigen::ArrayXd phase = places.transpose() * wave;
-    values.array() += (random.normal() * phase.cos() + random.normal() * phase.sin()) / std::sqrt(waves);
-  }
-  return values;
-}
-
 }  // namespace
 
 Surrogate::Surrogate(const std::string& case_file, const std::filesystem::path& folder)
@@ -94,7 +82,8 @@ VectorXd Surrogate::noise(std::uint64_t seed, const DrawnOtherwise& how) const {
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const Points places = evidence.places().middleCols(parts[k]->first, parts[k]->count);
       all.segment(parts[k]->first, parts[k]->count) =
-          how.gaussian ? scale.deviation * smooth_field(scale.correlation_length, places, Random(own, k))
+          how.gaussian ? scale.deviation *
+                             RandomField(scale.correlation_length, Random(own, k), CorrelationShape::gaussian)(places)
                        : series(k, places);
     }
   }

@@ -1,109 +1,18 @@
-/// The search for a missing effect on a linear system: a band of 4 regions times 24 places, 8 training and 4 held-out
-/// moments, with noise that is alike over 3 places.
+/// The search for a missing effect on a linear system.
 #include "diagnosis/search/effect_search.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <random>
 
-#include "diagnosis/results/further_data.hpp"
-#include "diagnosis/search/detectable.hpp"
-#include "diagnosis/search/further_measurement.hpp"
-#include "diagnosis/search/phase_gain.hpp"
+#include "tests/diagnosis/band.hpp"
 
 namespace tether {
 namespace effect_search_test {
-
-using Index = Eigen::Index;
-
-constexpr int regions = 4, in_region = 24, places = regions * in_region, moments = 12;
-constexpr double correlation = 3;  // of places
-
-double beat(int moment) {
-  return 0.5 * (1 - std::cos(2 * std::numbers::pi * moment / moments));
-}
-
-/// What a unit of an effect in `region` does: it grows with the beat; `width` in places, smooth.
-VectorXd response(int region, double width, const std::function<double(int)>& in_time) {
-  VectorXd all(places * moments);
-  for (int m = 0; m < moments; ++m)
-    for (int i = 0; i < places; ++i) {
-      double away = std::abs(i - (region + 0.5) * in_region);
-      away = std::min(away, places - away);
-      all(m * places + i) = in_time(m) * std::exp(-0.5 * away * away / (width * width));
-    }
-  return all;
-}
-
-/// Noise of deviation 1 with the correlation exp(-r/l) along the band, new in each moment.
-VectorXd noise(std::mt19937_64& generator) {
-  std::normal_distribution<double> normal;
-  const double a = std::exp(-1 / correlation), b = std::sqrt(1 - a * a);
-  VectorXd all(places * moments);
-  for (int m = 0; m < moments; ++m) {
-    double now = normal(generator);
-    for (int i = 0; i < places; ++i) all(m * places + i) = now = i == 0 ? now : a * now + b * normal(generator);
-  }
-  return all;
-}
-
-void add_candidate(EffectProblem& problem, const std::string& name, const VectorXd& change, bool one_sided = true) {
-  problem.candidates.push_back({name, "band", name, Candidate::Kind::effect, {problem.changes.cols()}});
-  problem.amplitudes.push_back({name, name, "1", one_sided, 5.0, 0, false});
-  problem.changes.conservativeResize(change.size(), problem.changes.cols() + 1);
-  problem.changes.rightCols(1) = change;
-}
-
-/// Four springs and four masses; patterns of all regions and moments. naive: as if all errors were independent.
-EffectProblem band(bool naive = false) {
-  EffectProblem problem;
-  const Index n = places * moments;
-  problem.independent = VectorXd::Constant(n, naive ? 1.0 : 1 / (2 * correlation));
-  problem.precision = problem.independent;
-  problem.changes.resize(n, 0);
-  problem.allowed.resize(n, 0);
-  problem.patterns = MatrixXd::Zero(n, regions * moments);
-  for (int m = 0; m < moments; ++m)
-    for (int i = 0; i < places; ++i) {
-      const int block = m * regions + i / in_region;
-      problem.block.push_back(m * 8 + i / 12);
-      problem.moment.push_back(m);
-      problem.patterns(m * places + i, block) = 1;
-      (m % 3 == 2 ? problem.held_out : problem.training).push_back(m * places + i);
-    }
-  problem.pattern_deviation = VectorXd::Constant(regions * moments, 0.25);
-  for (int b = 0; b < regions * moments; ++b)
-    problem.pattern_names.push_back({std::to_string(b % regions), 1.0 * (b / regions)});
-  for (int r = 0; r < regions; ++r) {
-    add_candidate(problem, "spring_" + std::to_string(r), response(r, 8, beat));
-    add_candidate(problem, "mass_" + std::to_string(r),
-                  response(r, 8, [](int m) { return std::sin(4 * std::numbers::pi * m / moments); }));
-  }
-  return problem;
-}
-
-SearchResult found(const EffectProblem& problem, const SearchSettings& settings = {}) {
-  return search_effects(problem, settings, linear_residual(problem));
-}
-
-/// The effect of a candidate, which must have been tested.
-TestedEffect effect_of(const SearchResult& result, std::size_t candidate) {
-  for (const TestedEffect& effect : result.effects)
-    if (effect.candidate == candidate) return effect;
-  throw std::logic_error("the candidate was not tested");
-}
-
-double share(const std::function<bool(std::mt19937_64&)>& happens, int trials = 200) {
-  int count = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    std::mt19937_64 generator(static_cast<std::uint64_t>(1000 + trial));
-    count += happens(generator) ? 1 : 0;
-  }
-  return static_cast<double>(count) / trials;
-}
 
 TEST(EffectSearch, RarelyFindsWhatIsNotThere) {
   const EffectProblem right = band(), naive = band(true);
@@ -395,45 +304,28 @@ TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
   EXPECT_FALSE(found(problem).more);
 }
 
-/// Each moment from all others: what is there foretells, what noise looks like does not.
-TEST(EffectSearch, WhatIsThereForetellsEachMoment) {
-  EffectProblem problem = band(true);
-  const auto gain = [&](double size, std::mt19937_64& generator) {
-    std::normal_distribution<double> normal;
-    problem.residual = size * problem.changes.col(2);
-    for (double& datum : problem.residual) datum += normal(generator);
-    return phase_gain(problem, {}, {2}, {}).value();
+/// A look-alike that does something else by itself, and the same beside a second effect: runs of both decide.
+TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  add_candidate(problem, "other", problem.changes.col(2));
+  problem.residual = noise(generator) + 8 * problem.changes.col(6) + 5 * problem.changes.col(2);
+  const VectorXd bend = 0.3 * response(1, 3, beat);
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all = linear_residual(problem)(amplitudes);
+    for (Index k = 0; k < all.cols(); ++k)
+      if (amplitudes(6, k) == 0) all.col(k) += amplitudes(8, k) * bend;
+    return all;
   };
-  std::mt19937_64 generator(29);
-  const PhaseGain found = gain(2, generator);
-  EXPECT_EQ(found.moments, moments);
-  EXPECT_GT(found.better, moments / 2);
-  EXPECT_GT(found.positive, 0.99);
-  EXPECT_LE(share([&](auto& g) { return gain(0, g).positive > 0.95; }, 100), 0.05);
-  problem.moment.assign(problem.moment.size(), 0);
-  EXPECT_FALSE(phase_gain(problem, {}, {2}, {}).has_value()) << "no other moment says anything";
-}
-
-/// What is said to be detectable is named in four of five data sets, in its group; with half of it hardly ever. Blocks
-/// of independent places: noise that is alike would have to be whitened.
-TEST(EffectSearch, NamesWhatIsDetectableInFourOfFive) {
-  EffectProblem problem = band(true);
-  problem.residual.setZero(problem.changes.rows());
-  const std::vector<bool> all(problem.candidates.size(), false);
-  const SetEvidence evidence(problem, {});
-  const double size = detectable_sizes(problem, evidence, posterior_of(problem, evidence, all))[2];
-  const auto named = [&](double times) {
-    return share([&](std::mt19937_64& generator) {
-      std::normal_distribution<double> normal;
-      EffectProblem drawn = problem;
-      drawn.residual = times * size * problem.changes.col(2);
-      for (double& datum : drawn.residual) datum += normal(generator);
-      const SetEvidence told(drawn, {});
-      return posterior_of(drawn, told, all).of(2) > 0.95;
-    });
-  };
-  EXPECT_NEAR(named(1), 0.8, 0.1);
-  EXPECT_LT(named(0.5), 0.1);
+  const SearchResult result = search_effects(problem, {}, runs);
+  const WeighedGroup& group = *std::find_if(result.weighed.groups.begin(), result.weighed.groups.end(),
+                                            [](const WeighedGroup& one) { return one.has(2); });
+  ASSERT_EQ(group.members, (std::vector<std::size_t>{2, 8}));
+  EXPECT_GE(group.shares[0], 0.98) << "by what each does alone";
+  EXPECT_TRUE(effect_of(result, 2).accepted);
+  EXPECT_TRUE(effect_of(result, 6).accepted);
+  EXPECT_TRUE(effect_of(result, 8).rival);
+  EXPECT_EQ(result.verdict, Verdict::ambiguous);
 }
 
 /// What only a hundred times its size would show is improbable, however well it fits, and not out of the question.
@@ -482,58 +374,6 @@ TEST(EffectSearch, RunsLookAlikesBeforeItChooses) {
   EXPECT_EQ(search_effects(problem, {}, counted).effects.front().candidate, 2U);
   EXPECT_GE(std::min(first, second), 1);
   EXPECT_LE(first + second, 4);
-}
-
-/// Two effects that the data at hand see alike, and a trace that sees the first only.
-TEST(FurtherMeasurement, TellsRivalsApart) {
-  EffectProblem problem = band();
-  problem.residual = 3 * problem.changes.col(2);
-  const Rivals rivals{VectorXd::Zero(problem.residual.size()), VectorXd::Zero(problem.residual.size()), 1, 2};
-  FurtherMeasurement trace{"trace", "", MatrixXd::Zero(10, 3), VectorXd::Constant(10, 0.5), 1};
-  trace.values.col(1).setConstant(2);
-  FurtherMeasurement nothing = trace;
-  nothing.values.setZero();
-  EXPECT_NEAR(expected_difference(problem, rivals, nullptr), 0, 1e-9);
-  EXPECT_NEAR(expected_difference(problem, rivals, &nothing), 0, 1e-9);
-  const double old = problem.residual(problem.training)
-                         .cwiseProduct(problem.precision(problem.training))
-                         .dot(VectorXd(problem.residual(problem.training)));
-  const double alone = 10 * 0.5 * 4;  // the first may be scaled down, at the cost of the old data
-  EXPECT_NEAR(expected_difference(problem, rivals, &trace), alone - alone * alone / (alone + old), 1e-9);
-  const std::vector<Split> all = splits(problem, {rivals}, {nothing, trace});
-  EXPECT_EQ(all.front().measurement, "trace");
-
-  problem.allowed = MatrixXd::Zero(problem.residual.size(), 1);  // an input that shifts the trace
-  problem.allowed_deviation = VectorXd::Constant(1, 100);
-  problem.allowed_runs = {{0, 1, 1.0}};
-  EXPECT_LT(expected_difference(problem, rivals, &trace), 0.1) << "the input explains it as well";
-}
-
-/// Whether an effect is there at all: what it would do to the data, old and new.
-TEST(FurtherMeasurement, TellsAnEffectFromNothing) {
-  EffectProblem problem = band(true);
-  problem.residual = 0.1 * problem.changes.col(2);
-  const Rivals pair{VectorXd::Zero(problem.residual.size()), problem.residual, 1, 0, 0};
-  FurtherMeasurement trace{"trace", "", MatrixXd::Zero(10, 2), VectorXd::Constant(10, 0.5), 1};
-  trace.values.col(1).setConstant(2);
-  const double old = VectorXd(problem.residual(problem.training)).squaredNorm();
-  EXPECT_NEAR(expected_difference(problem, pair, nullptr), old, 1e-9);
-  EXPECT_NEAR(expected_difference(problem, pair, &trace), old + 10 * 0.5 * 4, 1e-9);
-  EXPECT_NEAR(chance_to_tell(telling), 0.807, 1e-3);
-  EXPECT_NEAR(chance_to_tell(6), 0.5, 1e-9);
-  EXPECT_LT(chance_to_tell(0), 1e-9);
-}
-
-TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {
-  const VectorXd before = VectorXd::LinSpaced(40, 1, 2), precision = VectorXd::Ones(40);
-  std::vector<int> block;
-  for (int i = 0; i < 40; ++i) block.push_back(i / 4);
-  const Gain gain = gain_of(precision, block, before, 0.5 * before, 40);
-  EXPECT_EQ(gain.positive, 1);
-  EXPECT_DOUBLE_EQ(gain.value, 0.5);
-  EXPECT_NEAR(gain.lower, 0.5, 1e-12);
-  EXPECT_NEAR(gain.upper, 0.5, 1e-12);
-  EXPECT_NEAR(gain.before, std::sqrt(before.squaredNorm() / 40), 1e-12);
 }
 
 }  // namespace effect_search_test

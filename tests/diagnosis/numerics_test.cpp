@@ -40,6 +40,21 @@ TEST(Numerics, AFinerRunMovesTheNodesOfACoarserMesh) {
   EXPECT_GT(std::log2(error / finer), 1.7) << "second order";
 }
 
+/// What the model differs by from a coarser one is an error that may be 0.6 of it; not where a run has no data.
+TEST(Numerics, WhatACoarserModelDiffersByIsAllowed) {
+  EffectProblem problem;
+  problem.residual = (VectorXd(3) << 4, 5, 6).finished();
+  problem.allowed.resize(3, 0);
+  const VectorXd coarse = (VectorXd(3) << 1, 7, 6).finished();
+  allow_numerics(problem, coarse);
+  ASSERT_EQ(problem.allowed.cols(), 1);
+  EXPECT_EQ(problem.allowed.col(0), (VectorXd(3) << 3, -2, 0).finished());
+  EXPECT_EQ(problem.allowed_deviation, VectorXd::Constant(1, 0.6));
+  EXPECT_FALSE(problem.allowed_names[0].empty()) << "a person may look after it";
+  allow_numerics(problem, VectorXd::Constant(3, undefined));
+  EXPECT_EQ(problem.allowed.cols(), 1);
+}
+
 TEST(Numerics, RefiningCompetesAsAnAmplitude) {
   EffectProblem problem;
   problem.changes.resize(3, 0);

@@ -1,0 +1,107 @@
+/// What data foretell: each moment the others', an effect its name, a further measurement which of two it is.
+#include <gtest/gtest.h>
+
+#include "diagnosis/results/further_data.hpp"
+#include "diagnosis/search/detectable.hpp"
+#include "diagnosis/search/further_measurement.hpp"
+#include "diagnosis/search/phase_gain.hpp"
+#include "tests/diagnosis/band.hpp"
+
+namespace tether {
+namespace effect_search_test {
+
+/// Each moment from all others: what is there foretells, what noise looks like does not.
+TEST(PhaseGain, WhatIsThereForetellsEachMoment) {
+  EffectProblem problem = band(true);
+  const auto gain = [&](double size, std::mt19937_64& generator) {
+    std::normal_distribution<double> normal;
+    problem.residual = size * problem.changes.col(2);
+    for (double& datum : problem.residual) datum += normal(generator);
+    return phase_gain(problem, {}, {2}, {}).value();
+  };
+  std::mt19937_64 generator(29);
+  const PhaseGain found = gain(2, generator);
+  EXPECT_EQ(found.moments, moments);
+  EXPECT_GT(found.better, moments / 2);
+  EXPECT_GT(found.positive, 0.99);
+  EXPECT_LE(share([&](auto& g) { return gain(0, g).positive > 0.95; }, 100), 0.05);
+  problem.moment.assign(problem.moment.size(), 0);
+  EXPECT_FALSE(phase_gain(problem, {}, {2}, {}).has_value()) << "no other moment says anything";
+}
+
+/// What is said to be detectable has 95 % in four of five data sets; half of it hardly ever. Independent data: noise
+/// that is alike would have to be whitened.
+TEST(Detectable, IsProbableInFourOfFive) {
+  EffectProblem problem = band(true);
+  problem.residual.setZero(problem.changes.rows());
+  const std::vector<bool> all(problem.candidates.size(), false);
+  const SetEvidence evidence(problem, {});
+  const double size = detectable_sizes(problem, evidence, posterior_of(problem, evidence, all))[2];
+  const auto named = [&](double times) {
+    return share([&](std::mt19937_64& generator) {
+      std::normal_distribution<double> normal;
+      EffectProblem drawn = problem;
+      drawn.residual = times * size * problem.changes.col(2);
+      for (double& datum : drawn.residual) datum += normal(generator);
+      const SetEvidence told(drawn, {});
+      return posterior_of(drawn, told, all).of(2) > 0.95;
+    });
+  };
+  EXPECT_NEAR(named(1), 0.8, 0.1);
+  EXPECT_LT(named(0.5), 0.1);
+}
+
+/// Two effects that the data at hand see alike, and a trace that sees the first only.
+TEST(FurtherMeasurement, TellsRivalsApart) {
+  EffectProblem problem = band();
+  problem.residual = 3 * problem.changes.col(2);
+  const Rivals rivals{VectorXd::Zero(problem.residual.size()), VectorXd::Zero(problem.residual.size()), 1, 2};
+  FurtherMeasurement trace{"trace", "", MatrixXd::Zero(10, 3), VectorXd::Constant(10, 0.5), 1};
+  trace.values.col(1).setConstant(2);
+  FurtherMeasurement nothing = trace;
+  nothing.values.setZero();
+  EXPECT_NEAR(expected_difference(problem, rivals, nullptr), 0, 1e-9);
+  EXPECT_NEAR(expected_difference(problem, rivals, &nothing), 0, 1e-9);
+  const double old = problem.residual(problem.training)
+                         .cwiseProduct(problem.precision(problem.training))
+                         .dot(VectorXd(problem.residual(problem.training)));
+  const double alone = 10 * 0.5 * 4;  // the first may be scaled down, at the cost of the old data
+  EXPECT_NEAR(expected_difference(problem, rivals, &trace), alone - alone * alone / (alone + old), 1e-9);
+  const std::vector<Split> all = splits(problem, {rivals}, {nothing, trace});
+  EXPECT_EQ(all.front().measurement, "trace");
+
+  problem.allowed = MatrixXd::Zero(problem.residual.size(), 1);  // an input that shifts the trace
+  problem.allowed_deviation = VectorXd::Constant(1, 100);
+  problem.allowed_runs = {{0, 1, 1.0}};
+  EXPECT_LT(expected_difference(problem, rivals, &trace), 0.1) << "the input explains it as well";
+}
+
+/// Whether an effect is there at all: what it would do to the data, old and new.
+TEST(FurtherMeasurement, TellsAnEffectFromNothing) {
+  EffectProblem problem = band(true);
+  problem.residual = 0.1 * problem.changes.col(2);
+  const Rivals pair{VectorXd::Zero(problem.residual.size()), problem.residual, 1, 0, 0};
+  FurtherMeasurement trace{"trace", "", MatrixXd::Zero(10, 2), VectorXd::Constant(10, 0.5), 1};
+  trace.values.col(1).setConstant(2);
+  const double old = VectorXd(problem.residual(problem.training)).squaredNorm();
+  EXPECT_NEAR(expected_difference(problem, pair, nullptr), old, 1e-9);
+  EXPECT_NEAR(expected_difference(problem, pair, &trace), old + 10 * 0.5 * 4, 1e-9);
+  EXPECT_NEAR(chance_to_tell(telling), 0.807, 1e-3);
+  EXPECT_NEAR(chance_to_tell(6), 0.5, 1e-9);
+  EXPECT_LT(chance_to_tell(0), 1e-9);
+}
+
+TEST(HeldOutGain, OfAHalvedDistanceIsAHalf) {
+  const VectorXd before = VectorXd::LinSpaced(40, 1, 2), precision = VectorXd::Ones(40);
+  std::vector<int> block;
+  for (int i = 0; i < 40; ++i) block.push_back(i / 4);
+  const Gain gain = gain_of(precision, block, before, 0.5 * before, 40);
+  EXPECT_EQ(gain.positive, 1);
+  EXPECT_DOUBLE_EQ(gain.value, 0.5);
+  EXPECT_NEAR(gain.lower, 0.5, 1e-12);
+  EXPECT_NEAR(gain.upper, 0.5, 1e-12);
+  EXPECT_NEAR(gain.before, std::sqrt(before.squaredNorm() / 40), 1e-12);
+}
+
+}  // namespace effect_search_test
+}  // namespace tether
