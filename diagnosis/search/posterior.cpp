@@ -68,7 +68,7 @@ class Sets {
   Posterior posterior() {
     add({});
     for (const std::size_t c : candidates_) add({c});
-    const std::vector<Members> singles = best(1, 10);
+    const std::vector<Members> singles = best(1, leading);
     for (const Members& one : singles)
       for (const std::size_t c : candidates_) add_beside(one, c);
     for (const Members& pair : best(2, 3))
@@ -177,17 +177,59 @@ class Sets {
       posterior.discrepancy += posterior.sets.back().probability * weighed.size;
       sum += posterior.sets.back().probability + posterior.sets.back().with_more;
     }
+    add_unseen(posterior);
+    for (const EffectSet& set : posterior.sets) sum += set.with_unseen;
+    for (double& unseen : posterior.unseen) unseen /= sum;
     for (EffectSet& set : posterior.sets) {
       set.probability /= sum;
       set.with_more /= sum;
+      set.with_unseen /= sum;
       if (set.members.empty()) posterior.nothing = set.probability, posterior.outside = set.with_more;
     }
     posterior.discrepancy = as_it_is > 1e-9 * sum ? posterior.discrepancy / as_it_is : 1;
-    std::stable_sort(posterior.sets.begin(), posterior.sets.end(), [](const EffectSet& a, const EffectSet& b) {
-      return a.probability + a.with_more > b.probability + b.with_more;
-    });
+    std::stable_sort(posterior.sets.begin(), posterior.sets.end(),
+                     [](const EffectSet& a, const EffectSet& b) { return a.all() > b.all(); });
     return posterior;
   }
+
+  /// The most probable set of none or one.
+  Members first() const {
+    const Members one = best(1, 1).empty() ? Members{} : best(1, 1).front();
+    return one.empty() || sets_.at({}).as_it_is > sets_.at(one).as_it_is ? Members{} : one;
+  }
+
+  /// Odds of each candidate that does not lead, beside the first set; no larger than beforehand. Of others 0.
+  std::vector<double> hardly_shown() const {
+    std::vector<bool> leads(log_odds_.size());
+    for (const Members& one : best(1, leading)) leads[one.front()] = true;
+    std::vector<double> odds(log_odds_.size());
+    const Members known = first();
+    for (const std::size_t c : candidates_) {
+      Members with = known;
+      with.insert(std::upper_bound(with.begin(), with.end(), c), c);
+      const auto found = sets_.find(with);
+      if (!leads[c] && found != sets_.end())
+        odds[c] = std::exp(std::min(log_odds_[c], found->second.as_it_is - sets_.at(known).as_it_is));
+    }
+    return odds;
+  }
+
+  /// Beside each set of leading candidates any two or more of the others may be: of many that the data hardly show
+  /// that is no small thing.
+  void add_unseen(Posterior& posterior) const {
+    const std::vector<double> odds = hardly_shown();
+    double any = 1, single = 0;
+    for (const double one : odds) any *= 1 + one, single += one;
+    posterior.unseen.assign(odds.size(), 0);
+    for (EffectSet& set : posterior.sets) {
+      if (std::any_of(set.members.begin(), set.members.end(), [&](std::size_t c) { return odds[c] > 0; })) continue;
+      set.with_unseen = set.probability * (any - 1 - single);
+      for (std::size_t c = 0; c < odds.size(); ++c)
+        posterior.unseen[c] += set.probability * odds[c] * (any / (1 + odds[c]) - 1);
+    }
+  }
+
+  static constexpr std::size_t leading = 10;  ///< candidates that are looked at with each other
 
   const SetEvidence& evidence_;
   std::vector<double> log_odds_;
@@ -226,8 +268,8 @@ std::vector<double> shares_of(const WeighedGroup& group, const Posterior& poster
     if (std::count_if(set.members.begin(), set.members.end(), own) != 1) continue;
     const std::size_t only = *std::find_if(set.members.begin(), set.members.end(), own);
     const auto place = std::find(group.members.begin(), group.members.end(), only) - group.members.begin();
-    shares[static_cast<std::size_t>(place)] += set.probability + set.with_more;
-    sum += set.probability + set.with_more;
+    shares[static_cast<std::size_t>(place)] += set.all();
+    sum += set.all();
   }
   for (double& share : shares) share /= sum;
   return shares;
@@ -273,15 +315,13 @@ double Posterior::of_any(const std::vector<std::size_t>& candidates) const {
   for (const EffectSet& set : sets)
     if (std::any_of(candidates.begin(), candidates.end(),
                     [&](std::size_t c) { return std::binary_search(set.members.begin(), set.members.end(), c); }))
-      sum += set.probability + set.with_more;
-  return sum;
+      sum += set.all();
+  for (const std::size_t c : candidates) sum += unseen[c];
+  return std::min(sum, 1.0);
 }
 
 double Posterior::of(std::size_t candidate) const {
-  double sum = 0;
-  for (const EffectSet& set : sets)
-    if (std::binary_search(set.members.begin(), set.members.end(), candidate)) sum += set.probability + set.with_more;
-  return sum;
+  return of_any({candidate});
 }
 
 Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence, const std::vector<bool>& left_out) {
@@ -295,8 +335,11 @@ Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const
   for (WeighedGroup& group : all.groups) describe(group, problem, evidence, posterior);
   std::map<std::vector<int>, double> combined;
   for (const EffectSet& set : posterior.sets) {
-    if (set.members.empty()) continue;
-    const double probability = set.probability + set.with_more;
+    if (set.members.empty()) {
+      all.others += set.with_unseen;
+      continue;
+    }
+    const double probability = set.all();
     const std::vector<int> found = groups_in(set, all.groups);
     all.more += set.with_more;
     for (const int g : found) all.groups[static_cast<std::size_t>(g)].probability += probability;

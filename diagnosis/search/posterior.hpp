@@ -11,6 +11,8 @@ struct EffectSet {
   std::vector<std::size_t> members;  ///< ascending
   double probability = 0;            ///< that it is this set, and nothing outside the catalogue beside
   double with_more = 0;              ///< that it is this set, and something outside beside
+  double with_unseen = 0;            ///< that it is this set, and two or more beside that the data hardly show
+  double all() const { return probability + with_more + with_unseen; }
 };
 
 /// How probable each set of candidates is, all of them and what is outside of the catalogue together 1. (D.19)
@@ -21,6 +23,7 @@ struct Posterior {
   double discrepancy = 1;       ///< expected size of what the model itself is off, over what it may be, if no more is
   std::vector<double> prior;    ///< odds of each candidate beforehand
   std::vector<bool> left_out;   ///< of each candidate, whether it is none
+  std::vector<double> unseen;   ///< of each candidate, that it is one of two or more that the data hardly show
   /// That a candidate is in the set.
   double of(std::size_t candidate) const;
   /// That one of these is.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
@@ -205,6 +207,26 @@ TEST(Posterior, SaysWhatANameDependsOn) {
   EXPECT_LT(less, posterior.nothing);
   EXPECT_GT(more, posterior.nothing);
   for (const WeighedGroup& group : all.groups) EXPECT_LE(group.least, group.probability);
+}
+
+/// Of many that no data show each is as probable as beforehand, and so is any number of them.
+TEST(Posterior, CountsWhatTheDataDoNotShow) {
+  EffectProblem p = problem(3);
+  p.candidates.clear();
+  p.amplitudes.clear();
+  p.changes.resize(data, 0);
+  p.pattern_deviation *= 1e-6;
+  p.residual.setZero();
+  constexpr int many = 40;
+  for (int k = 0; k < many; ++k)
+    add_candidate(p, fmt::format("unseen_{}", k), 1e-9 * MatrixXd::Identity(data, data).col(k), false);
+  const Posterior posterior = posterior_of(p, SetEvidence(p, {}), std::vector<bool>(many, false));
+  const double odds = 0.5 / many;
+  double outside = 0;
+  for (const EffectSet& set : posterior.sets) outside += set.with_more;
+  const double in_catalogue = 1 - outside;
+  EXPECT_NEAR(posterior.nothing / in_catalogue, std::pow(1 + odds, -many), 0.01);
+  for (const std::size_t c : {0, many - 1}) EXPECT_NEAR(posterior.of(c) / in_catalogue, odds / (1 + odds), 2e-3);
 }
 
 /// Of data drawn from the prior itself, what is said with a probability is right as often.
