@@ -148,11 +148,8 @@ SearchResult Surrogate::search(const VectorXd& residual, const std::vector<std::
     drawn.changes(Eigen::all, drawn.candidates[*c].amplitudes).setZero();  // it explains nothing
     for (const Index i : drawn.candidates[*c].amplitudes) drawn.amplitudes[static_cast<std::size_t>(i)].scale = 1e-300;
   }
-  const std::vector<std::size_t> source = whitening.sources();
-  const std::vector<double> factors = noise_factors(drawn, source);
-  VectorXd larger(residual.size());
-  for (std::size_t i = 0; i < source.size(); ++i) larger(static_cast<Index>(i)) = factors[source[i]];
-  return search_effects(with_noise(drawn, source, factors), settings, [&](const MatrixXd& tried) -> MatrixXd {
+  const VectorXd larger = larger_noise(whitening.bands(), noise_factors(drawn, whitening.bands()));
+  return search_effects(with_noise(drawn, larger), settings, [&](const MatrixXd& tried) -> MatrixXd {
     MatrixXd residuals(residual.size(), tried.cols());
     for (Index k = 0; k < tried.cols(); ++k)
       residuals.col(k) = (residual - effect_of(tried.col(k), how)).cwiseQuotient(larger);

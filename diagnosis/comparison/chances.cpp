@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -15,12 +16,17 @@ namespace {
 using Quiet = boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
                                             boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
 using Normal = boost::math::normal_distribution<double, Quiet>;
+using StudentsT = boost::math::students_t_distribution<double, Quiet>;
 using ChiSquared = boost::math::chi_squared_distribution<double, Quiet>;
 
 }  // namespace
 
 double normal_tail(double z) {
   return cdf(complement(Normal(), z));
+}
+
+double student_tail(double t, int n) {
+  return boost::math::cdf(boost::math::complement(StudentsT(n), t));
 }
 
 double normal_quantile(double p) {

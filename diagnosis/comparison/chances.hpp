@@ -7,6 +7,9 @@ namespace tether {
 /// Probability that a standard normal number exceeds z.
 double normal_tail(double z);
 
+/// Probability that Student's t with n degrees of freedom exceeds t.
+double student_tail(double t, int n);
+
 /// z with the probability p below it, 0 < p < 1, standard normal.
 double normal_quantile(double p);
 

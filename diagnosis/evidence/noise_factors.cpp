@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tether {
 namespace {
@@ -31,31 +32,40 @@ MatrixXd all_columns(const EffectProblem& white, const std::vector<Index>& rows)
 
 }  // namespace
 
-std::vector<double> noise_factors(const EffectProblem& white, const std::vector<std::size_t>& source) {
+NoiseFactors noise_factors(const EffectProblem& white, const std::vector<NoiseBand>& bands) {
   const std::vector<Index> rows = counted_rows(white);
-  const std::size_t sources = source.empty() ? 0 : *std::max_element(source.begin(), source.end()) + 1;
-  VectorXd squares = VectorXd::Constant(static_cast<Index>(sources), as_stated), count = squares;
   const MatrixXd columns = all_columns(white, rows);
   Eigen::ColPivHouseholderQR<MatrixXd> factor(columns);
   factor.setThreshold(1e-6);
   const MatrixXd basis =
       factor.householderQ() * MatrixXd::Identity(columns.rows(), std::min(columns.rows(), factor.rank()));
   const VectorXd data = white.residual(rows), left = data - basis * (basis.transpose() * data);
+  struct Sum {
+    double squares = as_stated, count = as_stated;
+  };
+  std::map<NoiseBand, Sum> sums;
+  for (const NoiseBand& band : bands) sums.try_emplace(band);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const auto i = static_cast<Index>(k), of = static_cast<Index>(source[static_cast<std::size_t>(rows[k])]);
-    squares(of) += left(i) * left(i);
-    count(of) += 1 - basis.row(i).squaredNorm();
+    const auto i = static_cast<Index>(k);
+    Sum& sum = sums[bands[static_cast<std::size_t>(rows[k])]];
+    sum.squares += left(i) * left(i);
+    sum.count += 1 - basis.row(i).squaredNorm();
   }
-  std::vector<double> factors;
-  for (Index s = 0; s < squares.size(); ++s)
-    factors.push_back(std::clamp(std::sqrt(squares(s) / count(s)), 1.0, largest_noise_factor));
+  NoiseFactors factors;
+  for (const auto& [band, sum] : sums)
+    factors[band] = std::clamp(std::sqrt(sum.squares / sum.count), 1.0,
+                               band.is_long ? largest_of_long_waves : largest_noise_factor);
   return factors;
 }
 
-EffectProblem with_noise(EffectProblem white, const std::vector<std::size_t>& source,
-                         const std::vector<double>& factors) {
-  VectorXd less(white.residual.size());
-  for (Index i = 0; i < less.size(); ++i) less(i) = 1 / factors[source[static_cast<std::size_t>(i)]];
+VectorXd larger_noise(const std::vector<NoiseBand>& bands, const NoiseFactors& factors) {
+  VectorXd larger(static_cast<Index>(bands.size()));
+  for (Index i = 0; i < larger.size(); ++i) larger(i) = factors.at(bands[static_cast<std::size_t>(i)]);
+  return larger;
+}
+
+EffectProblem with_noise(EffectProblem white, const VectorXd& larger) {
+  const VectorXd less = larger.cwiseInverse();
   white.residual = less.asDiagonal() * white.residual;
   for (MatrixXd* columns : {&white.changes, &white.allowed, &white.patterns}) *columns = less.asDiagonal() * *columns;
   return white;

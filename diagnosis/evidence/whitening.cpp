@@ -104,14 +104,17 @@ MatrixXd Whitening::covariance_of(const Evidence& evidence, const std::vector<st
   return all.selfadjointView<Eigen::Lower>();
 }
 
-std::vector<std::size_t> Whitening::sources() const {
-  std::vector<std::size_t> all;
-  for (const Group& group : groups_) all.insert(all.end(), static_cast<std::size_t>(group.modes.rows()), group.source);
+std::vector<NoiseBand> Whitening::bands() const {
+  constexpr double half = 0.5;
+  std::vector<NoiseBand> all;
+  for (const Group& group : groups_)
+    for (const double variance : group.variance) all.push_back({group.source, variance > half});
   return all;
 }
 
-void Whitening::widen(const std::vector<double>& factors) {
-  for (Group& group : groups_) group.modes /= factors[group.source];
+void Whitening::widen(const VectorXd& larger) {
+  for (Group& group : groups_)
+    group.modes = larger.segment(group.first, group.modes.rows()).cwiseInverse().asDiagonal() * group.modes;
 }
 
 MatrixXd Whitening::operator()(const MatrixXd& data) const {

@@ -5,6 +5,14 @@
 
 namespace tether {
 
+/// Noise whose size the data may tell by itself: of a source, waves of more than half the longest's variance and
+/// others.
+struct NoiseBand {
+  std::size_t source = 0;
+  bool is_long = false;
+  auto operator<=>(const NoiseBand&) const = default;
+};
+
 /// Data as numbers whose errors are independent and of deviation 1: combinations of the data of a frame or record that
 /// err together, longest waves first, then freed of what earlier moments tell of their errors. Waves so short that what
 /// was stated of the noise hardly says how large they are stay out. Training data come first, so that of held-out data
@@ -18,10 +26,10 @@ class Whitening {
   MatrixXd operator()(const MatrixXd& data) const;
   /// The same problem in these numbers. `independent` is 1 where the noise's size is well known, else 0.
   EffectProblem operator()(EffectProblem problem) const;
-  /// Of each combination, the number of its source [k].
-  std::vector<std::size_t> sources() const;
-  /// Takes the noise of each source for so much larger.
-  void widen(const std::vector<double>& factors);
+  /// Of each combination [k].
+  std::vector<NoiseBand> bands() const;
+  /// Takes the noise of each combination for so much larger [k].
+  void widen(const VectorXd& larger);
 
  private:
   /// Data that err together in space: a component of a frame, or values of a record, either used or held out.

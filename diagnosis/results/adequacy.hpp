@@ -27,11 +27,13 @@ struct Adequacy {
 struct NoiseFactor {
   static constexpr const char* type_name = "noise_factor";
   std::string source;
-  double factor = 1;
+  double factor = 1, long_waves = 1;
 
   static void fields(auto& self, auto&& field) {
     field("source", self.source, "field of the case");
     field("factor", self.factor, "deviation that was taken over what is stated, 1 to 1.3");
+    field("long_waves", self.long_waves,
+          "that of its long waves, 1 to 2: larger where errors are alike farther than stated");
   }
 };
 

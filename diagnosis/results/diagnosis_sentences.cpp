@@ -114,9 +114,11 @@ void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis)
 void add_noise(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   constexpr double noteworthy = 1.05;
   for (const NoiseFactor& noise : diagnosis.noise_factors)
-    if (noise.factor > noteworthy)
-      all.push_back(fmt::format("The noise of {} is taken for {:.2f} times what is stated, as the data have it",
-                                noise.source, noise.factor));
+    if (std::max(noise.factor, noise.long_waves) > noteworthy)
+      all.push_back(
+          fmt::format("The noise of {} is taken for {:.2f} times what is stated, {:.2f} times in long waves, "
+                      "as the data have it",
+                      noise.source, noise.factor, noise.long_waves));
   for (const NoiseCheck& check : diagnosis.noise)
     if (check.contradicts) all.push_back(sentence_of(check));
 }

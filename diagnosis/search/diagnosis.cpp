@@ -63,13 +63,15 @@ std::vector<Split> splits_of(const DiagnosedCase& given, const DiagnosisReport& 
 }
 
 /// Takes the noise of each source for as large as the data say.
-std::vector<NoiseFactor> widen_noise(Whitening& whitening, const Evidence& evidence, EffectProblem& problem) {
-  const std::vector<double> factors = noise_factors(problem, whitening.sources());
-  problem = with_noise(std::move(problem), whitening.sources(), factors);
-  whitening.widen(factors);
+std::vector<NoiseFactor> widen_noise(Whitening& whitening, const Evidence& evidence, const EffectProblem& white) {
+  const NoiseFactors factors = noise_factors(white, whitening.bands());
+  whitening.widen(larger_noise(whitening.bands(), factors));
   std::vector<NoiseFactor> all;
-  for (std::size_t source = 0; source < factors.size(); ++source)
-    all.push_back({evidence.field_of_source(source), factors[source]});
+  for (const auto& [band, factor] : factors) {
+    if (all.empty() || all.back().source != evidence.field_of_source(band.source))
+      all.push_back({evidence.field_of_source(band.source)});
+    (band.is_long ? all.back().long_waves : all.back().factor) = factor;
+  }
   return all;
 }
 
@@ -123,8 +125,8 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   add_refined(problem, evidence, model.refined);
   const EffectProblem as_data = problem;
   Whitening whitening(evidence, problem);
+  report.noise_factors = widen_noise(whitening, evidence, whitening(problem));
   report.problem = whitening(std::move(problem));
-  report.noise_factors = widen_noise(whitening, evidence, report.problem);
   Trials trials(report.problem, evidence, whitening, base, model.runs);
   Trials first_trials(report.problem, evidence, whitening, sensitivities.motions.front(), first_order);
   const SearchSettings how = search_settings(given.diagnosis, settings);

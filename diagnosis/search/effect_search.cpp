@@ -103,7 +103,8 @@ class Search {
         test_all(problem_, trained.scores(problem_.changes, now_.residual), result_.independent);
     std::vector<TestedEffect> all;
     for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
-      if (k > 0 && group.shares.front() >= alone && now_.accepted.empty()) break;
+      const bool as_good = k < group.as_good.size() && group.as_good[k];
+      if (k > 0 && group.shares.front() >= alone && now_.accepted.empty() && !as_good) continue;
       TestedEffect& effect = all.emplace_back(*std::find_if(
           tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members[k]; }));
       if (std::isfinite(group.amplitudes[k])) effect.amplitudes(0) = group.amplitudes[k];

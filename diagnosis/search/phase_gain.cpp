@@ -54,7 +54,9 @@ std::optional<PhaseGain> phase_gain(const EffectProblem& problem, const std::vec
   }
   const double n = gain.moments, variance = std::max(0.0, (squares - gain.value * gain.value / n) / (n - 1));
   gain.deviation = std::sqrt(n * variance);
-  gain.positive = gain.deviation > 0 ? 1 - normal_tail(gain.value / gain.deviation) : gain.value > 0 ? 1 : 0;
+  gain.positive = gain.deviation > 0 ? 1 - student_tail(gain.value / gain.deviation, gain.moments - 1)
+                  : gain.value > 0   ? 1
+                                     : 0;
   return gain;
 }
 

@@ -304,6 +304,42 @@ std::vector<int> groups_in(const EffectSet& set, const std::vector<WeighedGroup>
   return all;
 }
 
+struct Compared {
+  const EffectProblem& problem;
+  const std::vector<ShownRun>& runs;
+  const Posterior& posterior;
+};
+
+/// Of what does much the same as the group's first, as a run showed, whether the first foretells the moments better.
+void compare_moments(WeighedGroup& group, const Compared& of, const EffectSet& best) {
+  constexpr double told = 0.98;
+  const SetEvidence evidence(of.problem, of.runs);
+  const std::size_t first = group.members.front();
+  group.as_good.assign(group.members.size(), false);
+  for (std::size_t c = 0; c < of.problem.candidates.size(); ++c) {
+    if (c == first || of.posterior.left_out[c] || !of.problem.candidates[c].takes_runs() ||
+        std::pow(evidence.cosine(first, c), 2) <= alike || best.has(c))
+      continue;
+    Members instead = best.members;
+    std::replace(instead.begin(), instead.end(), first, c);
+    const auto place = std::find(instead.begin(), instead.end(), c) - instead.begin();
+    const double size = evidence.fit(instead, 0).amplitudes[static_cast<std::size_t>(place)];
+    if (!std::isfinite(size) || evidence.beyond_runs(c, size, false) > about) continue;
+    const auto gain = phase_gain(of.problem, of.runs, best.members, instead);
+    if (!gain || gain->positive >= told) continue;
+    const auto own = std::find(group.members.begin(), group.members.end(), c) - group.members.begin();
+    if (own == std::ssize(group.members)) {
+      group.members.push_back(c);
+      group.shares.push_back(0);
+      group.amplitudes.push_back(size);
+      group.by_runs.push_back(true);
+      group.as_good.push_back(true);
+    } else {
+      group.as_good[static_cast<std::size_t>(own)] = true;
+    }
+  }
+}
+
 }  // namespace
 
 bool WeighedGroup::has(std::size_t candidate) const {
@@ -380,6 +416,7 @@ void foretell_moments(Weighed& weighed, const EffectProblem& problem, const std:
     Members without = with->members;
     std::erase(without, first);
     group.foretold = phase_gain(problem, runs, with->members, without);
+    compare_moments(group, {problem, runs, posterior}, *with);
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "diagnosis/evidence/set_evidence.hpp"
 #include "diagnosis/results/phase_gain.hpp"
 #include "diagnosis/results/probability_table.hpp"
@@ -13,6 +15,9 @@ struct EffectSet {
   double with_more = 0;              ///< that it is this set, and something outside beside
   double with_unseen = 0;            ///< that it is this set, and two or more beside that the data hardly show
   double all() const { return probability + with_more + with_unseen; }
+  bool has(std::size_t candidate) const {
+    return std::find(members.begin(), members.end(), candidate) != members.end();
+  }
 };
 
 /// How probable each set of candidates is, all of them and what is outside of the catalogue together 1. (D.19)
@@ -39,6 +44,8 @@ struct WeighedGroup {
   std::vector<double> amplitudes;    ///< the most probable one of each; of several amplitudes NaN
   std::vector<bool>
       by_runs;  ///< whether a run of each, of the model itself, showed what it does at about that amplitude
+  /// Of each but the first, whether the moments differ too much to say that the first foretells them better.
+  std::vector<bool> as_good;
   /// Of the most probable set with its first member, over that without; of groups as probable as not.
   std::optional<PhaseGain> foretold;
   bool has(std::size_t candidate) const;
@@ -67,8 +74,9 @@ struct Weighed {
   std::vector<double> detectable;  ///< of each candidate, the size that these data would show (D.12) [q]
 };
 
-/// Of groups that are as probable as not, how much better each moment is foretold with them. runs: what showed what
-/// candidates do.
+/// Of groups that are as probable as not, how much better each moment is foretold with them, and with their first
+/// member than with what does much the same and was run too: what the first does not foretell better for sure is a
+/// member, as improbable as it may be if the noise is as stated. runs: what showed what candidates do.
 void foretell_moments(Weighed& weighed, const EffectProblem& problem, const std::vector<ShownRun>& runs,
                       const Posterior& posterior);
 

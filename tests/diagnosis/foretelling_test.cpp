@@ -29,6 +29,52 @@ TEST(PhaseGain, WhatIsThereForetellsEachMoment) {
   EXPECT_FALSE(phase_gain(problem, {}, {2}, {}).has_value()) << "no other moment says anything";
 }
 
+constexpr double strong = 10;
+
+/// Groups of the band with "late", which does much the same as the third spring; each was run alone.
+Weighed weighed_with_late(const EffectProblem& problem) {
+  std::vector<ShownRun> runs;
+  for (const Index c : {Index{4}, problem.changes.cols() - 1}) {
+    const VectorXd amplitudes = strong * VectorXd::Unit(problem.changes.cols(), c);
+    runs.push_back({amplitudes, problem.residual - problem.changes * amplitudes});
+  }
+  const SetEvidence evidence(problem, runs);
+  const Posterior posterior = posterior_of(problem, evidence, std::vector<bool>(problem.candidates.size(), false));
+  Weighed all = weighed(problem, evidence, posterior);
+  foretell_moments(all, problem, runs, posterior);
+  return all;
+}
+
+/// What two moments alone speak for is not told from what does much the same, as sure as the noise makes it.
+TEST(PhaseGain, FewMomentsTellNoLookAlikesApart) {
+  EffectProblem problem = band(true);
+  add_candidate(problem, "late", response(2, 8, [](int m) { return std::pow(beat(m), 1.6); }));
+  const std::size_t spring = 4, late = problem.candidates.size() - 1;
+  std::mt19937_64 generator(31);
+  std::normal_distribution<double> normal;
+  const auto data_of = [&](std::size_t what) {
+    problem.residual = strong * problem.changes.col(static_cast<Index>(what));
+    for (double& datum : problem.residual) datum += normal(generator);
+  };
+  data_of(spring);
+  for (const Index m : {2, 10})  // are off as the other one is
+    problem.residual.segment(m * places, places) +=
+        1.2 * strong *
+        (problem.changes.col(static_cast<Index>(late)) - problem.changes.col(static_cast<Index>(spring)))
+            .segment(m * places, places);
+  const Weighed few = weighed_with_late(problem);
+  ASSERT_FALSE(few.groups.empty());
+  ASSERT_EQ(few.groups[0].members[0], late);
+  EXPECT_GT(few.groups[0].shares[0], 0.98);
+  ASSERT_TRUE(few.groups[0].has(spring));
+  EXPECT_TRUE(few.groups[0].as_good[1]);
+
+  data_of(late);
+  const Weighed all = weighed_with_late(problem);
+  ASSERT_EQ(all.groups[0].members[0], late);
+  for (std::size_t k = 1; k < all.groups[0].members.size(); ++k) EXPECT_FALSE(all.groups[0].as_good[k]);
+}
+
 /// What is said to be detectable has 95 % in four of five data sets; half of it hardly ever. Independent data: noise
 /// that is alike would have to be whitened.
 TEST(Detectable, IsProbableInFourOfFive) {

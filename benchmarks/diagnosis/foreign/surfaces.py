@@ -10,7 +10,7 @@ class Lattice:
     """A field at the nodes of a tube, which lie on a lattice of angles and places along it."""
 
     def __init__(self, nodes):
-        angle = np.round(np.arctan2(nodes[:, 1], nodes[:, 0]) % (2 * np.pi), 6)
+        angle = np.round(np.arctan2(nodes[:, 1], nodes[:, 0]) / (2 * np.pi), 6) % 1  # of a turn
         along = np.round(nodes[:, 2], 6)
         self.around, self.along = len(np.unique(angle)), len(np.unique(along))
         self.order = np.lexsort((along, angle)).reshape(self.around, self.along)
