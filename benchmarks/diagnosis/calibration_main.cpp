@@ -10,7 +10,7 @@
 ///     member    share of a named group's first   it is the hidden one
 ///     nothing   probability of nothing           nothing is hidden
 ///     verdict   the word                         as benchmarks/diagnosis/run judges
-///     interval  1                                the hidden value is inside
+///     interval  error over the half interval      the hidden value is inside
 ///     z         of a candidate, nothing hidden   0
 ///     power     size over what is detectable     its group is named
 #include <fmt/format.h>
@@ -134,7 +134,8 @@ class Calibration {
     const Index own = surrogate_.problem.candidates[effect.candidate].amplitudes[0];
     const FoundValue found = value_of(surrogate_.problem, effect, 0);
     const double value = surrogate_.problem.amplitudes[static_cast<std::size_t>(own)].value(draw.amplitudes(own));
-    print("interval", 1, std::min(found.lower, found.upper) <= value && value <= std::max(found.lower, found.upper));
+    const double half = (value > found.value ? found.upper : found.lower) - found.value;
+    print("interval", (value - found.value) / half, std::abs(value - found.value) <= std::abs(half));
   }
   /// With the model as far off as it may be.
   void tell_scores(const VectorXd& errors) const {

@@ -141,12 +141,13 @@ Finding finding_of(const EffectProblem& problem, const TestedEffect& effect) {
 
 FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, Index own) {
   const Amplitude& amplitude = amplitude_of(problem, effect, own);
-  const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own);
-  if (!amplitude.one_sided) return {amplitude.value(size), amplitude.value(size - half), amplitude.value(size + half)};
-  if (!effect.confirmed || size == 0)
-    return {amplitude.value(size), amplitude.value(std::max(0.0, size - half)), amplitude.value(size + half)};
-  const double factor = std::exp(half / size);  // of runs, its logarithm is known
-  return {amplitude.value(size), amplitude.value(size / factor), amplitude.value(size * factor)};
+  const double size = effect.amplitudes(own);
+  if (size == 0) {
+    const double half = 1.96 * effect.deviations(own);
+    return {amplitude.value(0), amplitude.value(amplitude.one_sided ? 0 : -half), amplitude.value(half)};
+  }
+  const AmplitudeRange range = range_of(problem, effect, own);
+  return {amplitude.value(size), amplitude.value(size * range.lower), amplitude.value(size * range.upper)};
 }
 
 Diagnosis diagnosis_of(const DiagnosisReport& report) {

@@ -98,6 +98,22 @@ double cosine(const EffectProblem& problem, const Scores& scores, const TestedEf
   return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
 }
 
+AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own) {
+  constexpr double farthest = 100;
+  const Candidate& candidate = problem.candidates[effect.candidate];
+  const Amplitude& amplitude =
+      problem.amplitudes[static_cast<std::size_t>(candidate.amplitudes[static_cast<std::size_t>(own)])];
+  const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own) / std::abs(size);
+  if (size == 0) return {};
+  if (!amplitude.one_sided) return {1 - half, 1 + half, 1 - half, 1 + half};
+  const double least = std::max(0.0, 1 - half);
+  if (!effect.confirmed) return {least, 1 + half, least, 1 + half};
+  const double c = std::max(0.0, effect.saturation), does = std::exp(half / (1 + c));
+  const auto at = [&](double does) { return does / std::max(1 + c - c * does, does / farthest); };
+  const double most = std::min(does, at(does) < farthest ? does : (1 + c) / (c + 1 / farthest));
+  return {at(1 / does), at(does), 1 / does, most};
+}
+
 std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double count) {
   std::vector<TestedEffect> all;
   std::vector<double> p;

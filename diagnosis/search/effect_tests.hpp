@@ -13,6 +13,7 @@ struct TestedEffect {
   double gain = 0;                  ///< of the misfit, by its best amplitudes to first order (D.10)
   double z = 0, p = 1, q = 1;       ///< q: corrected for the number of candidates
   VectorXd amplitudes, deviations;  ///< of its own; after confirmation at finite size
+  double saturation = 0;            ///< c f of f/(1 + c f), which it follows by runs (D.10); 0: in proportion
   double retained = 0;              ///< share of its information that errors allowed cannot explain as well
   bool confirmed = false;           ///< the amplitudes are those of runs
   double confirmed_gain = 0;        ///< of the misfit, by those runs
@@ -26,6 +27,16 @@ struct TestedEffect {
   bool testable = true;  ///< the data would show it at a size that it may have
   double visible = 0;  ///< smallest size of its first amplitude that the data would show, in 80 of 100 such sets (D.12)
 };
+
+/// Smallest and largest of an amplitude, as factors of what was found.
+struct AmplitudeRange {
+  double lower = 1, upper = 1;
+  double does_least = 1, does_most = 1;  ///< what the effect does with it, over what it does as found
+};
+
+/// 95 %, of one of the effect's own amplitudes. What runs showed is known in the logarithm of what the amplitude does:
+/// of one that saturates much larger ones do hardly more, and the range ends at a hundred times where any does. (D.10)
+AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
 
 /// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10)
 std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double count);

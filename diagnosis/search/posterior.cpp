@@ -74,17 +74,17 @@ class Sets {
     for (const Members& pair : best(2, 3))
       if (counts(pair))
         for (const Members& one : singles) add_beside(pair, one.front());
-    return normalised();
+    Posterior posterior = normalised();
+    for (EffectSet& set : posterior.sets) set.by_runs = is_possible(set) && is_near_runs(set.members);
+    return posterior;
   }
 
   /// Of sets that are not out of the question by another posterior, and of which runs of the model itself tell what
-  /// they do.
+  /// they do, as things are assumed there or here: what saturates does much the same at another size.
   Posterior among(const Posterior& known) {
-    constexpr double possible = 1e-4;
     for (std::size_t size = 0; size <= 3; ++size)
       for (const EffectSet& set : known.sets)
-        if (set.members.size() == size && (size == 0 || set.probability + set.with_more > possible) &&
-            is_near_runs(set.members))
+        if (set.members.size() == size && is_possible(set) && (set.by_runs || is_near_runs(set.members)))
           add(set.members);
     return normalised();
   }
@@ -96,6 +96,10 @@ class Sets {
     double all() const { return std::max(as_it_is, with_more); }
   };
 
+  static bool is_possible(const EffectSet& set) {
+    constexpr double possible = 1e-4;
+    return set.members.empty() || set.probability + set.with_more > possible;
+  }
   /// At its most probable amplitudes.
   bool is_near_runs(const Members& members) const {
     const SetFit fit = evidence_.fit(members, 0);

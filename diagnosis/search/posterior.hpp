@@ -14,6 +14,7 @@ struct EffectSet {
   double probability = 0;            ///< that it is this set, and nothing outside the catalogue beside
   double with_more = 0;              ///< that it is this set, and something outside beside
   double with_unseen = 0;            ///< that it is this set, and two or more beside that the data hardly show
+  bool by_runs = false;  ///< of sets that are not out of the question: runs showed what it does at about its amplitudes
   double all() const { return probability + with_more + with_unseen; }
   bool has(std::size_t candidate) const {
     return std::find(members.begin(), members.end(), candidate) != members.end();

@@ -140,9 +140,9 @@ class Published {
   /// change: what the effect does, as found. Linear in the amplitude between runs: the run without the effect, that
   /// with it as found, and of an effect by itself all that were made. (D.22)
   Ends ends_of(const TestedEffect& effect, const VectorXd& change, bool by_itself) const {
-    const AmplitudeRange range = range_of(report_.problem, effect);
+    const AmplitudeRange range = range_of(report_.problem, effect, main_amplitude(report_.problem, effect));
     const auto& own = candidate_of(effect).amplitudes;
-    if (!by_itself || own.size() != 1) return {(range.least - 1) * change, (range.most - 1) * change};
+    if (!by_itself || own.size() != 1) return {(range.does_least - 1) * change, (range.does_most - 1) * change};
     const double size = effect.run(own.front());
     std::vector<std::pair<double, VectorXd>> shown{{0, VectorXd::Zero(change.size())}, {size, change}};
     for (const double other : trials_.sizes_of(effect.candidate)) {
@@ -152,10 +152,13 @@ class Published {
         shown.emplace_back(other, *with - values_of(base_));
     }
     std::sort(shown.begin(), shown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    return {between(shown, range.least * size) - change, between(shown, range.most * size) - change};
+    const bool is_shown = range.upper * size <= shown.back().first;
+    return {between(shown, range.lower * size) - change, is_shown
+                                                             ? VectorXd(between(shown, range.upper * size) - change)
+                                                             : VectorXd((range.does_most - 1) * change)};
   }
 
-  /// Linear between neighbours; beyond the last as between the last two.
+  /// Linear between neighbours.
   static VectorXd between(const std::vector<std::pair<double, VectorXd>>& shown, double size) {
     std::size_t to = 1;
     while (to + 1 < shown.size() && shown[to].first < size) ++to;
@@ -174,17 +177,6 @@ class Published {
 };
 
 }  // namespace
-
-AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect) {
-  const auto& own = problem.candidates[effect.candidate].amplitudes;
-  const Index main = main_amplitude(problem, effect);
-  const Amplitude& amplitude = problem.amplitudes[static_cast<std::size_t>(own[static_cast<std::size_t>(main)])];
-  const double size = effect.amplitudes(main), half = 1.96 * effect.deviations(main);
-  if (size == 0) return {};
-  if (amplitude.one_sided && effect.confirmed) return {std::exp(-half / size), std::exp(half / size)};
-  const double part = half / std::abs(size);
-  return {amplitude.one_sided ? std::max(0.0, 1 - part) : 1 - part, 1 + part};
-}
 
 std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const Evidence& evidence,
                                                   const DiagnosisReport& report, const Trials& trials,

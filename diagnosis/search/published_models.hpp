@@ -7,14 +7,6 @@
 
 namespace tether {
 
-/// What an effect's amplitude may be.
-struct AmplitudeRange {
-  double least = 1, most = 1;  ///< ends of its 95 % interval over the amplitude found
-};
-
-/// Of the number of an effect that says most.
-AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect);
-
 /// Quantities of the model as it is, with all that was accepted, and with each rival of that in its place, from runs
 /// that there are. base: the run of the model as it is. Empty where nothing was accepted that changes the model.
 std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const Evidence& evidence,

@@ -63,6 +63,7 @@ double Refinement::first_step(const VectorXd& change, const VectorXd& now) {
   per_factor_ = change;
   if (!(along > 0.05)) return later_step(now);
   const double t = along * last_, c = (last_ / t - 1) / last_;
+  bends_ = c;
   const VectorXd bend = (change - t * first_order_) / (t * t);
   const double ss = square(trained_, first_order_), sb = product(trained_, first_order_, bend),
                bb = square(trained_, bend), rs = product(trained_, from_.residual, first_order_),
@@ -126,6 +127,7 @@ void Refinement::take(const VectorXd& residual) {
   const double factor = done_ && best_factor_ == last_ ? next_ : best_factor_;
   effect_.amplitudes = factor * direction_(own(effect_.candidate));
   effect_.at_limit = factor > 0.99 * farthest_;
+  effect_.saturation = bends_ * factor;
   effect_.deviations = effect_.amplitudes.cwiseAbs() / std::sqrt(std::max(information, 1e-300));
   effect_.confirmed = true;
   effect_.confirmed_gain = start_ - best_;

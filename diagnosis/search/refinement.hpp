@@ -61,6 +61,7 @@ class Refinement {
   double farthest_ = infinite;     ///< factor beyond which an amplitude is not admissible
   VectorXd next_others_, others_;  ///< logarithms of the accepted effects' factors, next and last [m]
   VectorXd residual_;              ///< of the last run
+  double bends_ = 0;               ///< c of f/(1 + c f), which the effect follows
   double best_factor_ = 0;
   VectorXd best_others_, best_residual_;
   double start_ = 0, best_ = 0, expected_ = 0;
