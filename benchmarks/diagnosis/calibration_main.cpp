@@ -134,8 +134,9 @@ class Calibration {
     const Index own = surrogate_.problem.candidates[effect.candidate].amplitudes[0];
     const FoundValue found = value_of(surrogate_.problem, effect, 0);
     const double value = surrogate_.problem.amplitudes[static_cast<std::size_t>(own)].value(draw.amplitudes(own));
-    const double half = (value > found.value ? found.upper : found.lower) - found.value;
-    print("interval", (value - found.value) / half, std::abs(value - found.value) <= std::abs(half));
+    const auto [least, most] = std::minmax(found.lower, found.upper);
+    const double half = value > found.value ? most - found.value : found.value - least;
+    print("interval", (value - found.value) / half, least <= value && value <= most);
   }
   /// With the model as far off as it may be.
   void tell_scores(const VectorXd& errors) const {

@@ -8,6 +8,8 @@ namespace tether {
 namespace {
 
 constexpr double matters_still = 3.5;  ///< logarithm of evidence
+constexpr double much_alike = 0.8;     ///< squared cosine of laws that only runs tell apart
+constexpr double even = 0.5;           ///< probability of a set whose members are compared with those
 constexpr double wrong = 0.15;         ///< share of a gain that a run at another size may be off
 
 /// Runs of candidates by themselves that would change what the table says.
@@ -51,7 +53,8 @@ class Wanted {
   }
 
   /// Of probable sets, what may stand in place of a member: it does much the same, and falls behind by less than what a
-  /// run at another size, or of a coarser model, may be wrong by.
+  /// run at another size, or of a coarser model, may be wrong by. At the end all that do very much the same, so that
+  /// their moments can be compared.
   void add_alternatives() {
     constexpr double probable = 0.05;
     for (const EffectSet& set : posterior_.sets) {
@@ -76,12 +79,14 @@ class Wanted {
     const double without = evidence_.fit(rest, 0).log_evidence;
     rest.push_back(0);
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
-      const bool alike = std::pow(evidence_.cosine(c, member), 2) > 0.5;
-      if (!alike || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
+      const double alike = std::pow(evidence_.cosine(c, member), 2);
+      if (alike <= 0.5 || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
+      const bool is_compared = !exploring_ && alike > much_alike && set.all() > even;
       rest.back() = c;
       const SetFit fit = evidence_.fit(rest, 0);
       const double size = fit.amplitudes.back(), hope = fit.log_evidence + wrong * (fit.log_evidence - without);
-      if (hope > best - matters_still && can_be_run(c, size) && is_far_from_runs(c, size)) wanted_.emplace(c, size);
+      const bool may_be_it = is_compared || hope > best - matters_still;
+      if (may_be_it && can_be_run(c, size) && is_far_from_runs(c, size)) wanted_.emplace(c, size);
     }
   }
 
