@@ -9,7 +9,7 @@ namespace {
 
 constexpr double matters_still = 3.5;  ///< logarithm of evidence
 constexpr double much_alike = 0.8;     ///< squared cosine of laws that only runs tell apart
-constexpr double even = 0.5;           ///< probability of a set whose members are compared with those
+constexpr double leads = 0.5;          ///< probability of a set whose members are compared with those
 constexpr double wrong = 0.15;         ///< share of a gain that a run at another size may be off
 
 /// Runs of candidates by themselves that would change what the table says.
@@ -81,7 +81,7 @@ class Wanted {
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
       const double alike = std::pow(evidence_.cosine(c, member), 2);
       if (alike <= 0.5 || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
-      const bool is_compared = !exploring_ && alike > much_alike && set.all() > even;
+      const bool is_compared = !exploring_ && alike > much_alike && set.all() > leads;
       rest.back() = c;
       const SetFit fit = evidence_.fit(rest, 0);
       const double size = fit.amplitudes.back(), hope = fit.log_evidence + wrong * (fit.log_evidence - without);
