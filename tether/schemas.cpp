@@ -14,6 +14,7 @@
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
 #include "solid/results/effects_list.hpp"
+#include "study/surface_summary.hpp"
 #include "twin/score.hpp"
 
 namespace tether {
@@ -34,6 +35,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"force.json", schema<ForceFound>},    {"estimate.json", schema<Estimate>},
       {"run.json", schema<MadeRun>},         {"score.json", schema<Score>},
       {"effects.json", schema<EffectsList>}, {"noise.json", schema<NoiseMeasurements>},
+      {"surface.json", schema<SurfaceSummary>},
   };
   return all;
 }
