@@ -34,7 +34,7 @@ void OpeningCase::PlaneCase::declare(Fields& f) {
 
 void OpeningCase::declare(Fields& f) {
   f.integer("label", label, {0}, "of its triangles in the surface's file; 0: not said");
-  f.numbers("near", near, {.count = 3, .dimension = dimension::length}, "the opening nearest to this point");
+  f.numbers("near", near, {.count = 3, .dimension = dimension::length, .range = range::any}, "the opening nearest to this point");
   f.integer("order", order, {0}, "by size: 1 the largest opening; 0: not said");
   f.group("cut", cut, "a plane that makes the opening: what lies beyond is cut off");
   f.number("trim", trim, dimension::length, range::not_negative, "cut off that much of the vessel, along its centreline");

@@ -1,5 +1,6 @@
 #include "vessel/surface/rims.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
 #include "vessel/surface/tidy.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <queue>
