@@ -43,7 +43,8 @@ bool trim(RawSurface& open, const CentrelineTree& tree, const StudyCase& study, 
     const auto& [name, opening] = study.openings[i];
     if (opening.trim == 0) continue;
     const bool is_inlet = name == study.inlet;
-    const auto branch = std::find_if(tree.branches.begin(), tree.branches.end(), [&](const Branch& b) { return b.name == name; });
+    const auto branch =
+        std::find_if(tree.branches.begin(), tree.branches.end(), [&](const Branch& b) { return b.name == name; });
     const Polyline& line = is_inlet ? tree.branches.front().points : branch->points;
     const double length = arc_lengths(line).back();
     if (opening.trim >= length)
@@ -111,7 +112,8 @@ BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen) {
   }
   show("4_closed", {closed.points, closed.triangles, closed.label});
   const EdgeCase& edges = study.edges;
-  built.surface = remeshed(closed, {edges.shortest, edges.longest, edges.per_radius}, radius_at_points(closed, built.tree));
+  built.surface =
+      remeshed(closed, {edges.shortest, edges.longest, edges.per_radius}, radius_at_points(closed, built.tree));
   SurfaceSummary& summary = built.summary;
   const SurfaceMeasures before = measures_of(closed);
   summary.study = study.name, summary.file = study.surface.file.filename().string(), summary.inlet = study.inlet;
@@ -129,14 +131,18 @@ std::string text_of(const SurfaceSummary& s) {
   std::string text = s.study + ": the lumen of " + s.file + "\n";
   for (const RepairNote& note : s.repairs) text += "  repair: " + text_of(note) + "\n";
   for (const BuiltOpening& o : s.openings)
-    text += fmt::format("  {} {}: radius {:.3g} cm, at {}\n", o.name == s.inlet ? "inlet" : "outlet", o.name, o.radius, text_of_place(o.centre));
+    text += fmt::format("  {} {}: radius {:.3g} cm, at {}\n", o.name == s.inlet ? "inlet" : "outlet", o.name, o.radius,
+                        text_of_place(o.centre));
   for (const BuiltBranch& b : s.branches)
-    text += fmt::format("  line to {}: {:.3g} cm long, radius {:.3g} cm on average, {:.3g} at least\n", b.name, b.length, b.mean_radius, b.least_radius);
-  return text + fmt::format(
-                    "  {} triangles, edges {:.2g} cm, least angle {:.0f} degrees; volume {:.4g} cm3 (smoothing {:+.2f} %, new "
-                    "triangles {:+.2f} %)\n  from the surface before: 95 of 100 places within {:.2g} cm, all within {:.2g} cm\n",
-                    s.surface.triangles, s.surface.mean_edge, s.surface.least_angle, s.surface.volume,
-                    100 * s.smoothing_volume_change, 100 * s.remeshing_volume_change, s.distance.p95, s.distance.greatest);
+    text += fmt::format("  line to {}: {:.3g} cm long, radius {:.3g} cm on average, {:.3g} at least\n", b.name,
+                        b.length, b.mean_radius, b.least_radius);
+  return text +
+         fmt::format(
+             "  {} triangles, edges {:.2g} cm, least angle {:.0f} degrees; volume {:.4g} cm3 (smoothing {:+.2f} %, new "
+             "triangles {:+.2f} %)\n  from the surface before: 95 of 100 places within {:.2g} cm, all within {:.2g} "
+             "cm\n",
+             s.surface.triangles, s.surface.mean_edge, s.surface.least_angle, s.surface.volume,
+             100 * s.smoothing_volume_change, 100 * s.remeshing_volume_change, s.distance.p95, s.distance.greatest);
 }
 
 }  // namespace tether

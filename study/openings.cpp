@@ -26,19 +26,33 @@ void take_ends_off(Repaired& state, const StudyCase& study, std::vector<Rim>& ri
 
 std::size_t nearest_rim(const std::vector<Rim>& rims, const Vec3& x) {
   const auto distance = [&](const Rim& rim) { return (rim.plane.origin - x).norm(); };
-  return static_cast<std::size_t>(std::min_element(rims.begin(), rims.end(), [&](const Rim& a, const Rim& b) {
-                                    return distance(a) < distance(b);
-                                  }) -
-                                  rims.begin());
+  return static_cast<std::size_t>(
+      std::min_element(rims.begin(), rims.end(),
+                       [&](const Rim& a, const Rim& b) { return distance(a) < distance(b); }) -
+      rims.begin());
+}
+
+/// A point picked for an opening is on it or near its rim, not further off than it is wide.
+std::size_t rim_near(const std::string& name, const std::vector<Rim>& rims, const Vec3& x) {
+  const std::size_t nearest = nearest_rim(rims, x);
+  const Rim& rim = rims[nearest];
+  if (const double distance = (rim.plane.origin - x).norm(); distance > 2 * rim.radius())
+    throw PlacedError(
+        fmt::format("openings.{}: there is no opening near {}: the nearest, at {} with radius {:.3g} cm, is "
+                    "{:.3g} cm away",
+                    name, text_of_place(x), text_of_place(rim.plane.origin), rim.radius(), distance),
+        {x, rim.plane.origin});
+  return nearest;
 }
 
 std::size_t rim_of(const std::string& name, const OpeningCase& opening, const std::vector<Rim>& rims) {
   if (opening.order > static_cast<int>(rims.size()))
     throw input_error("openings.{}.order: {}: the surface has {} openings", name, opening.order, rims.size());
   if (opening.order > 0) return static_cast<std::size_t>(opening.order) - 1;
-  if (opening.cut) return nearest_rim(rims, opening.cut->point);
-  if (!opening.near.empty()) return nearest_rim(rims, Vec3(opening.near[0], opening.near[1], opening.near[2]));
-  const auto labelled = std::find_if(rims.begin(), rims.end(), [&](const Rim& rim) { return rim.face_id == opening.label; });
+  if (opening.cut) return rim_near(name, rims, opening.cut->point);
+  if (!opening.near.empty()) return rim_near(name, rims, Vec3(opening.near[0], opening.near[1], opening.near[2]));
+  const auto labelled =
+      std::find_if(rims.begin(), rims.end(), [&](const Rim& rim) { return rim.face_id == opening.label; });
   if (labelled == rims.end())
     throw input_error("openings.{}.label: {}: its triangles close no end of the vessel", name, opening.label);
   return static_cast<std::size_t>(labelled - rims.begin());
@@ -46,7 +60,8 @@ std::size_t rim_of(const std::string& name, const OpeningCase& opening, const st
 
 std::vector<std::size_t> named_rims(const StudyCase& study, const std::vector<Rim>& rims) {
   if (rims.empty())
-    throw input_error("{}: is closed and has no flat ends: give the openings by label or cut", study.surface.file.string());
+    throw input_error("{}: is closed and has no flat ends: give the openings by label or cut",
+                      study.surface.file.string());
   std::vector<std::size_t> named;
   for (const auto& [name, opening] : study.openings) {
     const std::size_t rim = rim_of(name, opening, rims);
@@ -65,10 +80,11 @@ void fill_others(Repaired& state, const std::vector<Rim>& rims, const std::vecto
   for (std::size_t i = 0; i < rims.size(); ++i) {
     if (std::find(named.begin(), named.end(), i) != named.end()) continue;
     if (rims[i].radius() > largest)
-      throw PlacedError(fmt::format("an opening of radius {:.3g} cm at {} is not among the study's openings, and larger "
-                                    "than repair.largest_hole, {:.3g} cm: name it, or let it be filled",
-                                    rims[i].radius(), text_of_place(rims[i].plane.origin), largest),
-                        {rims[i].plane.origin});
+      throw PlacedError(
+          fmt::format("an opening of radius {:.3g} cm at {} is not among the study's openings, and larger "
+                      "than repair.largest_hole, {:.3g} cm: name it, or let it be filled",
+                      rims[i].radius(), text_of_place(rims[i].plane.origin), largest),
+          {rims[i].plane.origin});
     fill(state.surface, rims[i], 0);
     ++note.count, note.place = rims[i].plane.origin, note.size += rims[i].area;
   }

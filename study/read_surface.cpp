@@ -33,9 +33,9 @@ void check_unit(const SurfaceCase& given, double radius) {
   for (const char* unit : {"mm", "cm", "m"})
     if (const double other = radius / in_cm(given.unit) * in_cm(unit); other >= least_radius && other <= most_radius)
       fitting += fmt::format("{}{} ({:.3g} cm)", fitting.empty() ? "" : " or ", unit, 2 * other);
-  throw input_error("{}: its largest opening is {:.3g} cm wide in {}, which no vessel is{}; surface.any_size: true takes it as it is",
-                    given.file.string(), 2 * radius, given.unit,
-                    fitting.empty() ? "" : "; did you mean " + fitting);
+  throw input_error(
+      "{}: its largest opening is {:.3g} cm wide in {}, which no vessel is{}; surface.any_size: true takes it as it is",
+      given.file.string(), 2 * radius, given.unit, fitting.empty() ? "" : "; did you mean " + fitting);
 }
 
 }  // namespace tether

@@ -12,8 +12,7 @@ namespace tether {
 
 void SurfaceCase::declare(Fields& f) {
   f.path("file", file, ".stl, .vtp, .ply, .obj, .vtk or .msh, open or closed", Need::required);
-  f.choice("unit", unit,
-           {{"mm", "the file's coordinates are millimetres"}, {"cm", "centimetres"}, {"m", "metres"}},
+  f.choice("unit", unit, {{"mm", "the file's coordinates are millimetres"}, {"cm", "centimetres"}, {"m", "metres"}},
            "of the file's coordinates");
   f.text("label_array", label_array, "the file's labels of triangles, if it has any");
   f.flag("any_size", any_size, "do not refuse openings that no vessel has, which mostly mean a wrong unit");
@@ -34,16 +33,19 @@ void OpeningCase::PlaneCase::declare(Fields& f) {
 
 void OpeningCase::declare(Fields& f) {
   f.integer("label", label, {0}, "of its triangles in the surface's file; 0: not said");
-  f.numbers("near", near, {.count = 3, .dimension = dimension::length, .range = range::any}, "the opening nearest to this point");
+  f.numbers("near", near, {.count = 3, .dimension = dimension::length, .range = range::any},
+            "the opening nearest to this point");
   f.integer("order", order, {0}, "by size: 1 the largest opening; 0: not said");
   f.group("cut", cut, "a plane that makes the opening: what lies beyond is cut off");
-  f.number("trim", trim, dimension::length, range::not_negative, "cut off that much of the vessel, along its centreline");
+  f.number("trim", trim, dimension::length, range::not_negative,
+           "cut off that much of the vessel, along its centreline");
 }
 
 void EdgeCase::declare(Fields& f) {
   f.number("longest", longest, dimension::length, range::positive, "edge; of all edges if per_radius is 0");
   f.number("shortest", shortest, dimension::length, range::positive, "edge, with per_radius");
-  f.number("per_radius", per_radius, dimension::none, {0, 2}, "an edge's length over the vessel's radius there; 0: all alike");
+  f.number("per_radius", per_radius, dimension::none, {0, 2},
+           "an edge's length over the vessel's radius there; 0: all alike");
   f.check(per_radius == 0 || shortest <= longest, "shortest", "must not be above longest");
 }
 
@@ -54,7 +56,8 @@ void StudyCase::declare(Fields& f) {
   f.groups("openings", openings, "the vessel's ends, each by label, near, order or cut", Need::required);
   f.text("inlet", inlet, "the opening that blood enters", Need::required);
   f.text("trunk", trunk, "the outlet that the main vessel leads to; empty: the largest");
-  f.number("centreline_spacing", centreline_spacing, dimension::length, range::positive, "between points of centrelines");
+  f.number("centreline_spacing", centreline_spacing, dimension::length, range::positive,
+           "between points of centrelines");
   f.group("edges", edges, "of the triangles");
   const auto is_opening = [this](const std::string& one) {
     return std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.first == one; });
@@ -75,12 +78,14 @@ StudyCase read_study(const std::filesystem::path& file) {
   StudyCase study;
   Reader reader(tree, units, problems);
   study.declare(reader);
-  const std::vector<std::string> known{"name", "surface", "repair", "openings", "inlet", "trunk", "centreline_spacing", "edges"};
+  const std::vector<std::string> known{"name", "surface", "repair", "openings", "inlet", "trunk", "centreline_spacing",
+                                       "edges"};
   for (const auto& entry : tree.entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
       const std::string near = nearest(entry.key, known);
-      problems.add(entry.place, fmt::format("{}: unknown field; {}", entry.key,
-                                            near.empty() ? "known are " + listed(known) : fmt::format("did you mean '{}'?", near)));
+      problems.add(entry.place,
+                   fmt::format("{}: unknown field; {}", entry.key,
+                               near.empty() ? "known are " + listed(known) : fmt::format("did you mean '{}'?", near)));
     }
   problems.throw_if_any();
   return study;

@@ -29,8 +29,8 @@ struct RepairCase {
 
 /// An end of the vessel.
 struct OpeningCase {
-  int label = 0, order = 0;   ///< 0: not said
-  std::vector<double> near;   ///< three coordinates, or empty: not said
+  int label = 0, order = 0;  ///< 0: not said
+  std::vector<double> near;  ///< three coordinates, or empty: not said
   double trim = 0;
   struct PlaneCase {
     Vec3 point = Vec3::Constant(undefined), outward = Vec3::Constant(undefined);

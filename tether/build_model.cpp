@@ -36,7 +36,8 @@ void write_tree(const fs::path& folder, const CentrelineTree& tree) {
       const Vec3& x = branch.points[i];
       line.col(static_cast<Eigen::Index>(i)) = x;
       table << fmt::format("{}, {}, {:.9g}, {:.9g}, {:.9g}, {:.9g}\n", branch.name,
-                           branch.parent < 0 ? "" : tree.branches[branch.parent].name, x[0], x[1], x[2], branch.radii[i]);
+                           branch.parent < 0 ? "" : tree.branches[branch.parent].name, x[0], x[1], x[2],
+                           branch.radii[i]);
     }
     radii.insert(radii.end(), branch.radii.begin(), branch.radii.end());
   }
@@ -46,7 +47,8 @@ void write_tree(const fs::path& folder, const CentrelineTree& tree) {
 
 void draw(const fs::path& folder, const std::string& name) {
   std::vector<std::string> options{"--field", "ModelFaceID", "--title", "0: wall, others: openings"};
-  if (fs::exists(folder / "centreline.vtp")) options.insert(options.end(), {"--lines", (folder / "centreline.vtp").string()});
+  if (fs::exists(folder / "centreline.vtp"))
+    options.insert(options.end(), {"--lines", (folder / "centreline.vtp").string()});
   if (has_display_server()) draw_picture(folder / (name + ".vtp"), folder / (name + ".png"), options);
 }
 
@@ -57,7 +59,8 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
   const fs::path folder = command.output.empty() ? fs::path("out") / study.name : command.output;
   hold_output(folder);
   const fs::path places = folder / "places.vtp";
-  for (const char* old : {"places.vtp", "surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"}) fs::remove(folder / old);
+  for (const char* old : {"places.vtp", "surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"})
+    fs::remove(folder / old);
   const auto keep = [&](const std::string& step, const RawSurface& surface) {
     write_vtp(folder / (step + ".vtp"), surface.points, surface.triangles, surface.face_id);
   };
@@ -67,7 +70,8 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
     write_tree(folder, built.tree);
     write_record(folder / "surface.json", built.summary);
     for (const char* picture : {"1_read", "2_repaired", "3_opened", "4_closed", "surface"}) draw(folder, picture);
-    std::string told = text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
+    std::string told =
+        text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
     return {std::move(built.summary), std::move(told)};
   } catch (const PlacedError& error) {
     write_vtp(places, crosses(error.places));

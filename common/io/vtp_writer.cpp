@@ -12,9 +12,8 @@ namespace {
 
 std::string point_data(const std::string& name, const std::vector<double>& values) {
   if (name.empty()) return "";
-  return fmt::format(
-      "<PointData><DataArray type=\"Float64\" Name=\"{}\" format=\"ascii\">{}</DataArray></PointData>\n", name,
-      fmt::join(values, " "));
+  return fmt::format("<PointData><DataArray type=\"Float64\" Name=\"{}\" format=\"ascii\">{}</DataArray></PointData>\n",
+                     name, fmt::join(values, " "));
 }
 
 std::string cell_data(const std::vector<int>& labels) {

@@ -47,7 +47,8 @@ inline void write_stl(const std::filesystem::path& file, const RawSurface& surfa
   for (const Triangle& t : surface.triangles) {
     out << "facet normal 0 0 0\nouter loop\n";
     for (const int n : t)
-      out << fmt::format("vertex {:.9g} {:.9g} {:.9g}\n", surface.points(0, n), surface.points(1, n), surface.points(2, n));
+      out << fmt::format("vertex {:.9g} {:.9g} {:.9g}\n", surface.points(0, n), surface.points(1, n),
+                         surface.points(2, n));
     out << "endloop\nendfacet\n";
   }
   out << "endsolid s\n";

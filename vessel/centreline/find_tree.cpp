@@ -74,7 +74,11 @@ constexpr double smoothing_width = 0.25;  // of the radius: shifts a line of cur
 class TreeFinder {
  public:
   TreeFinder(const LabelledSurface& surface, double spacing)
-      : surface_(surface), spacing_(spacing), graph_(voronoi_graph(surface)), distance_(surface), line_of_(graph_.centres.size(), -1) {}
+      : surface_(surface),
+        spacing_(spacing),
+        graph_(voronoi_graph(surface)),
+        distance_(surface),
+        line_of_(graph_.centres.size(), -1) {}
 
   void add(int opening, int target) {
     const Opening from = opening_of(surface_, opening);
@@ -90,7 +94,9 @@ class TreeFinder {
     }
     const std::vector<int> way = cheapest_way(graph_, start, ends);
     if (way.empty())
-      throw PlacedError(fmt::format("no way leads from opening '{}' at {} to the others", name, text_of_place(from.centre)), {from.centre});
+      throw PlacedError(
+          fmt::format("no way leads from opening '{}' at {} to the others", name, text_of_place(from.centre)),
+          {from.centre});
     const int parent = line_of_[way.front()];
     Branch branch{name, parent, {}, {}};
     Polyline line;

@@ -10,6 +10,8 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 
+#include <Eigen/LU>
+#include <array>
 #include <cmath>
 
 namespace tether {
@@ -19,8 +21,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Cell = CGAL::Triangulation_cell_base_with_info_3<int, Kernel>;
-using Delaunay =
-    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_3<Kernel>, Cell>>;
+using Delaunay = CGAL::Delaunay_triangulation_3<
+    Kernel, CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_3<Kernel>, Cell>>;
 
 constexpr int outside = -1;
 
@@ -54,6 +56,18 @@ std::vector<Point> wall_points(const LabelledSurface& surface) {
   return points;
 }
 
+/// Of the sphere through four points; not finite where they lie in a plane.
+Vec3 centre_of(const std::array<Vec3, 4>& x) {
+  Mat3 edges;
+  Vec3 half;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 edge = x[i + 1] - x[0];
+    edges.row(i) = edge;
+    half[i] = edge.squaredNorm() / 2;
+  }
+  return x[0] + edges.inverse() * half;
+}
+
 }  // namespace
 
 VoronoiGraph voronoi_graph(const LabelledSurface& surface) {
@@ -65,12 +79,11 @@ VoronoiGraph voronoi_graph(const LabelledSurface& surface) {
   for (const auto cell : delaunay.finite_cell_handles()) {
     cell->info() = outside;
     const auto p = [&](int i) { return cell->vertex(i)->point(); };
-    if (CGAL::coplanar(p(0), p(1), p(2), p(3))) continue;
-    const Point centre = CGAL::circumcenter(p(0), p(1), p(2), p(3));
-    if (!std::isfinite(centre.x() + centre.y() + centre.z()) || side(centre) != CGAL::ON_BOUNDED_SIDE) continue;
+    const Vec3 x = centre_of({vec(p(0)), vec(p(1)), vec(p(2)), vec(p(3))});
+    if (!x.allFinite() || side(point(x)) != CGAL::ON_BOUNDED_SIDE) continue;
     cell->info() = static_cast<int>(graph.centres.size());
-    graph.centres.push_back(vec(centre));
-    graph.radii.push_back(std::sqrt(CGAL::squared_distance(centre, p(0))));
+    graph.centres.push_back(x);
+    graph.radii.push_back((x - vec(p(0))).norm());
   }
   graph.links.resize(graph.centres.size());
   for (const auto cell : delaunay.finite_cell_handles())

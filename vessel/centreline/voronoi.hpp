@@ -4,8 +4,8 @@
 
 namespace tether {
 
-/// Centres of the largest empty spheres among a wall's nodes, inside it, and which are neighbours: the Voronoi diagram's
-/// inner part.
+/// Centres of the largest empty spheres among a wall's nodes, inside it, and which are neighbours: the Voronoi
+/// diagram's inner part.
 struct VoronoiGraph {
   struct Link {
     int to;

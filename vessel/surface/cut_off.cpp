@@ -72,7 +72,8 @@ class Cut {
   }
 
   int node_at(const Edge& edge) {
-    const auto [at, is_new] = new_nodes_.emplace(edge, static_cast<int>(surface_.points.cols() + static_cast<Eigen::Index>(added_.size())));
+    const auto [at, is_new] =
+        new_nodes_.emplace(edge, static_cast<int>(surface_.points.cols() + static_cast<Eigen::Index>(added_.size())));
     if (is_new) added_.push_back(crossing(edge));
     return at->second;
   }
@@ -103,7 +104,8 @@ class Cut {
     }
     const Eigen::Index before = surface_.points.cols();
     surface_.points.conservativeResize(3, before + static_cast<Eigen::Index>(added_.size()));
-    for (std::size_t i = 0; i < added_.size(); ++i) surface_.points.col(before + static_cast<Eigen::Index>(i)) = added_[i];
+    for (std::size_t i = 0; i < added_.size(); ++i)
+      surface_.points.col(before + static_cast<Eigen::Index>(i)) = added_[i];
     first_new_ = static_cast<int>(before);
   }
 
@@ -119,7 +121,8 @@ class Cut {
         const Edge edge = edge_of(t[i], t[(i + 1) % 3]);
         if (edge.first >= first_new_) continue;  // of the cut itself
         for (const EdgeUse& use : edges.at(edge)) {
-          if (side_[use.triangle] < 0) throw wrong_plane(plane_, "does not cut anything off: the surface goes round it");
+          if (side_[use.triangle] < 0)
+            throw wrong_plane(plane_, "does not cut anything off: the surface goes round it");
           if (side_[use.triangle] == 0) side_[use.triangle] = 1, open.push_back(use.triangle);
         }
       }

@@ -32,7 +32,8 @@ std::vector<int> flat_region(const RawSurface& surface, const EdgeUses& edges, i
   return region;
 }
 
-bool is_end(const RawSurface& surface, const EdgeUses& edges, const std::vector<int>& region, const std::vector<int>& of) {
+bool is_end(const RawSurface& surface, const EdgeUses& edges, const std::vector<int>& region,
+            const std::vector<int>& of) {
   double perimeter = 0, area = 0, sharp_length = 0;
   for (const int t : region) {
     area += area_vector(surface.points, surface.triangles[t]).norm();

@@ -58,7 +58,8 @@ SurfaceMeasures measures_of(const LabelledSurface& surface) {
   m.volume = enclosed_volume(raw(surface));
   const EdgeUses edges = edges_of(surface.triangles);
   for (const auto& [edge, uses] : edges)
-    m.mean_edge += (surface.points.col(edge.first) - surface.points.col(edge.second)).norm() / static_cast<double>(edges.size());
+    m.mean_edge +=
+        (surface.points.col(edge.first) - surface.points.col(edge.second)).norm() / static_cast<double>(edges.size());
   return m;
 }
 

@@ -6,8 +6,8 @@ namespace tether {
 
 /// How long edges are to be.
 struct EdgeLength {
-  double least = 0, most = 0;      ///< [cm]
-  double per_radius = 0;           ///< of the local radius; 0: `most` everywhere
+  double least = 0, most = 0;  ///< [cm]
+  double per_radius = 0;       ///< of the local radius; 0: `most` everywhere
 };
 
 /// Cuts the surface anew into triangles with edges of that length, on the surface as it was; rims of caps stay where

@@ -25,7 +25,8 @@ Rim rim_of(const RawSurface& surface, std::vector<int> nodes) {
   return rim;
 }
 
-constexpr double nearly_flat = 0.02;  // of the radius: a projection that changes the opening by less than the image's error
+constexpr double nearly_flat =
+    0.02;  // of the radius: a projection that changes the opening by less than the image's error
 
 }  // namespace
 

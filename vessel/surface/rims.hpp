@@ -18,15 +18,16 @@ struct Rim {
 /// Largest first.
 std::vector<Rim> rims_of(const RawSurface& surface);
 
-/// Takes the triangles with these ids off; the rims that are left know which. Throws InputError for one that is not there.
+/// Takes the triangles with these ids off; the rims that are left know which. Throws InputError for one that is not
+/// there.
 std::vector<Rim> open_labels(RawSurface& surface, const std::vector<int>& ids);
 
 /// Takes flat ends off a closed surface: regions in one plane, about as long as wide, behind an edge of more than 40
 /// degrees. A note says how many.
 void open_flat_ends(Repaired& state);
 
-/// Cuts the part off that lies beyond a plane, where the plane's cut nearest to its origin is. Throws PlacedError if the
-/// plane does not meet the surface, or that cut does not separate anything.
+/// Cuts the part off that lies beyond a plane, where the plane's cut nearest to its origin is. Throws PlacedError if
+/// the plane does not meet the surface, or that cut does not separate anything.
 void cut_off(RawSurface& surface, const Plane& outward);
 
 /// Makes each rim flat: one that nearly is so is moved onto its plane; another is cut off as little inward as makes all

@@ -27,7 +27,9 @@ double smooth(RawSurface& surface, int pairs) {
   std::vector<bool> fixed(static_cast<std::size_t>(surface.points.cols()), false);
   for (const auto& [edge, uses] : edges)
     if (uses.size() == 1) fixed[edge.first] = fixed[edge.second] = true;
-  constexpr double shrink = 0.5, swell = -0.526;  // a pass band of 0.1: 1 / shrink + 1 / swell (Taubin 1995)
+  // A pass band of 0.04 (1 / shrink + 1 / swell, Taubin 1995): with 0.1 a tube of 32 nodes round swells by 0.8 % in 20
+  // pairs.
+  constexpr double shrink = 0.5, swell = -0.51;
   for (int i = 0; i < pairs; ++i) {
     step(surface.points, edges, fixed, shrink);
     step(surface.points, edges, fixed, swell);

@@ -187,7 +187,8 @@ void split_points(Repaired& state) {
       for (const int t : fan) toward += middle(surface, static_cast<std::size_t>(t)) / static_cast<double>(fan.size());
       note.place = surface.points.col(static_cast<int>(n));
       added.emplace_back(note.place + 0.05 * (toward - note.place));
-      for (const int t : fan) std::replace(surface.triangles[t].begin(), surface.triangles[t].end(), static_cast<int>(n), fresh);
+      for (const int t : fan)
+        std::replace(surface.triangles[t].begin(), surface.triangles[t].end(), static_cast<int>(n), fresh);
       ++note.count;
     }
   if (added.empty()) return;

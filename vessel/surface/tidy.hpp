@@ -6,10 +6,12 @@
 /// what it cannot mend.
 namespace tether {
 
-/// Makes points within `tolerance` [cm] of each other one; drops triangles that lose a corner by it, or are there twice.
+/// Makes points within `tolerance` [cm] of each other one; drops triangles that lose a corner by it, or are there
+/// twice.
 void merge_points(Repaired& state, double tolerance);
 
-/// Drops patches that hang on edges of three or more triangles, the smallest first, each of at most a tenth of the area.
+/// Drops patches that hang on edges of three or more triangles, the smallest first, each of at most a tenth of the
+/// area.
 void drop_fins(Repaired& state);
 
 /// Keeps the piece with the largest area.
