@@ -6,6 +6,7 @@
 
 #include "common/base/error.hpp"
 #include "common/protocol/programs.hpp"
+#include "study/study_case.hpp"
 #include "tether/schemas.hpp"
 #include "tether/verbs.hpp"
 
@@ -30,6 +31,8 @@ struct Verb {
   const char *name, *purpose;
   int (*act)(const CommandLine&);
   bool makes_steps = false, shares_work = false, needs_case = true, shares_runs = false;
+  std::string (*reference)(const std::string& format) = case_reference;
+  void (*check)(const CommandLine&) = check_case;
 };
 
 constexpr std::array verbs{
@@ -48,6 +51,8 @@ constexpr std::array verbs{
          told<NoiseMeasurements, measure_noise>},
     Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR",
          told<fs::path, report>},
+    Verb{"build-model", "make a lumen with named openings and centrelines of a surface, as a study file says",
+         told<SurfaceSummary, build_model>, false, false, true, false, study_reference, check_study},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
     Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false, false, false},
@@ -61,8 +66,8 @@ Program program_of(const Verb& verb) {
   program.shares_work = verb.shares_work;
   program.shares_runs = verb.shares_runs;
   program.makes_steps = verb.makes_steps;
-  program.reference = case_reference;
-  program.validate = check_case;
+  program.reference = verb.reference;
+  program.validate = verb.check;
   program.run = verb.act;
   return program;
 }

@@ -10,6 +10,7 @@
 #include "diagnosis/results/noise.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
+#include "study/surface_summary.hpp"
 #include "twin/score.hpp"
 
 namespace tether {
@@ -74,6 +75,12 @@ int measure_noise_of_files(int argc, char** argv);
 /// Writes report.html, a page to look at and to mail, into the folder of results that the command names
 /// (docs/report.md); its path is the result.
 Made<std::filesystem::path> report(const CommandLine& command);
+
+/// From a surface to a lumen with named openings and centrelines, as a study file says (docs/build-model.md):
+/// surface.vtp, centreline.vtp, surface.json, a picture of each step.
+Made<SurfaceSummary> build_model(const CommandLine& command);
+/// Throws InputError if the study file is wrong.
+void check_study(const CommandLine& command);
 
 /// Walks the whole path by itself: compares, finds what the model lacks, adds it, identifies it, compares on held-out
 /// data, and again until there is a verdict: explain.json (docs/explain.md). What was done before is kept.

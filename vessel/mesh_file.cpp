@@ -30,7 +30,8 @@ MeshFile read_by_extension(const std::filesystem::path& path) {
   if (extension == ".vtu" || extension == ".vtp" || extension == ".vtk" || extension == ".ply") return read_vtk(path);
   if (extension == ".msh") return read_gmsh(path);
   if (extension == ".stl") return read_stl(path);
-  throw input_error("{}: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh or .stl", path.string());
+  if (extension == ".obj") return read_obj(path);
+  throw input_error("{}: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh, .stl or .obj", path.string());
 }
 
 /// Programs disagree on which way a wedge's base looks: turn each so that its base looks toward its top.

@@ -25,8 +25,8 @@ struct MeshFile {
 };
 
 /// Reads .vtu, .vtp, .vtk (unstructured grids and surfaces), .ply (surfaces; polygons of more than three sides become
-/// fans), .msh (Gmsh 2 and 4, text and binary) and .stl (text and binary; equal vertices merged). Throws InputError:
-/// cannot be read, other cells than these, no points.
+/// fans), .msh (Gmsh 2 and 4, text and binary), .stl (text and binary; equal vertices merged) and .obj. Throws
+/// InputError: cannot be read, other cells than these, no points.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 /// Of an extension: programs write .STL too.

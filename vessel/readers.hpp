@@ -11,6 +11,7 @@ namespace tether {
 MeshFile read_vtk(const std::filesystem::path& path);
 MeshFile read_gmsh(const std::filesystem::path& path);
 MeshFile read_stl(const std::filesystem::path& path);
+MeshFile read_obj(const std::filesystem::path& path);
 
 /// The whole file. Throws InputError if it cannot be opened.
 std::string file_content(const std::filesystem::path& path);

@@ -1,0 +1,148 @@
+#include "study/build_surface.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "study/openings.hpp"
+#include "study/read_surface.hpp"
+#include "vessel/centreline/curve.hpp"
+#include "vessel/centreline/find_tree.hpp"
+#include "vessel/surface/crossings.hpp"
+#include "vessel/surface/remesh.hpp"
+#include "vessel/surface/smooth.hpp"
+#include "vessel/surface/tidy.hpp"
+
+namespace tether {
+namespace {
+
+void repair(Repaired& state, const RepairCase& given) {
+  merge_points(state, given.merge);
+  drop_fins(state);
+  keep_largest_piece(state);
+  split_points(state);
+  orient(state);
+  remove_slivers(state, given.sliver);
+  remove_crossings(state);
+}
+
+int trunk_of(const LabelledSurface& surface, const StudyCase& study, const std::vector<Rim>& rims) {
+  int largest = -1;
+  for (int i = 0; i < static_cast<int>(rims.size()); ++i) {
+    if (i == surface.inlet) continue;
+    if (surface.openings[i] == study.trunk) return i;
+    if (largest < 0 || rims[i].area > rims[largest].area) largest = i;
+  }
+  if (largest < 0) throw input_error("openings: a vessel has an inlet and at least one outlet");
+  return largest;
+}
+
+/// Cuts the ends that are to be shorter. The trunk's line begins at the inlet; every line ends at its outlet.
+bool trim(RawSurface& open, const CentrelineTree& tree, const StudyCase& study, std::vector<Vec3>& middles) {
+  bool any = false;
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const auto& [name, opening] = study.openings[i];
+    if (opening.trim == 0) continue;
+    const bool is_inlet = name == study.inlet;
+    const auto branch =
+        std::find_if(tree.branches.begin(), tree.branches.end(), [&](const Branch& b) { return b.name == name; });
+    const Polyline& line = is_inlet ? tree.branches.front().points : branch->points;
+    const double length = arc_lengths(line).back();
+    if (opening.trim >= length)
+      throw input_error("openings.{}.trim: {} cm: its vessel is {:.3g} cm long", name, opening.trim, length);
+    const double arc = is_inlet ? opening.trim : length - opening.trim;
+    const Vec3 along = direction_at(line, arc);
+    middles[i] = point_at(line, arc);
+    cut_off(open, {middles[i], is_inlet ? Vec3(-along) : along});
+    any = true;
+  }
+  return any;
+}
+
+std::vector<double> radius_at_points(const LabelledSurface& surface, const CentrelineTree& tree) {
+  std::vector<double> radius;
+  for (const auto& x : surface.points.colwise()) {
+    double nearest = std::numeric_limits<double>::infinity(), found = 0;
+    for (const Branch& branch : tree.branches)
+      for (std::size_t i = 0; i < branch.points.size(); ++i)
+        // by the distance from the sphere: a point of a small branch near a large trunk is the branch's
+        if (const double d = std::abs((x - branch.points[i]).norm() - branch.radii[i]); d < nearest)
+          nearest = d, found = branch.radii[i];
+    radius.push_back(found);
+  }
+  return radius;
+}
+
+std::vector<BuiltOpening> openings_of(const LabelledSurface& surface, const std::vector<Rim>& rims) {
+  std::vector<BuiltOpening> openings;
+  for (std::size_t i = 0; i < rims.size(); ++i)
+    openings.push_back({surface.openings[i], static_cast<int>(i) + 1, rims[i].plane.origin, rims[i].plane.normal,
+                        rims[i].area, rims[i].radius()});
+  return openings;
+}
+
+std::vector<BuiltBranch> branches_of(const CentrelineTree& tree) {
+  std::vector<BuiltBranch> branches;
+  for (const Branch& b : tree.branches)
+    branches.push_back({b.name, b.parent < 0 ? "" : tree.branches[b.parent].name, arc_lengths(b.points).back(),
+                        std::accumulate(b.radii.begin(), b.radii.end(), 0.0) / static_cast<double>(b.radii.size()),
+                        *std::min_element(b.radii.begin(), b.radii.end())});
+  return branches;
+}
+
+}  // namespace
+
+BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen) {
+  const auto show = [&](const char* step, const RawSurface& surface) {
+    if (seen) seen(step, surface);
+  };
+  Repaired state{read_surface(study.surface), {}};
+  show("1_read", state.surface);
+  repair(state, study.repair);
+  show("2_repaired", state.surface);
+  std::vector<Vec3> middles = open_ends(state, study);
+  BuiltSurface built;
+  built.summary.smoothing_volume_change = smooth(state.surface, study.repair.smoothing);
+  show("3_opened", state.surface);
+  LabelledSurface closed = capped(state.surface, middles, study);
+  const int trunk = trunk_of(closed, study, rims_at(state.surface, middles));
+  built.tree = find_tree(closed, trunk, study.centreline_spacing);
+  if (trim(state.surface, built.tree, study, middles)) {
+    closed = capped(state.surface, middles, study);
+    built.tree = find_tree(closed, trunk, study.centreline_spacing);
+  }
+  show("4_closed", {closed.points, closed.triangles, closed.label});
+  const EdgeCase& edges = study.edges;
+  built.surface =
+      remeshed(closed, {edges.shortest, edges.longest, edges.per_radius}, radius_at_points(closed, built.tree));
+  SurfaceSummary& summary = built.summary;
+  const SurfaceMeasures before = measures_of(closed);
+  summary.study = study.name, summary.file = study.surface.file.filename().string(), summary.inlet = study.inlet;
+  summary.repairs = state.notes;
+  summary.surface = measures_of(built.surface);
+  summary.remeshing_volume_change = summary.surface.volume / before.volume - 1;
+  summary.remeshing_area_change = summary.surface.wall_area / before.wall_area - 1;
+  summary.distance = distance_between(closed, built.surface);
+  summary.openings = openings_of(built.surface, rims_at(state.surface, middles));
+  summary.branches = branches_of(built.tree);
+  return built;
+}
+
+std::string text_of(const SurfaceSummary& s) {
+  std::string text = s.study + ": the lumen of " + s.file + "\n";
+  for (const RepairNote& note : s.repairs) text += "  repair: " + text_of(note) + "\n";
+  for (const BuiltOpening& o : s.openings)
+    text += fmt::format("  {} {}: radius {:.3g} cm, at {}\n", o.name == s.inlet ? "inlet" : "outlet", o.name, o.radius,
+                        text_of_place(o.centre));
+  for (const BuiltBranch& b : s.branches)
+    text += fmt::format("  line to {}: {:.3g} cm long, radius {:.3g} cm on average, {:.3g} at least\n", b.name,
+                        b.length, b.mean_radius, b.least_radius);
+  return text +
+         fmt::format(
+             "  {} triangles, edges {:.2g} cm, least angle {:.0f} degrees; volume {:.4g} cm3 (smoothing {:+.2f} %, new "
+             "triangles {:+.2f} %)\n  from the surface before: 95 of 100 places within {:.2g} cm, all within {:.2g} "
+             "cm\n",
+             s.surface.triangles, s.surface.mean_edge, s.surface.least_angle, s.surface.volume,
+             100 * s.smoothing_volume_change, 100 * s.remeshing_volume_change, s.distance.p95, s.distance.greatest);
+}
+
+}  // namespace tether

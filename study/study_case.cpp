@@ -1,0 +1,101 @@
+#include "study/study_case.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
+#include "common/config/describe.hpp"
+#include "common/config/reader.hpp"
+#include "common/config/rules.hpp"
+
+namespace tether {
+
+void SurfaceCase::declare(Fields& f) {
+  f.path("file", file, ".stl, .vtp, .ply, .obj, .vtk or .msh, open or closed", Need::required);
+  f.choice("unit", unit, {{"mm", "the file's coordinates are millimetres"}, {"cm", "centimetres"}, {"m", "metres"}},
+           "of the file's coordinates");
+  f.text("label_array", label_array, "the file's labels of triangles, if it has any");
+  f.flag("any_size", any_size, "do not refuse openings that no vessel has, which mostly mean a wrong unit");
+}
+
+void RepairCase::declare(Fields& f) {
+  f.number("merge", merge, dimension::length, range::positive, "points nearer to each other than this are one");
+  f.number("sliver", sliver, dimension::length, range::positive, "edges of needles shorter than this are removed");
+  f.number("largest_hole", largest_hole, dimension::length, range::not_negative,
+           "radius up to which a rim that is no opening is filled");
+  f.integer("smoothing", smoothing, {0, 1000}, "pairs of steps that smooth without shrinking; 0: none");
+}
+
+void OpeningCase::PlaneCase::declare(Fields& f) {
+  f.point("point", point, dimension::length, "on the plane, near the vessel's middle");
+  f.point("outward", outward, dimension::none, "direction out of the vessel, of any length");
+}
+
+void OpeningCase::declare(Fields& f) {
+  f.integer("label", label, {0}, "of its triangles in the surface's file; 0: not said");
+  f.numbers("near", near, {.count = 3, .dimension = dimension::length, .range = range::any},
+            "the opening nearest to this point");
+  f.integer("order", order, {0}, "by size: 1 the largest opening; 0: not said");
+  f.group("cut", cut, "a plane that makes the opening: what lies beyond is cut off");
+  f.number("trim", trim, dimension::length, range::not_negative,
+           "cut off that much of the vessel, along its centreline");
+}
+
+void EdgeCase::declare(Fields& f) {
+  f.number("longest", longest, dimension::length, range::positive, "edge; of all edges if per_radius is 0");
+  f.number("shortest", shortest, dimension::length, range::positive, "edge, with per_radius");
+  f.number("per_radius", per_radius, dimension::none, {0, 2},
+           "an edge's length over the vessel's radius there; 0: all alike");
+  f.check(per_radius == 0 || shortest <= longest, "shortest", "must not be above longest");
+}
+
+void StudyCase::declare(Fields& f) {
+  f.text("name", name, "of the study; results go to out/NAME", Need::required);
+  f.group("surface", surface, "of the lumen");
+  f.group("repair", repair, "what is mended of it");
+  f.groups("openings", openings, "the vessel's ends, each by label, near, order or cut", Need::required);
+  f.text("inlet", inlet, "the opening that blood enters", Need::required);
+  f.text("trunk", trunk, "the outlet that the main vessel leads to; empty: the largest");
+  f.number("centreline_spacing", centreline_spacing, dimension::length, range::positive,
+           "between points of centrelines");
+  f.group("edges", edges, "of the triangles");
+  const auto is_opening = [this](const std::string& one) {
+    return std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.first == one; });
+  };
+  f.check(inlet.empty() || is_opening(inlet), "inlet", "must be one of the openings");
+  f.check(trunk.empty() || (is_opening(trunk) && trunk != inlet), "trunk", "must be one of the other openings");
+  for (const auto& [one, o] : openings)
+    f.check((o.label > 0) + (o.order > 0) + !o.near.empty() + o.cut.has_value() == 1, "openings",
+            "must each have one of label, near, order and cut");
+}
+
+StudyCase read_study(const std::filesystem::path& file) {
+  const YamlNode tree = read_case_tree(file);
+  if (tree.kind == YamlNode::Kind::scalar || tree.kind == YamlNode::Kind::list)
+    throw input_error("{}: a study is a section of named fields, such as 'name: arch'", tree.place.text());
+  const UnitSystem units = UnitSystem::cgs();
+  Problems problems;
+  StudyCase study;
+  Reader reader(tree, units, problems);
+  study.declare(reader);
+  const std::vector<std::string> known{"name", "surface", "repair", "openings", "inlet", "trunk", "centreline_spacing",
+                                       "edges"};
+  for (const auto& entry : tree.entries)
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      const std::string near = nearest(entry.key, known);
+      problems.add(entry.place,
+                   fmt::format("{}: unknown field; {}", entry.key,
+                               near.empty() ? "known are " + listed(known) : fmt::format("did you mean '{}'?", near)));
+    }
+  problems.throw_if_any();
+  return study;
+}
+
+std::string study_reference(const std::string& format) {
+  Describe describe(UnitSystem::cgs());
+  StudyCase study;
+  study.declare(describe);
+  return format == "markdown" ? describe.markdown() : describe.text();
+}
+
+}  // namespace tether

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/fields.hpp"
+
+namespace tether {
+
+/// The file of a surface.
+struct SurfaceCase {
+  std::filesystem::path file;
+  std::string unit;
+  std::string label_array = "ModelFaceID";
+  bool any_size = false;
+  void declare(Fields& f);
+};
+
+/// How much a surface is mended.
+struct RepairCase {
+  double merge = 1e-5;
+  double sliver = 5e-3;
+  double largest_hole = 0.3;
+  int smoothing = 0;
+  void declare(Fields& f);
+};
+
+/// An end of the vessel.
+struct OpeningCase {
+  int label = 0, order = 0;  ///< 0: not said
+  std::vector<double> near;  ///< three coordinates, or empty: not said
+  double trim = 0;
+  struct PlaneCase {
+    Vec3 point = Vec3::Constant(undefined), outward = Vec3::Constant(undefined);
+    void declare(Fields& f);
+  };
+  std::optional<PlaneCase> cut;
+  void declare(Fields& f);
+};
+
+/// How long edges are to be.
+struct EdgeCase {
+  double longest = 0.3, shortest = 0.05, per_radius = 0;
+  void declare(Fields& f);
+};
+
+/// From a surface to a model: what the user says of it.
+struct StudyCase {
+  std::string name;
+  SurfaceCase surface;
+  RepairCase repair;
+  Named<OpeningCase> openings;
+  std::string inlet, trunk;
+  double centreline_spacing = 0.2;
+  EdgeCase edges;
+  void declare(Fields& f);
+};
+
+/// Throws InputError with a line for each mistake.
+StudyCase read_study(const std::filesystem::path& file);
+
+/// The reference of the file: "text" or "markdown".
+std::string study_reference(const std::string& format);
+
+}  // namespace tether

@@ -1,0 +1,9 @@
+#include "study/surface_summary.hpp"
+
+#include "common/io/record_json.ipp"
+
+namespace tether {
+
+TETHER_RECORD(SurfaceSummary);
+
+}  // namespace tether

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "common/base/child_process.hpp"
+#include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
+#include "study/study_case.hpp"
+#include "study/surface_summary.hpp"
+#include "tests/study/bent_tube.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A study of a bent tube in a folder of its own; `more` is added to the file.
+fs::path study_in(const std::string& name, const std::string& more, const RawSurface& surface) {
+  const fs::path folder = fs::path(::testing::TempDir()) / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  testing::write_stl(folder / "tube.stl", surface);
+  std::ofstream(folder / "study.yaml") << "name: tube\nsurface: {file: tube.stl, unit: cm}\n"
+                                          "openings:\n  in: {near: [4, 0, 0]}\n  out: {near: [-2, 3.46, 0]}\n"
+                                          "inlet: in\nedges: {longest: 3 mm}\n"
+                                       << more;
+  return folder;
+}
+
+ChildEnd built(const fs::path& folder) {
+  return capture(
+      {{TETHER_PROGRAM, "build-model", (folder / "study.yaml").string(), "--output", (folder / "out").string()}, {}});
+}
+
+TEST(BuildModel, WritesSurfaceCentrelineAndSummary) {
+  const fs::path folder = study_in("good_study", "", testing::bent_tube());
+  const ChildEnd end = built(folder);
+  ASSERT_EQ(end.exit_code, exit_done) << end.errors;
+  const auto summary = read_record<SurfaceSummary>(folder / "out" / "surface.json");
+  EXPECT_EQ(summary.openings.size(), 2U);
+  EXPECT_EQ(summary.branches.at(0).name, "out");
+  for (const char* file : {"surface.vtp", "centreline.vtp", "centreline.csv", "1_read.vtp", "4_closed.vtp"})
+    EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+}
+
+TEST(BuildModel, MarksThePlaceOfWhatItRefuses) {
+  RawSurface hole = testing::bent_tube();
+  for (int row = 3; row >= 0; --row) {
+    const auto first = hole.triangles.begin() + 1280 + 64 * row;
+    hole.triangles.erase(first, first + 14);
+  }
+  const fs::path folder = study_in("study_with_hole", "", hole);
+  const ChildEnd end = built(folder);
+  EXPECT_EQ(end.exit_code, exit_input_wrong);
+  EXPECT_NE(end.errors.find("places.vtp"), std::string::npos) << end.errors;
+  EXPECT_TRUE(fs::exists(folder / "out" / "places.vtp"));
+  EXPECT_FALSE(fs::exists(folder / "out" / "surface.vtp"));
+}
+
+TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
+  const fs::path folder = study_in("wrong_study", "trunk: nowhere\nrepare: {}\n", testing::bent_tube());
+  std::string message;
+  try {
+    read_study(folder / "study.yaml");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("study.yaml:8: repare: unknown field; did you mean 'repair'?"), std::string::npos) << message;
+  EXPECT_NE(message.find("must be one of the other openings"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace tether

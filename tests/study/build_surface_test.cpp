@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include "common/base/csv.hpp"
+#include "study/build_surface.hpp"
+#include "study/openings.hpp"
+#include "tests/study/bent_tube.hpp"
+#include "vessel/centreline/curve.hpp"
+#include "vessel/surface/smooth.hpp"
+#include "vessel/surface/tidy.hpp"
+
+namespace tether {
+namespace {
+
+using testing::bent_tube;
+
+StudyCase tube_study(const RawSurface& surface, const std::string& name) {
+  StudyCase study;
+  study.name = name;
+  study.surface.file = std::filesystem::path(::testing::TempDir()) / (name + ".stl");
+  study.surface.unit = "cm";
+  testing::write_stl(study.surface.file, surface);
+  study.openings.resize(2);
+  study.openings[0] = {"in", {}}, study.openings[0].second.near = {4, 0, 0};
+  study.openings[1] = {"out", {}}, study.openings[1].second.near = {-2, 3.46, 0};
+  study.inlet = "in";
+  study.edges.longest = 0.25;
+  return study;
+}
+
+TEST(BuildSurface, ABentTubeKeepsItsVolumeLineAndRadius) {
+  const BuiltSurface built = build_surface(tube_study(bent_tube(), "bent"));
+  const RawSurface given = bent_tube();
+  EXPECT_NEAR(built.summary.surface.volume, enclosed_volume(given), 0.01 * enclosed_volume(given));
+  EXPECT_TRUE(built.summary.repairs.empty() || built.summary.repairs[0].kind == RepairKind::rims_flattened);
+  EXPECT_GT(built.summary.surface.least_angle, 20);
+  EXPECT_LT(built.summary.distance.p95, 0.01);  // a hundredth of the radius: chords of 32 corners are half that off
+  const Branch& line = built.tree.branches.at(0);
+  EXPECT_NEAR(arc_lengths(line.points).back(), testing::bend_radius * testing::bend_angle, 0.05);
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    EXPECT_NEAR(line.points[i].head<2>().norm(), testing::bend_radius, 0.05) << i;
+    EXPECT_NEAR(line.points[i].z(), 0, 0.05) << i;
+    EXPECT_NEAR(line.radii[i], testing::tube_radius, 0.05) << i;
+  }
+}
+
+TEST(BuildSurface, CapsAreFlatAndFaceOutward) {
+  const BuiltSurface built = build_surface(tube_study(bent_tube(), "caps"));
+  ASSERT_EQ(built.summary.openings.size(), 2U);
+  EXPECT_GT(built.summary.openings[0].outward.dot(-Vec3::UnitY()), 0.999);
+  for (int k = 1; k <= 2; ++k)
+    for (std::size_t t = 0; t < built.surface.triangles.size(); ++t)
+      if (built.surface.label[t] == k) {
+        const BuiltOpening& cap = built.summary.openings[k - 1];
+        for (const int n : built.surface.triangles[t])
+          EXPECT_NEAR((built.surface.points.col(n) - cap.centre).dot(cap.outward), 0, 1e-6);
+      }
+}
+
+TEST(BuildSurface, FlatEndsOfAClosedSurfaceAreFound) {
+  RawSurface closed = bent_tube();
+  for (const Rim& rim : rims_of(closed)) fill(closed, rim, 0);
+  const BuiltSurface built = build_surface(tube_study(closed, "closed"));
+  ASSERT_FALSE(built.summary.repairs.empty());
+  EXPECT_EQ(built.summary.repairs[0].kind, RepairKind::caps_found);
+  EXPECT_EQ(built.summary.repairs[0].count, 2);
+}
+
+TEST(BuildSurface, PlanesAndDistancesCutTheEnds) {
+  StudyCase study = tube_study(bent_tube(), "cut");
+  const Vec3 at = testing::tube_middle(0.75), along(-at.y(), at.x(), 0);
+  study.openings[1].second.near.clear();
+  study.openings[1].second.cut.emplace();
+  study.openings[1].second.cut->point = at, study.openings[1].second.cut->outward = along;
+  study.openings[0].second.trim = 1;
+  const BuiltSurface built = build_surface(study);
+  const double left = 0.75 * testing::bend_angle * testing::bend_radius - 1;
+  EXPECT_NEAR(arc_lengths(built.tree.branches[0].points).back(), left, 0.08);
+  EXPECT_NEAR(built.summary.surface.volume, std::numbers::pi * left, 0.03 * std::numbers::pi * left);
+}
+
+TEST(BuildSurface, SmoothingTakesNoiseAndKeepsTheVolume) {
+  RawSurface tube = bent_tube();
+  for (Eigen::Index i = 32; i + 32 < tube.points.cols(); ++i)
+    tube.points.col(i) += 0.02 * Vec3(std::sin(7.0 * i), std::sin(11.0 * i), std::sin(13.0 * i));
+  const auto roughness = [](const RawSurface& s) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < s.points.cols(); ++i) {
+      const Vec3 x = s.points.col(i);
+      const double off = std::hypot(x.head<2>().norm() - testing::bend_radius, x.z()) - testing::tube_radius;
+      sum += off * off / static_cast<double>(s.points.cols());
+    }
+    return std::sqrt(sum);
+  };
+  const double before = roughness(tube);
+  const double noisy = enclosed_volume(tube), change = smooth(tube, 20);
+  EXPECT_LT(roughness(tube), 0.6 * before);
+  EXPECT_LT(std::abs(change), 0.005);
+  EXPECT_NEAR(enclosed_volume(tube) / noisy - 1, change, 1e-12);
+}
+
+TEST(BuildSurface, ABranchingArchHasATreeNearItsAuthors) {
+  const std::filesystem::path data = TETHER_SOURCE "/data/aortic_arch_adult";
+  StudyCase study;
+  study.name = "arch";
+  study.surface = {data / "arch_surface.vtp", "mm"};
+  const std::vector<std::string> names{"ascending", "brachiocephalic", "left_carotid", "left_subclavian", "descending"};
+  for (const auto& name : names) {
+    study.openings.emplace_back(name, OpeningCase{});
+    study.openings.back().second.label = static_cast<int>(study.openings.size());
+  }
+  study.inlet = "ascending", study.trunk = "descending";
+  const BuiltSurface built = build_surface(study);
+  ASSERT_EQ(built.tree.branches.size(), 4U);
+  EXPECT_EQ(built.tree.branches[0].name, "descending");
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(built.tree.branches[i].parent, 0);
+  EXPECT_NEAR(built.summary.surface.volume, 161.7, 1.6);
+  const CsvTable table(data / "centreline.csv");
+  const std::vector<std::string> branch = table.names("branch");
+  const std::vector<double> x = table.numbers("x_mm"), y = table.numbers("y_mm"), z = table.numbers("z_mm"),
+                            radius = table.numbers("radius_mm");
+  double off = 0, wide = 0, count = 0;
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    if (branch[i] != "aorta") continue;
+    const Branch& trunk = built.tree.branches[0];
+    const Vec3 at = 0.1 * Vec3(x[i], y[i], z[i]);
+    off += nearest_on(trunk.points, at).distance, ++count;
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < trunk.points.size(); ++k)
+      if ((trunk.points[k] - at).norm() < (trunk.points[nearest] - at).norm()) nearest = k;
+    wide += std::abs(trunk.radii[nearest] - 0.1 * radius[i]);
+  }
+  EXPECT_LT(off / count, 0.12);  // [cm], of a radius of 1.2
+  EXPECT_LT(wide / count, 0.1);  // [cm]
+}
+
+}  // namespace
+}  // namespace tether

@@ -1,0 +1,86 @@
+#include <fstream>
+
+#include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "common/io/vtp_writer.hpp"
+#include "pictures/pictures.hpp"
+#include "study/build_surface.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A cross of three lines at each place, a hundredth of an aorta's length wide.
+std::vector<Points> crosses(const std::vector<Vec3>& places) {
+  constexpr double arm = 0.2;  // [cm]
+  std::vector<Points> lines;
+  for (const Vec3& place : places)
+    for (int axis = 0; axis < 3; ++axis) {
+      Points& line = lines.emplace_back(3, 2);
+      line.col(0) = place - arm * Vec3::Unit(axis);
+      line.col(1) = place + arm * Vec3::Unit(axis);
+    }
+  return lines;
+}
+
+void write_tree(const fs::path& folder, const CentrelineTree& tree) {
+  std::vector<Points> lines;
+  std::vector<double> radii;
+  std::ofstream table(folder / "centreline.csv");
+  table << "branch, parent, x [cm], y [cm], z [cm], radius [cm]\n";
+  for (const Branch& branch : tree.branches) {
+    Points& line = lines.emplace_back(3, static_cast<Eigen::Index>(branch.points.size()));
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      const Vec3& x = branch.points[i];
+      line.col(static_cast<Eigen::Index>(i)) = x;
+      table << fmt::format("{}, {}, {:.9g}, {:.9g}, {:.9g}, {:.9g}\n", branch.name,
+                           branch.parent < 0 ? "" : tree.branches[branch.parent].name, x[0], x[1], x[2],
+                           branch.radii[i]);
+    }
+    radii.insert(radii.end(), branch.radii.begin(), branch.radii.end());
+  }
+  write_vtp(folder / "centreline.vtp", lines, "radius", radii);
+  if (!table.flush()) throw run_error("{}: cannot be written to", folder.string());
+}
+
+void draw(const fs::path& folder, const std::string& name) {
+  std::vector<std::string> options{"--field", "ModelFaceID", "--title", "0: wall, others: openings"};
+  if (fs::exists(folder / "centreline.vtp"))
+    options.insert(options.end(), {"--lines", (folder / "centreline.vtp").string()});
+  if (has_display_server()) draw_picture(folder / (name + ".vtp"), folder / (name + ".png"), options);
+}
+
+}  // namespace
+
+Made<SurfaceSummary> build_model(const CommandLine& command) {
+  const StudyCase study = read_study(command.case_file);
+  const fs::path folder = command.output.empty() ? fs::path("out") / study.name : command.output;
+  hold_output(folder);
+  const fs::path places = folder / "places.vtp";
+  for (const char* old : {"places.vtp", "surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"})
+    fs::remove(folder / old);
+  const auto keep = [&](const std::string& step, const RawSurface& surface) {
+    write_vtp(folder / (step + ".vtp"), surface.points, surface.triangles, surface.face_id);
+  };
+  try {
+    BuiltSurface built = build_surface(study, keep);
+    write_vtp(folder / "surface.vtp", built.surface.points, built.surface.triangles, built.surface.label);
+    write_tree(folder, built.tree);
+    write_record(folder / "surface.json", built.summary);
+    for (const char* picture : {"1_read", "2_repaired", "3_opened", "4_closed", "surface"}) draw(folder, picture);
+    std::string told =
+        text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
+    return {std::move(built.summary), std::move(told)};
+  } catch (const PlacedError& error) {
+    write_vtp(places, crosses(error.places));
+    throw input_error("{}: {} (marked in {})", study.surface.file.string(), error.what(), places.string());
+  }
+}
+
+void check_study(const CommandLine& command) {
+  read_study(command.case_file);
+}
+
+}  // namespace tether

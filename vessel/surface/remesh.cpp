@@ -1,0 +1,137 @@
+#include "vessel/surface/remesh.hpp"
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/mesh/surface.hpp"
+#include "vessel/surface/cgal_mesh.ipp"
+
+namespace tether {
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+constexpr unsigned rounds = 5;
+constexpr double step = 1.3;  // between neighbouring edge lengths: below the range that remeshing leaves anyway
+
+/// The radius that belongs to places on a surface.
+class RadiusAt {
+ public:
+  RadiusAt(const CgalMesh& mesh, const std::vector<double>& radius)
+      : mesh_(mesh), radius_(radius), tree_(faces(mesh_).first, faces(mesh_).second, mesh_) {}
+  double operator()(const Kernel::Point_3& x) const {
+    const auto face = tree_.closest_point_and_primitive(x).second;
+    double sum = 0;
+    for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(face))) sum += radius_[v.idx()] / 3;
+    return sum;
+  }
+
+ private:
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
+  CgalMesh mesh_;
+  const std::vector<double>& radius_;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
+};
+
+void remesh_part(CgalMesh& mesh, const std::vector<CgalMesh::Face_index>& part, double length) {
+  PMP::isotropic_remeshing(part, length, mesh,
+                           CGAL::parameters::number_of_iterations(rounds).face_patch_map(ids_of(mesh)));
+}
+
+/// Which cap a triangle is of, by its plane: CGAL gives none to a triangle beside a part that it splits.
+class CapAt {
+ public:
+  explicit CapAt(const LabelledSurface& surface) {
+    for (int label = 1; label <= static_cast<int>(surface.openings.size()); ++label) {
+      std::vector<Triangle> cap;
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+        if (surface.label[t] == label) cap.push_back(surface.triangles[t]);
+      const Vec3 middle = centroid(surface.points, cap);
+      double reach = 0;
+      for (const Triangle& t : cap)
+        for (const int n : t) reach = std::max(reach, (surface.points.col(n) - middle).norm());
+      caps_.push_back({{middle, total_area_vector(surface.points, cap).normalized()}, reach});
+    }
+  }
+  int operator()(const std::array<Vec3, 3>& corners) const {
+    for (std::size_t k = 0; k < caps_.size(); ++k)
+      if (std::all_of(corners.begin(), corners.end(), [&](const Vec3& x) { return is_on(caps_[k], x); }))
+        return static_cast<int>(k) + 1;
+    return 0;
+  }
+
+ private:
+  struct Cap {
+    Plane plane;
+    double reach;
+  };
+  static bool is_on(const Cap& cap, const Vec3& x) {
+    const Vec3 from = x - cap.plane.origin;
+    return std::abs(from.dot(cap.plane.normal)) < 1e-6 * cap.reach && from.norm() < 1.01 * cap.reach;
+  }
+  std::vector<Cap> caps_;
+};
+
+std::array<Vec3, 3> corners_of(const CgalMesh& mesh, CgalMesh::Face_index face) {
+  const auto h = mesh.halfedge(face);
+  return {vec_of(mesh.point(mesh.source(h))), vec_of(mesh.point(mesh.target(h))),
+          vec_of(mesh.point(mesh.target(mesh.next(h))))};
+}
+
+/// Parts with edges of one length each. A part's border is split and collapsed as the part wants it, which changes
+/// triangles beside it: parts are found anew each time. Three passes, with borders at other places.
+void remesh_by_radius(CgalMesh& mesh, const EdgeLength& length, const std::vector<double>& radius,
+                      const CapAt& cap_at) {
+  const RadiusAt radius_at(mesh, radius);
+  // first all alike and fine: parts of the slivers that cuts leave have borders on which CGAL's remeshing fails
+  remesh_part(mesh, {mesh.faces().begin(), mesh.faces().end()}, length.least);
+  mesh.collect_garbage();
+  FaceNumbers ids = ids_of(mesh);
+  for (const double shift : {0.0, 0.5, 0.0}) {
+    const auto part_of = [&](CgalMesh::Face_index face) {
+      const auto x = corners_of(mesh, face);
+      const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
+      const double wanted =
+          std::clamp(length.per_radius * radius_at({middle[0], middle[1], middle[2]}), length.least, length.most);
+      return static_cast<int>(std::round(std::log(wanted) / std::log(step) + shift));
+    };
+    std::set<int> numbers;
+    for (const auto face : mesh.faces()) numbers.insert(part_of(face));
+    for (const int number : numbers) {
+      std::vector<CgalMesh::Face_index> part;
+      for (const auto face : mesh.faces())
+        if (part_of(face) == number) part.push_back(face);
+      remesh_part(mesh, part, std::clamp(std::pow(step, number - shift), length.least, length.most));
+      mesh.collect_garbage();
+      for (const auto face : mesh.faces())
+        if (ids[face] == no_id) ids[face] = cap_at(corners_of(mesh, face));
+    }
+  }
+}
+
+}  // namespace
+
+LabelledSurface remeshed(const LabelledSurface& surface, const EdgeLength& length, const std::vector<double>& radius) {
+  CgalMesh mesh = cgal_mesh({surface.points, surface.triangles, surface.label});
+  try {
+    if (length.per_radius > 0)
+      remesh_by_radius(mesh, length, radius, CapAt(surface));
+    else
+      remesh_part(mesh, {mesh.faces().begin(), mesh.faces().end()}, length.most);
+  } catch (const CGAL::Failure_exception& failure) {
+    throw input_error(
+        "no triangles with edges of these lengths can be made (CGAL: {}): try other edges, or "
+        "edges.per_radius: 0",
+        failure.expression());
+  }
+  RawSurface made = raw_surface(mesh);
+  return {std::move(made.points), std::move(made.triangles), std::move(made.face_id), surface.openings, surface.inlet};
+}
+
+}  // namespace tether
