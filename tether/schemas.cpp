@@ -15,6 +15,7 @@
 #include "identification_master/results/made_run.hpp"
 #include "solid/results/effects_list.hpp"
 #include "twin/score.hpp"
+#include "vessel/model/model_quality.hpp"
 
 namespace tether {
 namespace {
@@ -28,12 +29,13 @@ std::string schema() {
 
 const std::vector<ResultSchema>& result_schemas() {
   static const std::vector<ResultSchema> all{
-      {"summary.json", schema<RunSummary>},  {"comparison.json", schema<ComparisonResult>},
-      {"wall.json", schema<ComparedWall>},   {"diagnosis.json", schema<Diagnosis>},
-      {"explain.json", schema<Explanation>}, {"steps.json", schema<StepsMade>},
-      {"force.json", schema<ForceFound>},    {"estimate.json", schema<Estimate>},
-      {"run.json", schema<MadeRun>},         {"score.json", schema<Score>},
-      {"effects.json", schema<EffectsList>}, {"noise.json", schema<NoiseMeasurements>},
+      {"summary.json", schema<RunSummary>},   {"comparison.json", schema<ComparisonResult>},
+      {"wall.json", schema<ComparedWall>},    {"diagnosis.json", schema<Diagnosis>},
+      {"explain.json", schema<Explanation>},  {"steps.json", schema<StepsMade>},
+      {"force.json", schema<ForceFound>},     {"estimate.json", schema<Estimate>},
+      {"run.json", schema<MadeRun>},          {"score.json", schema<Score>},
+      {"effects.json", schema<EffectsList>},  {"noise.json", schema<NoiseMeasurements>},
+      {"quality.json", schema<ModelQuality>},
   };
   return all;
 }

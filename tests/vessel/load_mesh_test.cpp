@@ -113,6 +113,46 @@ TEST(MeshCase, FilesWithAGrownWall) {
   EXPECT_EQ(tube.wall.outside[0].triangles.size(), 160u);
 }
 
+/// A tube's centreline beside the case, and more of the section `files`.
+VesselMesh load_with_centreline(const std::string& more) {
+  const TemporaryFolder folder;
+  folder.file("centreline.csv",
+              "branch, parent, x [mm], y [mm], z [mm], radius [mm]\ntube,,0,0,0,20\ntube,,0,0,100,20\n");
+  return load_mesh(read_case(folder, peer_case("    centreline: centreline.csv\n" + more)), UnitSystem::cgs(),
+                   WallElement::prism);
+}
+
+TEST(MeshCase, GeometricRegionsOfAGrownWall) {
+  const VesselMesh tube = load_with_centreline(R"(    grown_wall: {fraction_of_radius: 0.1}
+    regions:
+      spine: {angle: [-30, 30], angle_origin: [-1, 0, 0]}
+      ends: {along: [1, 9], divide: 2}
+      rest: {}
+)");
+  ASSERT_EQ(tube.wall.outside.size(), 4u);
+  EXPECT_EQ(tube.wall.outside[1].name, "ends_1");
+  const double whole = area_of(tube.wall.points, tube.wall.outside[0]) * 6;
+  EXPECT_NEAR(whole, 2 * std::numbers::pi * 2.2 * 10, 0.02 * whole);
+  for (const std::size_t half : {1u, 2u})
+    EXPECT_NEAR(area_of(tube.wall.points, tube.wall.outside[half]), whole * 5 / 6 * 0.4, 0.01 * whole) << half;
+}
+
+TEST(MeshCase, RegionsOfAVesselAreNamedWithTheirMistakes) {
+  const auto fault = [](const std::string& more) { return message_of([&] { load(peer_case(more)); }); };
+  expect_part(fault("    grown_wall: {thickness: 0.2}\n    regions: {a: {branches: [aorta]}}\n"),
+              "mesh.files.regions.a: branches, along, angle and divide refer to the centreline");
+  expect_part(fault("    grown_wall: {thickness: 0.2, branches: {a: {thickness: 0.1}}}\n"), "centreline");
+  expect_part(fault("    grown_wall: {thickness: 0.2}\n    outside: {a: {label: 1}}\n"), "is of a wall that is read");
+  expect_part(fault("    grown_wall: {thickness: 0.2}\n    rings: {a: {label: 1}}\n"), "inlet_ring");
+  expect_part(fault("    grown_wall: {thickness: 0.2, fraction_of_radius: 0.1}\n"), "give either thickness");
+  expect_part(message_of([] {
+                load_with_centreline(
+                    "    grown_wall: {thickness: 0.2}\n    regions: {a: {line: arch, "
+                    "along: [0, 1]}, rest: {}}\n");
+              }),
+              "mesh.files.regions.a: the centreline has no branch 'arch'; it has tube");
+}
+
 TEST(MeshCase, SimVascularFolders) {
   const TemporaryFolder folder;
   for (const std::string part : {"fluid", "solid"}) {
