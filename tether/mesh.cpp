@@ -78,8 +78,9 @@ std::string regions_legend(const WallMesh& wall) {
 
 /// Whether a picture of the regions could be drawn.
 bool draw_regions(const std::filesystem::path& folder, const WallMesh& wall) {
-  return has_display_server() && draw_picture(folder / "regions.vtu", folder / "regions.png",
-                                              {"--field", "region", "--title", "regions: " + regions_legend(wall)});
+  std::vector<std::string> options{"--field", "region", "--title", "region", "--names"};
+  for (const Patch& region : wall.outside) options.push_back(region.name);
+  return has_display_server() && draw_picture(folder / "regions.vtu", folder / "regions.png", options);
 }
 
 ReadVessel mesh_of(const CommandLine& command, CaseFile& file) {
