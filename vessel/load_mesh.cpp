@@ -73,6 +73,7 @@ void set_grown_wall(VesselFiles& files, const std::optional<GrownWallCase>& give
     };
   }
   files.regions = regions_of(given->regions);
+  files.regions_field = named(where, section + ".regions");
   files.angle_origin = given->angle_origin;
 }
 
@@ -90,7 +91,8 @@ VesselFiles files_of(const FilesCase& given, const Where& where, const UnitSyste
   VesselFiles files;
   if (!given.centreline.empty())
     files.anatomy = std::make_shared<const Anatomy>(read_centreline(given.centreline, units));
-  files.rules = rules_of(given.regions, files.anatomy.get(), units);
+  files.rules = rules_of(given.regions, files.anatomy.get(), units,
+                         [&](const std::string& name) { return named(where, "mesh.files.regions." + name); });
   files.fluid = given.fluid;
   files.wall = given.wall;
   files.interface = source_of(given.interface, where("mesh.files.interface"));

@@ -81,10 +81,12 @@ void GeometricRegionCase::declare(Fields& f) {
 }
 
 std::vector<RegionRule> rules_of(const Named<GeometricRegionCase>& regions, const Anatomy* anatomy,
-                                 const UnitSystem& units) {
+                                 const UnitSystem& units,
+                                 const std::function<std::string(const std::string& name)>& where) {
   std::vector<RegionRule> rules;
   for (const auto& [name, given] : regions) {
-    const RegionRule rule = rule_of(name, given, units);
+    RegionRule rule = rule_of(name, given, units);
+    rule.where = where(name);
     const bool needs_line = !rule.branches.empty() || rule.along || rule.angle || given.divide > 1;
     if (needs_line && !anatomy)
       throw input_error(

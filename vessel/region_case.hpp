@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include "common/base/units.hpp"
 #include "common/config/fields.hpp"
 #include "vessel/anatomy/region_rule.hpp"
@@ -45,7 +46,9 @@ struct GeometricRegionCase {
 
 /// The rules of regions in their order; a divided one is several. Throws InputError for a file that is wrong, a branch
 /// that does not exist, a region that needs a centreline where there is none.
+/// where: that a region stands, by its name, for messages.
 std::vector<RegionRule> rules_of(const Named<GeometricRegionCase>& regions, const Anatomy* anatomy,
-                                 const UnitSystem& units);
+                                 const UnitSystem& units,
+                                 const std::function<std::string(const std::string& name)>& where);
 
 }  // namespace tether

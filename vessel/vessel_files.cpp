@@ -137,12 +137,12 @@ WallPlace place_about_line(const Vec3& x, const Frame& frame, double length) {
 }
 
 /// A straight line tells angles only in a tube about it: an arch, or a vessel with branches, would get wrong regions.
-void require_tube(const FluidMesh& fluid, const Frame& frame, double length) {
+void require_tube(const FluidMesh& fluid, const Frame& frame, double length, const std::string& field) {
   if (fluid.inlets.size() != 1 || fluid.outlets.size() != 1)
     throw input_error(
-        "mesh.files.grown_wall.regions: angles and positions about the line from inlet to outlet mean nothing in a "
+        "{}: angles and positions about the line from inlet to outlet mean nothing in a "
         "vessel with {} inlets and {} outlets: use mesh.files.regions",
-        fluid.inlets.size(), fluid.outlets.size());
+        field, fluid.inlets.size(), fluid.outlets.size());
   constexpr int slices = 10;
   std::array<Vec3, slices> sums;
   sums.fill(Vec3::Zero());
@@ -157,9 +157,9 @@ void require_tube(const FluidMesh& fluid, const Frame& frame, double length) {
   for (std::size_t slice = 0; slice < slices; ++slice)
     if (weights[slice] > 0 && sums[slice].norm() / weights[slice] > 0.5 * radius)
       throw input_error(
-          "mesh.files.grown_wall.regions: angles are about the straight line from inlet to outlet, but the vessel's "
+          "{}: angles are about the straight line from inlet to outlet, but the vessel's "
           "axis is {:.3g} away from it near {}: use mesh.files.regions with a centreline",
-          sums[slice].norm() / weights[slice],
+          field, sums[slice].norm() / weights[slice],
           coordinates(frame.centre + frame.normal * length * (double(slice) + 0.5) / slices));
 }
 
@@ -170,7 +170,7 @@ WallMesh grown_wall(const VesselFiles& files, const FluidMesh& fluid, std::optio
   const Vec3 start = centroid(fluid.points, fluid.inlets.at(0).triangles),
              end = centroid(fluid.points, fluid.outlets.at(0).triangles);
   const Frame frame = make_frame(start, end - start, files.angle_origin);
-  require_tube(fluid, frame, (end - start).norm());
+  require_tube(fluid, frame, (end - start).norm(), files.regions_field);
   wall.outside = divide_by_regions(wall.outside.front().triangles, files.regions, [&](int node) {
     return place_about_line(wall.points.col(node), frame, (end - start).norm());
   });

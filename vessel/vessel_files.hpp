@@ -37,6 +37,7 @@ struct VesselFiles {
   ExtrusionSettings extrusion;  ///< without wall
   /// Of an extruded wall, about the straight line from the inlet's to the outlet's centre: for tubes only.
   std::vector<WallRegion> regions;
+  std::string regions_field = "mesh.files.grown_wall.regions";  ///< for messages, with its line if known
   Vec3 angle_origin{1, 0, 0};
   std::shared_ptr<const Anatomy> anatomy;  ///< that rules refer to
   std::vector<RegionRule> rules;           ///< divide all of the outside, anew; none: it stays as it is

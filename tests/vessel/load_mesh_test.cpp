@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
+#include "common/io/vtu_writer.hpp"
 #include "common/mesh/surface.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "vessel/check.hpp"
@@ -151,6 +152,50 @@ TEST(MeshCase, RegionsOfAVesselAreNamedWithTheirMistakes) {
                     "along: [0, 1]}, rest: {}}\n");
               }),
               "mesh.files.regions.a: the centreline has no branch 'arch'; it has tube");
+}
+
+/// A vessel bent by a right angle, in files.
+TEST(MeshCase, AnglesAboutAStraightLineAreRefusedInABend) {
+  const TemporaryFolder folder;
+  SweepSettings bend;
+  for (int i = 0; i <= 6; ++i) {
+    const double turn = std::numbers::pi / 2 * i / 6;
+    const Vec3 out(std::cos(turn), 0, std::sin(turn));
+    Points circle(3, 24);
+    for (int j = 0; j < 24; ++j) {
+      const double a = 2 * std::numbers::pi * j / 24;
+      circle.col(j) = (5 + std::cos(a)) * out + std::sin(a) * Vec3::UnitY();
+    }
+    bend.sections.push_back(circle);
+  }
+  bend.wall_thickness = 0.2;
+  bend.along = 12;
+  bend.disc.around = 24;
+  bend.angle_origin = Vec3::UnitY();
+  const FluidMesh fluid = sweep(bend).fluid;
+  write_vtu(folder / "lumen.vtu", fluid.points, cells_of(fluid), {});
+  write_vtu(folder / "wall.vtu", fluid.points, {.triangles = fluid.interface}, {});
+  write_vtu(folder / "in.vtu", fluid.points, {.triangles = fluid.inlets[0].triangles}, {});
+  write_vtu(folder / "out.vtu", fluid.points, {.triangles = fluid.outlets[0].triangles}, {});
+  folder.file("case.yaml", head + R"(mesh:
+  source: files
+  files:
+    fluid: lumen.vtu
+    interface: {file: wall.vtu}
+    inlets: {in: {file: in.vtu}}
+    outlets: {out: {file: out.vtu}}
+    grown_wall:
+      thickness: 0.1
+      regions: {spine: {angle: [0, 90]}, rest: {}}
+)");
+  CaseFile file(folder / "case.yaml");
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  file.finish();
+  expect_part(
+      message_of([&] { load_mesh(mesh, file, WallElement::prism); }),
+      "case.yaml:13: mesh.files.grown_wall.regions: angles are about the straight line from inlet to outlet, but "
+      "the vessel's axis is ");
 }
 
 TEST(MeshCase, SimVascularFolders) {

@@ -124,7 +124,7 @@ TEST(RegionRules, MistakesAreToldWithTheirPlace) {
   };
   RegionRule rule = named("spine");
   rule.branches = {"carotid"};
-  EXPECT_EQ(fault(rule), "mesh.files.regions.spine: the centreline has no branch 'carotid'; it has trunk, branch");
+  EXPECT_EQ(fault(rule), "regions.spine: the centreline has no branch 'carotid'; it has trunk, branch");
   rule.branches = {"branch"};
   EXPECT_NE(fault(rule, false).find("no region holds the outer wall near ("), std::string::npos) << fault(rule, false);
   rule.box = InBox{{5, 5, 5}, {6, 6, 6}};

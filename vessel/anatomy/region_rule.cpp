@@ -25,11 +25,15 @@ void require_none_left(const Polygons& left, const Triangle& triangle, const Poi
     if (const auto hole = triangulated(polygon, triangle); !hole.empty()) {
       const Vec3 at = points(Eigen::all, triangle) * hole.front().corners.rowwise().mean();
       throw input_error(
-          "mesh.files.regions: no region holds the outer wall near ({:.4g}, {:.4g}, {:.4g}): end the list with a "
+          "regions: no region holds the outer wall near ({:.4g}, {:.4g}, {:.4g}): end the list with a "
           "region "
           "without limits",
           at[0], at[1], at[2]);
     }
+}
+
+std::string named(const RegionRule& rule) {
+  return rule.where.empty() ? "regions." + rule.name : rule.where;
 }
 
 /// The work, whose error is said of the rule.
@@ -37,7 +41,7 @@ auto said_of(const RegionRule& rule, auto work) {
   try {
     return work();
   } catch (const InputError& error) {
-    throw input_error("mesh.files.regions.{}: {}", rule.name, error.what());
+    throw input_error("{}: {}", named(rule), error.what());
   }
 }
 
@@ -135,12 +139,13 @@ std::vector<Patch> divide_by_rules(const Points& points, const std::vector<Trian
   SharedPatches shared(names);
   for (std::size_t t = 0; t < triangles.size(); ++t) shared.add(triangles[t], shares[t]);
   std::vector<Patch> patches = shared.finished();
-  for (const Patch& patch : patches)
-    if (patch.triangles.empty())
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (patches[i].triangles.empty())
       throw input_error(
-          "mesh.files.regions.{}: holds no triangle of the outer wall: its limits are too narrow for this mesh, or an "
-          "earlier region takes all of it",
-          patch.name);
+          "{}: holds no triangle of the outer wall: its limits are too narrow for this mesh, or an earlier region "
+          "takes "
+          "all of it",
+          named(rules[i]));
   return patches;
 }
 

@@ -42,6 +42,7 @@ struct InBox {
 /// A region of a surface: all that is given must hold. Of geometry alone, so that any mesh of the surface has it.
 struct RegionRule {
   std::string name;
+  std::string where = {};             ///< that a user states it, for messages: "case.yaml:9: mesh.files.regions.spine"
   std::vector<std::string> branches;  ///< any of these; none: all
   std::optional<AlongBranch> along;
   std::optional<AngleAbout> angle;

@@ -126,8 +126,9 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
   model.growth = grow_wall(model.mesh.fluid, extrusion_of(study.wall, anatomy));
   WallMesh& wall = model.mesh.wall = std::move(model.growth.wall);
   if (!study.regions.empty())
-    wall.outside = divide_by_rules(wall.points, wall.outside.front().triangles,
-                                   rules_of(study.regions, &anatomy, units), &anatomy);
+    wall.outside = divide_by_rules(
+        wall.points, wall.outside.front().triangles,
+        rules_of(study.regions, &anatomy, units, [](const std::string& name) { return "regions." + name; }), &anatomy);
   check(model.mesh, units);
   model.quality = quality_of(model, units);
   return model;
