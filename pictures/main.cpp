@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   app.add_option("--title", scene.title, "text above the colours");
   app.add_option("--factor", scene.factor, "multiplies the field");
   app.add_option("--range", range, "smallest and largest value of the colours")->expected(2);
+  app.add_option("--names", scene.names, "of the values 0, 1, 2 ... of the field");
   app.add_flag("--diverging", scene.diverging, "colours around zero");
   app.add_option("--warp", scene.warp, "field of points that displaces the mesh");
   app.add_option("--warp-scale", scene.warp_scale, "exaggeration of the displacement");

@@ -19,6 +19,7 @@
 #include <vtkScalarBarActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 #include <vtkWarpVector.h>
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLPolyDataReader.h>
@@ -169,15 +170,23 @@ void add_scale(vtkRenderer* renderer, vtkColorTransferFunction* table, const Sce
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.3g");
   bar->SetUnconstrainedFontSize(true);
-  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
+  for (vtkTextProperty* text :
+       {bar->GetTitleTextProperty(), bar->GetLabelTextProperty(), bar->GetAnnotationTextProperty()}) {
     text->SetColor(0, 0, 0);
     text->SetFontSize(scene.width / 75);
     text->ItalicOff();
     text->BoldOff();
     text->ShadowOff();
   }
+  if (!scene.names.empty()) {
+    for (std::size_t i = 0; i < scene.names.size(); ++i)
+      table->SetAnnotation(vtkVariant(static_cast<double>(i)), scene.names[i]);
+    bar->DrawAnnotationsOn();
+    bar->DrawTickLabelsOff();
+    bar->SetTextPositionToPrecedeScalarBar();  // annotations stand on the other side
+  }
   bar->SetPosition(0.05, 0.15);
-  bar->SetWidth(0.9);
+  bar->SetWidth(scene.names.empty() ? 0.9 : 0.35);  // names stand beside it
   bar->SetHeight(0.7);
   renderer->AddActor2D(bar);
 }

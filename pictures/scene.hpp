@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tether {
 
@@ -14,8 +15,9 @@ struct Scene {
   std::string title;                               ///< above the colours, unit included
   double factor = 1;                               ///< from the file's unit to the title's
   std::optional<std::pair<double, double>> range;  ///< of the colours, in the title's unit; absent: that of the field
-  bool diverging = false;  ///< blue, white, red around the range's middle; else from dark to bright
-  std::string warp;        ///< field of points by which the mesh is displaced; empty: not
+  bool diverging = false;          ///< blue, white, red around the range's middle; else from dark to bright
+  std::vector<std::string> names;  ///< of the values 0, 1, 2 ... of a field that numbers things; none: numbers
+  std::string warp;                ///< field of points by which the mesh is displaced; empty: not
   double warp_scale = 1;
   bool cut = false;             ///< show the inside: the half that faces the viewer is taken away
   std::filesystem::path lines;  ///< .vtp with polylines drawn over it (measured contours); empty: none

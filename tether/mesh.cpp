@@ -5,9 +5,12 @@
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/vtu_writer.hpp"
+#include "pictures/pictures.hpp"
 #include "tether/verbs.hpp"
 #include "vessel/check.hpp"
+#include "vessel/coordinates.hpp"
 #include "vessel/mesh_case.hpp"
+#include "vessel/vessel_files.hpp"
 
 namespace tether {
 namespace {
@@ -49,12 +52,43 @@ Faces faces_of(const WallMesh& wall) {
   return faces;
 }
 
-VesselMesh mesh_of(const CommandLine& command, CaseFile& file) {
+/// The regions of the outer wall exactly, their borders cutting triangles: each part by itself.
+void write_regions(const std::filesystem::path& path, const WallMesh& wall) {
+  std::vector<Vec3> corners;
+  std::vector<double> numbers;
+  for (std::size_t region = 0; region < wall.outside.size(); ++region)
+    for (const TrianglePart& part : parts_of(wall.outside[region])) {
+      const Mat3 places = wall.points(Eigen::all, part.of) * part.corners;
+      for (Eigen::Index i = 0; i < 3; ++i) corners.emplace_back(places.col(i));
+      numbers.push_back(static_cast<double>(region));
+    }
+  Points points(3, static_cast<Eigen::Index>(corners.size()));
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < corners.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = corners[i];
+  for (int i = 0; i < static_cast<int>(corners.size()); i += 3) triangles.push_back({i, i + 1, i + 2});
+  write_vtu(path, points, {.triangles = triangles}, {}, {{"region", 1, numbers}});
+}
+
+std::string regions_legend(const WallMesh& wall) {
+  std::string text;
+  for (std::size_t i = 0; i < wall.outside.size(); ++i)
+    text += fmt::format("{}{} {}", i ? ", " : "", i, wall.outside[i].name);
+  return text;
+}
+
+/// Whether a picture of the regions could be drawn.
+bool draw_regions(const std::filesystem::path& folder, const WallMesh& wall) {
+  std::vector<std::string> options{"--field", "region", "--title", "region", "--names"};
+  for (const Patch& region : wall.outside) options.push_back(region.name);
+  return has_display_server() && draw_picture(folder / "regions.vtu", folder / "regions.png", options);
+}
+
+ReadVessel mesh_of(const CommandLine& command, CaseFile& file) {
   MeshCase mesh;
   file.read("mesh", mesh);
   file.finish();
   if (!command.quiet) std::cout << file.common().name << ": " << file.common().title << std::endl;
-  return load_mesh(mesh, file, file.given("solid.element") == "p1" ? WallElement::p1 : WallElement::prism);
+  return load_mesh_and_growth(mesh, file, file.given("solid.element") == "p1" ? WallElement::p1 : WallElement::prism);
 }
 
 std::string report_text(const VesselMesh& vessel, const UnitSystem& units) {
@@ -76,11 +110,33 @@ std::string areas_text(const WallMesh& wall, const UnitSystem& units) {
   return "  outer wall [cm2]: " + text + "\n";
 }
 
+constexpr double flat = 0.05;  ///< radius ratio below which a solution suffers
+constexpr double thinner = 0.95;
+
+/// What a person should look at.
+std::string warnings_text(const ReadVessel& read) {
+  std::string text;
+  const FluidMesh& fluid = read.mesh.fluid;
+  if (const Quality blood = report(read.mesh).fluid; blood.min_radius_ratio < flat) {
+    const Vec3 at = fluid.points.col(fluid.tetrahedra[static_cast<std::size_t>(blood.worst)][0]);
+    text += fmt::format("  warning: a tetrahedron of the blood near {} is nearly flat: radius ratio {:.2g}\n",
+                        coordinates(at), blood.min_radius_ratio);
+  }
+  if (!read.growth) return text;
+  Eigen::Index at = 0;
+  const double share = read.growth->thickness.cwiseQuotient(read.growth->asked).minCoeff(&at);
+  if (share < thinner)
+    text += fmt::format("  warning: the wall near {} is {:.0f} % as thick as asked: it has no room for more there\n",
+                        coordinates(read.mesh.wall.points.col(at)), 100 * share);
+  return text;
+}
+
 }  // namespace
 
 int write_meshes(const CommandLine& command) {
   CaseFile file(command.case_file);
-  const VesselMesh vessel = mesh_of(command, file);
+  const ReadVessel read = mesh_of(command, file);
+  const VesselMesh& vessel = read.mesh;
   const auto folder = claim_and_mark_output(command, file) / "mesh";
   std::filesystem::create_directories(folder);
   const Faces fluid_faces = faces_of(vessel.fluid), wall_faces = faces_of(vessel.wall);
@@ -88,12 +144,16 @@ int write_meshes(const CommandLine& command) {
   write_vtu(folder / "wall.vtu", vessel.wall.points, cells_of(vessel.wall), {});
   fluid_faces.write(folder / "fluid_faces.vtu", vessel.fluid.points);
   wall_faces.write(folder / "wall_faces.vtu", vessel.wall.points);
+  write_regions(folder / "regions.vtu", vessel.wall);
+  const bool drawn = draw_regions(folder, vessel.wall);
   if (command.quiet) return exit_done;
-  std::cout << report_text(vessel, file.units()) << areas_text(vessel.wall, file.units()) << "In " << folder.string()
-            << ", for ParaView:\n"
+  std::cout << report_text(vessel, file.units()) << areas_text(vessel.wall, file.units()) << warnings_text(read)
+            << "In " << folder.string() << ", for ParaView:\n"
             << "  fluid.vtu, wall.vtu\n"
             << "  fluid_faces.vtu   colour by face: " << fluid_faces.legend() << "\n"
-            << "  wall_faces.vtu    colour by face: " << wall_faces.legend() << "\n";
+            << "  wall_faces.vtu    colour by face: " << wall_faces.legend() << "\n"
+            << "  regions.vtu       colour by region: " << regions_legend(vessel.wall) << "\n"
+            << (drawn ? "  regions.png       the same as a picture\n" : "");
   return exit_done;
 }
 

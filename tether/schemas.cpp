@@ -16,6 +16,7 @@
 #include "solid/results/effects_list.hpp"
 #include "study/surface_summary.hpp"
 #include "twin/score.hpp"
+#include "vessel/model/model_quality.hpp"
 
 namespace tether {
 namespace {
@@ -42,6 +43,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"effects.json", schema<EffectsList>},
       {"noise.json", schema<NoiseMeasurements>},
       {"surface.json", schema<SurfaceSummary>},
+      {"quality.json", schema<ModelQuality>},
   };
   return all;
 }

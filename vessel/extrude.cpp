@@ -6,6 +6,8 @@
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
 #include "common/mesh/topology.hpp"
+#include "vessel/coordinates.hpp"
+#include "vessel/growth/outer_surface.hpp"
 
 namespace tether {
 
@@ -47,7 +49,9 @@ std::vector<Rim> named_rims(const FluidMesh& fluid, const InterfaceSurface& surf
           if (std::find(t.begin(), t.end(), node) != t.end()) name = patch.name + "_ring";
     if (name.empty())
       throw input_error(
-          "mesh: the interface has an open edge at fluid node {} that is not the rim of an inlet or outlet", node);
+          "mesh: the interface has an open edge at {} (fluid node {}) that is not the rim of an inlet or outlet: name "
+          "the opening there among them",
+          coordinates(fluid.points.col(node)), node);
     named.push_back({std::move(name), std::move(loop)});
   }
   return named;
@@ -104,39 +108,82 @@ Patch ring_patch(const Rim& rim, int layers, int nodes) {
   return ring;
 }
 
-void require_unfolded(const WallMesh& wall) {
-  for (const Tetrahedron& part : split_into_tetrahedra(wall.prisms))
-    if (const Vec3 at = wall.points.col(part[0]); !(signed_volume(wall.points, part) > 0))
-      throw input_error(
-          "mesh.wall_thickness: the wall folds over itself near ({:.4g}, {:.4g}, {:.4g}): it is too thick for the "
-          "lumen's "
-          "curvature there, or the surface is too rough",
-          at[0], at[1], at[2]);
+/// Normals of the planes in which rim nodes must stay; zero elsewhere.
+Points rim_planes(const InterfaceSurface& surface, const std::vector<Rim>& rims) {
+  Points planes = Points::Zero(3, surface.points.cols());
+  for (const Rim& rim : rims) {
+    const Vec3 normal = plane_of_loop(surface.points(Eigen::all, rim.nodes)).normal;
+    for (const int node : rim.nodes) planes.col(node) = normal;
+  }
+  return planes;
+}
+
+VectorXd asked_thickness(const InterfaceSurface& surface, const ExtrusionSettings& settings) {
+  const VectorXd asked = settings.varying ? settings.varying(surface.points)
+                                          : VectorXd::Constant(surface.points.cols(), settings.thickness);
+  if (asked.size() > 0 && !(asked.minCoeff() > 0))
+    throw input_error("{}: {}: must be positive", settings.field, asked.minCoeff());
+  return asked;
+}
+
+void require_thick(const OuterSurface& outer, const InterfaceSurface& surface, const ExtrusionSettings& settings) {
+  Eigen::Index at = 0;
+  const double share = outer.aim.cwiseQuotient(outer.asked).minCoeff(&at);
+  if (share < settings.least_share * (1 - 1e-9))
+    throw input_error(
+        "{}: the wall has room for {:.3g} of {:.3g} only near {} without folding over itself or meeting itself: ask "
+        "for "
+        "less there (a branch may have a thickness of its own), allow it to be thinner (least_share), smooth the "
+        "lumen's "
+        "surface, or give it shorter edges there",
+        settings.field, outer.aim[at], outer.asked[at], coordinates(surface.points.col(at)));
+}
+
+OuterSurface outer_surface(const InterfaceSurface& surface, const Points& directions, const std::vector<Rim>& rims,
+                           const ExtrusionSettings& settings) {
+  const GrowthBase base{surface.points, surface.triangles, directions, rim_planes(surface, rims), settings.layers};
+  const VectorXd asked = asked_thickness(surface, settings);
+  try {
+    return grow_outer_surface(base, asked);
+  } catch (const InputError& error) {
+    throw input_error("{}: {}", settings.field, error.what());
+  }
 }
 
 }  // namespace
 
-WallMesh extrude_wall(const FluidMesh& fluid, const ExtrusionSettings& settings) {
-  if (!(settings.thickness > 0)) throw input_error("mesh.wall_thickness: {}: must be positive", settings.thickness);
+GrownWall grow_wall(const FluidMesh& fluid, const ExtrusionSettings& settings) {
   if (settings.layers < 1) throw input_error("mesh.layers: {}: must be at least 1", settings.layers);
   const InterfaceSurface surface = interface_surface(fluid);
   const std::vector<Rim> rims = named_rims(fluid, surface);
   const Points directions = growth_directions(surface, rims, settings.smoothing);
+  const OuterSurface outer = outer_surface(surface, directions, rims, settings);
+  require_thick(outer, surface, settings);
 
-  WallMesh wall;
+  GrownWall grown{
+      {}, outer.asked, outer.thickness, static_cast<int>(std::count(outer.moved.begin(), outer.moved.end(), 1))};
+  WallMesh& wall = grown.wall;
   const int nodes = wall.interface_nodes = static_cast<int>(surface.points.cols());
   wall.points.resize(3, nodes * (settings.layers + 1));
+  const auto way_up = [&](int node, int layer) -> Vec3 {
+    if (outer.moved[static_cast<std::size_t>(node)])
+      return double(layer) / settings.layers * (outer.points.col(node) - surface.points.col(node));
+    return outer.asked[node] * layer / settings.layers * directions.col(node);
+  };
   for (int layer = 0; layer <= settings.layers; ++layer)
-    wall.points.middleCols(layer * nodes, nodes) =
-        surface.points + settings.thickness * layer / settings.layers * directions;
+    for (int node = 0; node < nodes; ++node)
+      wall.points.col(layer * nodes + node) = surface.points.col(node) + way_up(node, layer);
   wall.prisms = stacked_prisms(surface.triangles, settings.layers, nodes);
   wall.interface = surface.triangles;
   wall.outside.push_back({"wall", {}});
   for (const Triangle& t : surface.triangles)
     wall.outside.front().triangles.push_back(shifted(t, settings.layers * nodes));
   for (const Rim& rim : rims) wall.rings.push_back(ring_patch(rim, settings.layers, nodes));
-  require_unfolded(wall);
-  return wall;
+  return grown;
+}
+
+WallMesh extrude_wall(const FluidMesh& fluid, const ExtrusionSettings& settings) {
+  return grow_wall(fluid, settings).wall;
 }
 
 }  // namespace tether

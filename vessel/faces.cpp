@@ -67,10 +67,10 @@ std::vector<Triangle> FaceFinder::find(const FaceSource& source, double scale) c
 }
 
 std::vector<Triangle> FaceFinder::found(const FaceSource& source, double scale) const {
-  if (source.file.empty()) return on_boundary(labelled(volume_, source.label), volume_.name);
+  if (source.file.empty()) return on_boundary(labelled(volume_, source), volume_.name);
   MeshFile surface = read_mesh_file(source.file);
   surface.points *= scale;
-  std::vector<Triangle> triangles = source.label.empty() ? surface.triangles : labelled(surface, source.label);
+  std::vector<Triangle> triangles = source.label.empty() ? surface.triangles : labelled(surface, source);
   if (triangles.empty()) throw input_error("{}: holds no triangle", surface.name);
   const std::vector<int> nodes = matched_nodes(surface);
   for (Triangle& t : triangles)
@@ -110,13 +110,14 @@ std::vector<Triangle> FaceFinder::on_boundary(const std::vector<Triangle>& trian
   return found;
 }
 
-std::vector<Triangle> FaceFinder::labelled(const MeshFile& mesh, const std::string& label) const {
+std::vector<Triangle> FaceFinder::labelled(const MeshFile& mesh, const FaceSource& source) const {
+  const std::string& array = source.label_array.empty() ? label_array_ : source.label_array;
   const bool gmsh = mesh.triangle_labels.contains("physical");
-  const auto labels = mesh.triangle_labels.find(gmsh ? "physical" : label_array_);
+  const auto labels = mesh.triangle_labels.find(gmsh ? "physical" : array);
   if (labels == mesh.triangle_labels.end())
-    throw input_error("{}: has no array \"{}\" on triangles; arrays in the file: {}", mesh.name, label_array_,
+    throw input_error("{}: has no array \"{}\" on triangles; arrays in the file: {}", mesh.name, array,
                       listed_names(mesh.triangle_labels));
-  const std::int64_t number = label_number(mesh, label);
+  const std::int64_t number = label_number(mesh, source.label);
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (labels->second[i] == number) triangles.push_back(mesh.triangles[i]);

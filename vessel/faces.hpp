@@ -26,7 +26,7 @@ class FaceFinder {
   std::vector<Triangle> found(const FaceSource& source, double scale) const;
   std::vector<int> matched_nodes(const MeshFile& surface) const;
   std::vector<Triangle> on_boundary(const std::vector<Triangle>& triangles, const std::string& from) const;
-  std::vector<Triangle> labelled(const MeshFile& mesh, const std::string& label) const;
+  std::vector<Triangle> labelled(const MeshFile& mesh, const FaceSource& source) const;
 
   const MeshFile& volume_;
   const std::string& label_array_;

@@ -2,8 +2,10 @@
 
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
+#include "vessel/anatomy/centreline_file.hpp"
 #include "vessel/check.hpp"
 #include "vessel/contours.hpp"
+#include "vessel/growth/thickness.hpp"
 #include "vessel/mesh_case.hpp"
 #include "vessel/sweep.hpp"
 #include "vessel/vessel_files.hpp"
@@ -25,6 +27,9 @@ std::vector<Points> contours_of(const ContoursCase& given, const UnitSystem& uni
   return contours;
 }
 
+/// Where a field of the case stands, for messages; "" if nobody knows.
+using Where = std::function<std::string(const std::string& field)>;
+
 VesselMesh swept(const SweptCase& given, const UnitSystem& units) {
   SweepSettings settings;
   if (given.contours) {
@@ -43,18 +48,37 @@ VesselMesh swept(const SweptCase& given, const UnitSystem& units) {
   return sweep(settings);
 }
 
-void set_grown_wall(VesselFiles& files, const std::optional<GrownWallCase>& given) {
+Thickness thickness_of(const ThicknessCase& given) {
+  return {given.thickness, given.fraction_of_radius};
+}
+
+/// Where the field stands if that is known, else its name.
+std::string named(const Where& where, const std::string& field) {
+  const std::string line = where(field);
+  return line.empty() ? field : line;
+}
+
+void set_grown_wall(VesselFiles& files, const std::optional<GrownWallCase>& given, const std::string& section,
+                    const Where& where) {
   if (!given) return;
-  files.extrusion = {given->thickness, given->layers, given->smoothing};
+  files.extrusion = {given->thickness.thickness.value_or(0), given->layers, given->smoothing};
+  files.extrusion.least_share = given->least_share;
+  const bool by_radius = given->thickness.fraction_of_radius.has_value();
+  files.extrusion.field = named(where, section + (by_radius ? ".fraction_of_radius" : ".thickness"));
+  if (files.anatomy && (by_radius || !given->branches.empty())) {
+    TreeThickness tree{thickness_of(given->thickness), {}, given->blend};
+    for (const auto& [name, own] : given->branches) tree.branches.emplace_back(name, thickness_of(own));
+    files.extrusion.varying = [tree, anatomy = files.anatomy](const Points& places) {
+      return thickness_at(places, tree, *anatomy);
+    };
+  }
   files.regions = regions_of(given->regions);
+  files.regions_field = named(where, section + ".regions");
   files.angle_origin = given->angle_origin;
 }
 
-/// Where a field of the case stands, for messages; "" if nobody knows.
-using Where = std::function<std::string(const std::string& field)>;
-
 FaceSource source_of(const FaceCase& face, const std::string& where) {
-  return {face.file, face.label, where};
+  return {face.file, face.label, face.label_array, where};
 }
 
 NamedFaces sources_of(const Named<FaceCase>& faces, const std::string& field, const Where& where) {
@@ -63,8 +87,12 @@ NamedFaces sources_of(const Named<FaceCase>& faces, const std::string& field, co
   return sources;
 }
 
-VesselFiles files_of(const FilesCase& given, const Where& where) {
+VesselFiles files_of(const FilesCase& given, const Where& where, const UnitSystem& units) {
   VesselFiles files;
+  if (!given.centreline.empty())
+    files.anatomy = std::make_shared<const Anatomy>(read_centreline(given.centreline, units));
+  files.rules = rules_of(given.regions, files.anatomy.get(), units,
+                         [&](const std::string& name) { return named(where, "mesh.files.regions." + name); });
   files.fluid = given.fluid;
   files.wall = given.wall;
   files.interface = source_of(given.interface, where("mesh.files.interface"));
@@ -75,14 +103,14 @@ VesselFiles files_of(const FilesCase& given, const Where& where) {
   files.rings = sources_of(given.rings, "mesh.files.rings", where);
   files.label_array = given.label_array;
   files.scale = given.scale;
-  set_grown_wall(files, given.grown_wall);
+  set_grown_wall(files, given.grown_wall, "mesh.files.grown_wall", where);
   return files;
 }
 
 /// The surface of this name in a SimVascular folder. Throws InputError naming those that exist.
 FaceSource surface_in(const std::filesystem::path& folder, const std::string& face, const std::string& where) {
   const std::filesystem::path surfaces = folder / "mesh-surfaces", file = surfaces / (face + ".vtp");
-  if (std::filesystem::exists(file)) return {file, {}, where};
+  if (std::filesystem::exists(file)) return {file, {}, {}, where};
   std::string known;
   if (std::filesystem::is_directory(surfaces))
     for (const auto& entry : std::filesystem::directory_iterator(surfaces)) known += " " + entry.path().stem().string();
@@ -111,32 +139,36 @@ VesselFiles files_of(const MeshCompleteCase& given, const Where& where) {
     files.rings = surfaces_in(given.wall, given.rings, "mesh.mesh_complete.rings", where);
   }
   files.scale = given.scale;
-  set_grown_wall(files, given.grown_wall);
+  set_grown_wall(files, given.grown_wall, "mesh.mesh_complete.grown_wall", where);
   return files;
 }
 
-VesselMesh from_source(const MeshCase& mesh, const UnitSystem& units, WallElement element, const Where& where) {
-  if (mesh.source == "swept") return swept(mesh.swept, units);
-  VesselFiles files = mesh.source == "files" ? files_of(mesh.files, where) : files_of(mesh.mesh_complete, where);
+ReadVessel from_source(const MeshCase& mesh, const UnitSystem& units, WallElement element, const Where& where) {
+  if (mesh.source == "swept") return {swept(mesh.swept, units), {}};
+  VesselFiles files = mesh.source == "files" ? files_of(mesh.files, where, units) : files_of(mesh.mesh_complete, where);
   files.prisms = element == WallElement::prism;
-  return read_vessel(files);
+  return read_vessel_and_growth(files);
 }
 
-VesselMesh checked_mesh(const MeshCase& mesh, const UnitSystem& units, WallElement element, const Where& where) {
-  VesselMesh vessel = from_source(mesh, units, element, where);
-  if (element == WallElement::p1) use_tetrahedra(vessel.wall);
-  check(vessel, units);
+ReadVessel checked_mesh(const MeshCase& mesh, const UnitSystem& units, WallElement element, const Where& where) {
+  ReadVessel vessel = from_source(mesh, units, element, where);
+  if (element == WallElement::p1) use_tetrahedra(vessel.mesh.wall);
+  check(vessel.mesh, units);
   return vessel;
 }
 
 }  // namespace
 
-VesselMesh load_mesh(const MeshCase& mesh, const CaseFile& file, WallElement element) {
+ReadVessel load_mesh_and_growth(const MeshCase& mesh, const CaseFile& file, WallElement element) {
   return checked_mesh(mesh, file.units(), element, [&file](const std::string& field) { return file.where(field); });
 }
 
+VesselMesh load_mesh(const MeshCase& mesh, const CaseFile& file, WallElement element) {
+  return load_mesh_and_growth(mesh, file, element).mesh;
+}
+
 VesselMesh load_mesh(const MeshCase& mesh, const UnitSystem& units, WallElement element) {
-  return checked_mesh(mesh, units, element, [](const std::string&) { return ""; });
+  return checked_mesh(mesh, units, element, [](const std::string&) { return ""; }).mesh;
 }
 
 }  // namespace tether

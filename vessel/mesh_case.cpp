@@ -61,10 +61,24 @@ void FaceCase::declare(Fields& f) {
          "surface file (.vtp, .vtk, .stl, .msh) whose nodes are the volume's; absent: the volume's own file");
   f.text("label", label,
          "triangles with this value of label_array, or of this Gmsh physical surface; absent: all of the file");
+  f.text("label_array", label_array, "of this face; default: that of all");
+}
+
+void ThicknessCase::declare(Fields& f) {
+  f.number("thickness", thickness, dimension::length, range::positive, "of the imaged wall");
+  f.number("fraction_of_radius", fraction_of_radius, dimension::none, {0, 1, true, false},
+           "thickness over the lumen's radius there, which the centreline tells, instead");
+  f.check(thickness.has_value() != fraction_of_radius.has_value(), "thickness",
+          "give either thickness or fraction_of_radius");
 }
 
 void GrownWallCase::declare(Fields& f) {
-  f.number("thickness", thickness, dimension::length, range::positive, "of the imaged wall");
+  thickness.declare(f);
+  f.groups("branches", branches, "branches of the centreline whose wall is of another thickness, by name");
+  f.number("blend", blend, dimension::length, range::positive,
+           "way over which the thickness changes about a junction; default: the branch's radius where it begins");
+  f.number("least_share", least_share, dimension::none, {0.3, 1},
+           "of the thickness: how thin the wall may be where it has no room for more, in the crotch of branches");
   f.integer("layers", layers, {1, 50}, "of prisms");
   f.integer("smoothing", smoothing, {0, 100},
             "times that normals are averaged with their neighbours', for rough surfaces");
@@ -75,6 +89,10 @@ namespace {
 
 constexpr std::string_view grown_wall_meaning =
     "a wall extruded from the interface, where no mesh of the wall is given";
+
+bool needs_centreline(const GrownWallCase& wall) {
+  return wall.thickness.fraction_of_radius || !wall.branches.empty();
+}
 
 /// Either a mesh of the wall with its faces, or one to be grown.
 void check_wall(Fields& f, bool mesh, bool grown) {
@@ -93,11 +111,26 @@ void FilesCase::declare(Fields& f) {
   f.groups("outside", outside, "regions of the outer wall, by name");
   f.groups("rings", rings, "end faces of the wall, by name");
   f.group("grown_wall", grown_wall, grown_wall_meaning);
-  f.text("label_array", label_array, "cell array that labels refer to, in VTK files");
+  f.path(
+      "centreline", centreline,
+      "CSV file with the columns branch, parent, x [mm], y [mm], z [mm], radius [mm]; the trunk first; its points are "
+      "not scaled");
+  f.groups("regions", regions,
+           "of the outer wall by geometry, by name: the first that contains a place takes it; none: `outside`, or one "
+           "region \"wall\"");
+  f.text("label_array", label_array, "cell array that labels refer to, in VTK files, unless a face says another");
   f.number("scale", scale, dimension::none, range::positive,
            "multiplies all coordinates: 0.1 for files in mm and a case in cm");
   f.check(interface.given(), "interface", "give a file, a label, or both");
   f.check(wall.empty() || wall_interface.given(), "wall_interface", "give a file, a label, or both");
+  f.check(!grown_wall || outside.empty(), "outside", "is of a wall that is read; a grown one is divided by `regions`");
+  f.check(!grown_wall || rings.empty(), "rings",
+          "are of a wall that is read; those of a grown one are named after their openings: inlet_ring");
+  f.check(!grown_wall || !wall_interface.given(), "wall_interface", "is of a wall that is read, not of a grown one");
+  f.check(!grown_wall || grown_wall->regions.empty() || regions.empty(), "regions",
+          "give either these or grown_wall.regions");
+  f.check(!grown_wall || !needs_centreline(*grown_wall) || !centreline.empty(), "centreline",
+          "is needed for a thickness by branch or radius");
   check_wall(f, !wall.empty(), grown_wall.has_value());
 }
 
@@ -118,6 +151,8 @@ void MeshCompleteCase::declare(Fields& f) {
   f.number("scale", scale, dimension::none, range::positive,
            "multiplies all coordinates: 0.1 for files in mm and a case in cm");
   f.check(wall.empty() || !wall_interface.empty(), "wall_interface", "must be given with wall");
+  f.check(!grown_wall || !needs_centreline(*grown_wall), "grown_wall",
+          "a thickness by branch or radius needs source: files, with a centreline");
   check_wall(f, !wall.empty(), grown_wall.has_value());
 }
 

@@ -3,6 +3,7 @@
 #include "common/base/units.hpp"
 #include "common/config/fields.hpp"
 #include "common/mesh/mesh.hpp"
+#include "vessel/region_case.hpp"
 
 /// The section `mesh` of a case.
 namespace tether {
@@ -42,14 +43,23 @@ struct SweptCase {
 /// Where a face of a mesh is found.
 struct FaceCase {
   std::filesystem::path file;
-  std::string label;
+  std::string label, label_array;
   bool given() const { return !file.empty() || !label.empty(); }
+  void declare(Fields& f);
+};
+
+/// How thick a wall is to be.
+struct ThicknessCase {
+  std::optional<double> thickness, fraction_of_radius;
   void declare(Fields& f);
 };
 
 /// A wall grown on the lumen where no mesh of it is given.
 struct GrownWallCase {
-  double thickness = undefined;
+  ThicknessCase thickness;
+  Named<ThicknessCase> branches;
+  std::optional<double> blend;
+  double least_share = 1;
   int layers = 2, smoothing = 0;
   Named<RegionCase> regions;
   Vec3 angle_origin{1, 0, 0};
@@ -62,6 +72,8 @@ struct FilesCase {
   FaceCase interface, wall_interface;
   Named<FaceCase> inlets, outlets, outside, rings;
   std::optional<GrownWallCase> grown_wall;
+  std::filesystem::path centreline;
+  Named<GeometricRegionCase> regions;
   std::string label_array = "ModelFaceID";
   double scale = 1;
   void declare(Fields& f);
@@ -96,6 +108,9 @@ enum class WallElement { prism, p1 };
 /// Generates or reads the vessel, in the case's units, and checks it. Throws InputError, with the case's line where a
 /// face that it names is wrong.
 VesselMesh load_mesh(const MeshCase& mesh, const CaseFile& file, WallElement element);
+/// The same, and how the wall was grown where it was.
+struct ReadVessel;
+ReadVessel load_mesh_and_growth(const MeshCase& mesh, const CaseFile& file, WallElement element);
 /// Of a section that stands in no file.
 VesselMesh load_mesh(const MeshCase& mesh, const UnitSystem& units, WallElement element);
 

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
+#include "vessel/coordinates.hpp"
 #include "vessel/faces.hpp"
 #include "vessel/polar_curve.hpp"
 #include "vessel/recombine.hpp"
@@ -134,26 +136,69 @@ WallPlace place_about_line(const Vec3& x, const Frame& frame, double length) {
   return {degrees < 0 ? degrees + 360 : degrees, std::clamp(arm.dot(frame.normal) / length, 0.0, 1.0)};
 }
 
-WallMesh grown_wall(const VesselFiles& files, const FluidMesh& fluid) {
-  WallMesh wall = extrude_wall(fluid, files.extrusion);
+/// A straight line tells angles only in a tube about it: an arch, or a vessel with branches, would get wrong regions.
+void require_tube(const FluidMesh& fluid, const Frame& frame, double length, const std::string& field) {
+  if (fluid.inlets.size() != 1 || fluid.outlets.size() != 1)
+    throw input_error(
+        "{}: angles and positions about the line from inlet to outlet mean nothing in a "
+        "vessel with {} inlets and {} outlets: use mesh.files.regions",
+        field, fluid.inlets.size(), fluid.outlets.size());
+  constexpr int slices = 10;
+  std::array<Vec3, slices> sums;
+  sums.fill(Vec3::Zero());
+  std::array<double, slices> weights{};
+  for (const Triangle& t : fluid.interface) {
+    const Vec3 arm = centroid(fluid.points, {t}) - frame.centre;
+    const auto slice = static_cast<std::size_t>(std::clamp(arm.dot(frame.normal) / length, 0.0, 0.999) * slices);
+    const double area = area_vector(fluid.points, t).norm();
+    sums[slice] += area * (arm - frame.normal * frame.normal.dot(arm)), weights[slice] += area;
+  }
+  const double radius = 0.5 * std::sqrt(4 / std::numbers::pi * total_area(fluid.points, fluid.inlets[0].triangles));
+  for (std::size_t slice = 0; slice < slices; ++slice)
+    if (weights[slice] > 0 && sums[slice].norm() / weights[slice] > 0.5 * radius)
+      throw input_error(
+          "{}: angles are about the straight line from inlet to outlet, but the vessel's "
+          "axis is {:.3g} away from it near {}: use mesh.files.regions with a centreline",
+          field, sums[slice].norm() / weights[slice],
+          coordinates(frame.centre + frame.normal * length * (double(slice) + 0.5) / slices));
+}
+
+WallMesh grown_wall(const VesselFiles& files, const FluidMesh& fluid, std::optional<GrownWall>& growth) {
+  growth = grow_wall(fluid, files.extrusion);
+  WallMesh wall = std::move(growth->wall);
   if (files.regions.empty()) return wall;
   const Vec3 start = centroid(fluid.points, fluid.inlets.at(0).triangles),
              end = centroid(fluid.points, fluid.outlets.at(0).triangles);
   const Frame frame = make_frame(start, end - start, files.angle_origin);
+  require_tube(fluid, frame, (end - start).norm(), files.regions_field);
   wall.outside = divide_by_regions(wall.outside.front().triangles, files.regions, [&](int node) {
     return place_about_line(wall.points.col(node), frame, (end - start).norm());
   });
   return wall;
 }
 
+std::vector<Triangle> all_triangles(const std::vector<Patch>& patches) {
+  std::vector<Triangle> all;
+  for (const Patch& patch : patches) all.insert(all.end(), patch.triangles.begin(), patch.triangles.end());
+  return all;
+}
+
 }  // namespace
 
-VesselMesh read_vessel(const VesselFiles& files) {
-  VesselMesh vessel;
+ReadVessel read_vessel_and_growth(const VesselFiles& files) {
+  ReadVessel read;
+  VesselMesh& vessel = read.mesh;
   vessel.fluid = read_fluid(files);
-  vessel.wall = files.wall.empty() ? grown_wall(files, vessel.fluid) : read_wall(files, vessel.fluid);
+  vessel.wall = files.wall.empty() ? grown_wall(files, vessel.fluid, read.growth) : read_wall(files, vessel.fluid);
+  if (!files.rules.empty())
+    vessel.wall.outside =
+        divide_by_rules(vessel.wall.points, all_triangles(vessel.wall.outside), files.rules, files.anatomy.get());
   if (!files.prisms) use_tetrahedra(vessel.wall);
-  return vessel;
+  return read;
+}
+
+VesselMesh read_vessel(const VesselFiles& files) {
+  return read_vessel_and_growth(files).mesh;
 }
 
 }  // namespace tether

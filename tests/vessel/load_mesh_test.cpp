@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
+#include "common/io/vtu_writer.hpp"
 #include "common/mesh/surface.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "vessel/check.hpp"
@@ -111,6 +112,90 @@ TEST(MeshCase, FilesWithAGrownWall) {
       load(peer_case("    grown_wall: {thickness: 0.2, layers: 3, regions: {spine: {angle: [150, 210]}, rest: {}}}\n"));
   EXPECT_EQ(tube.wall.prisms.size(), 2880u);
   EXPECT_EQ(tube.wall.outside[0].triangles.size(), 160u);
+}
+
+/// A tube's centreline beside the case, and more of the section `files`.
+VesselMesh load_with_centreline(const std::string& more) {
+  const TemporaryFolder folder;
+  folder.file("centreline.csv",
+              "branch, parent, x [mm], y [mm], z [mm], radius [mm]\ntube,,0,0,0,20\ntube,,0,0,100,20\n");
+  return load_mesh(read_case(folder, peer_case("    centreline: centreline.csv\n" + more)), UnitSystem::cgs(),
+                   WallElement::prism);
+}
+
+TEST(MeshCase, GeometricRegionsOfAGrownWall) {
+  const VesselMesh tube = load_with_centreline(R"(    grown_wall: {fraction_of_radius: 0.1}
+    regions:
+      spine: {angle: [-30, 30], angle_origin: [-1, 0, 0]}
+      ends: {along: [1, 9], divide: 2}
+      rest: {}
+)");
+  ASSERT_EQ(tube.wall.outside.size(), 4u);
+  EXPECT_EQ(tube.wall.outside[1].name, "ends_1");
+  const double whole = area_of(tube.wall.points, tube.wall.outside[0]) * 6;
+  EXPECT_NEAR(whole, 2 * std::numbers::pi * 2.2 * 10, 0.02 * whole);
+  for (const std::size_t half : {1u, 2u})
+    EXPECT_NEAR(area_of(tube.wall.points, tube.wall.outside[half]), whole * 5 / 6 * 0.4, 0.01 * whole) << half;
+}
+
+TEST(MeshCase, RegionsOfAVesselAreNamedWithTheirMistakes) {
+  const auto fault = [](const std::string& more) { return message_of([&] { load(peer_case(more)); }); };
+  expect_part(fault("    grown_wall: {thickness: 0.2}\n    regions: {a: {branches: [aorta]}}\n"),
+              "mesh.files.regions.a: branches, along, angle and divide refer to the centreline");
+  expect_part(fault("    grown_wall: {thickness: 0.2, branches: {a: {thickness: 0.1}}}\n"), "centreline");
+  expect_part(fault("    grown_wall: {thickness: 0.2}\n    outside: {a: {label: 1}}\n"), "is of a wall that is read");
+  expect_part(fault("    grown_wall: {thickness: 0.2}\n    rings: {a: {label: 1}}\n"), "inlet_ring");
+  expect_part(fault("    grown_wall: {thickness: 0.2, fraction_of_radius: 0.1}\n"), "give either thickness");
+  expect_part(message_of([] {
+                load_with_centreline(
+                    "    grown_wall: {thickness: 0.2}\n    regions: {a: {line: arch, "
+                    "along: [0, 1]}, rest: {}}\n");
+              }),
+              "mesh.files.regions.a: the centreline has no branch 'arch'; it has tube");
+}
+
+/// A vessel bent by a right angle, in files.
+TEST(MeshCase, AnglesAboutAStraightLineAreRefusedInABend) {
+  const TemporaryFolder folder;
+  SweepSettings bend;
+  for (int i = 0; i <= 6; ++i) {
+    const double turn = std::numbers::pi / 2 * i / 6;
+    const Vec3 out(std::cos(turn), 0, std::sin(turn));
+    Points circle(3, 24);
+    for (int j = 0; j < 24; ++j) {
+      const double a = 2 * std::numbers::pi * j / 24;
+      circle.col(j) = (5 + std::cos(a)) * out + std::sin(a) * Vec3::UnitY();
+    }
+    bend.sections.push_back(circle);
+  }
+  bend.wall_thickness = 0.2;
+  bend.along = 12;
+  bend.disc.around = 24;
+  bend.angle_origin = Vec3::UnitY();
+  const FluidMesh fluid = sweep(bend).fluid;
+  write_vtu(folder / "lumen.vtu", fluid.points, cells_of(fluid), {});
+  write_vtu(folder / "wall.vtu", fluid.points, {.triangles = fluid.interface}, {});
+  write_vtu(folder / "in.vtu", fluid.points, {.triangles = fluid.inlets[0].triangles}, {});
+  write_vtu(folder / "out.vtu", fluid.points, {.triangles = fluid.outlets[0].triangles}, {});
+  folder.file("case.yaml", head + R"(mesh:
+  source: files
+  files:
+    fluid: lumen.vtu
+    interface: {file: wall.vtu}
+    inlets: {in: {file: in.vtu}}
+    outlets: {out: {file: out.vtu}}
+    grown_wall:
+      thickness: 0.1
+      regions: {spine: {angle: [0, 90]}, rest: {}}
+)");
+  CaseFile file(folder / "case.yaml");
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  file.finish();
+  expect_part(
+      message_of([&] { load_mesh(mesh, file, WallElement::prism); }),
+      "case.yaml:13: mesh.files.grown_wall.regions: angles are about the straight line from inlet to outlet, but "
+      "the vessel's axis is ");
 }
 
 TEST(MeshCase, SimVascularFolders) {

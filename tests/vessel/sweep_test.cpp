@@ -240,7 +240,8 @@ TEST(Sweep, wrong_settings_are_named) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(message([](SweepSettings& s) { s.wall_thickness = -0.1; }), "mesh.wall_thickness: -0.1: must be positive");
+  EXPECT_EQ(message([](SweepSettings& s) { s.wall_thickness = -0.1; }),
+            "mesh.swept.wall_thickness: -0.1: must be positive");
   EXPECT_EQ(message([](SweepSettings& s) { s.disc.around = 13; }), "mesh: around is 13: must be even and at least 8");
   EXPECT_NE(message([](SweepSettings& s) { s.angle_origin = {0, 0.1, 1}; }).find("nearly parallel"), std::string::npos);
   EXPECT_NE(message([](SweepSettings& s) { s.sections.pop_back(); }).find("at least two"), std::string::npos);

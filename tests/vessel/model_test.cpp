@@ -1,0 +1,109 @@
+#include "vessel/model/vessel_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.hpp"
+#include "common/config/case_file.hpp"
+#include "common/io/record_file.hpp"
+#include "common/mesh/topology.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/vessel/anatomies/bifurcation.hpp"
+#include "tests/vessel/anatomies/remesh.hpp"
+#include "vessel/check.hpp"
+#include "vessel/volume/tetrahedra.hpp"
+
+namespace tether {
+namespace model_test {
+
+/// The bifurcation with flat caps.
+LabelledSurface closed_bifurcation(double edge) {
+  const Bifurcation vessel = bifurcation(edge);
+  LabelledSurface closed{vessel.points, vessel.triangles, std::vector<int>(vessel.triangles.size(), 0), {}, 0};
+  for (const std::vector<int>& rim : rims(vessel.triangles)) {
+    const Vec3 centre = vessel.points(Eigen::all, rim).rowwise().mean();
+    const int middle = static_cast<int>(closed.points.cols());
+    closed.points.conservativeResize(3, middle + 1);
+    closed.points.col(middle) = centre;
+    closed.openings.push_back(centre[0] > 2 ? "side" : centre[2] < 1 ? "inlet" : "outlet");
+    if (closed.openings.back() == "inlet") closed.inlet = static_cast<int>(closed.openings.size()) - 1;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      closed.triangles.push_back({rim[(i + 1) % rim.size()], rim[i], middle});
+      closed.label.push_back(static_cast<int>(closed.openings.size()));
+    }
+  }
+  return remeshed(closed, edge);
+}
+
+VolumeCase study_of_regions() {
+  VolumeCase study;
+  study.wall.thickness.thickness = 0.2;
+  ThicknessCase thin;
+  thin.thickness = 0.1;
+  study.wall.branches.emplace_back("branch", thin);
+  GeometricRegionCase branch, sector;
+  branch.branches = {"branch"};
+  sector.branches = {"trunk"};
+  sector.angle = {-30, 30};
+  sector.angle_origin = {-1, 0, 0};
+  study.regions = {{"branch", branch}, {"spine", sector}, {"rest", {}}};
+  return study;
+}
+
+TEST(VesselModel, IsBuiltFromASurfaceAndReadBackByACase) {
+  const LabelledSurface surface = closed_bifurcation(0.3);
+  const CentrelineTree tree = bifurcation(0.4).tree;
+  const VesselModel model = build_model(surface, tree, study_of_regions(), UnitSystem::cgs());
+  EXPECT_EQ(model.mesh.fluid.points.leftCols(surface.points.cols()), surface.points);
+  EXPECT_EQ(model.mesh.fluid.inlets.at(0).name, "inlet");
+  EXPECT_EQ(model.mesh.fluid.outlets.size(), 2u);
+  const ModelQuality& q = model.quality;
+  EXPECT_GT(q.blood.least_radius_ratio, 0.15);
+  EXPECT_GT(q.blood.least_dihedral, 8);
+  EXPECT_GT(q.wall.least_jacobian, 0.1);
+  EXPECT_EQ(q.wall.layers, 2);
+  EXPECT_GT(q.thickness.least_share, 0.8);
+  EXPECT_NEAR(q.thickness.most_asked, 0.2, 1e-9);
+  EXPECT_NEAR(q.thickness.least_asked, 0.1, 1e-9);
+  ASSERT_EQ(q.regions.size(), 3u);
+  EXPECT_EQ(q.regions[1].name, "spine");
+
+  const TemporaryFolder folder;
+  write_model(folder.path() / "model", model, tree, study_of_regions(), UnitSystem::cgs());
+  std::ifstream text(folder / "model/case.yaml");
+  const std::string content((std::istreambuf_iterator<char>(text)), {});
+  EXPECT_EQ(content.find(folder.path().string()), std::string::npos);  // it can be moved
+  CaseFile file(folder / "model/case.yaml");
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  const VesselMesh again = load_mesh(mesh, file, WallElement::prism);
+  EXPECT_EQ(again.fluid.tetrahedra.size(), model.mesh.fluid.tetrahedra.size());
+  ASSERT_EQ(again.wall.outside.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(area_of(again.wall.points, again.wall.outside[i]), q.regions[i].area, 1e-6) << i;
+  EXPECT_EQ(again.wall.rings.size(), 3u);
+  EXPECT_EQ(read_record<ModelQuality>(folder.path() / "model/quality.json").wall.elements, q.wall.elements);
+}
+
+TEST(VesselModel, WhatCannotBeFilledIsToldWithItsPlace) {
+  const LabelledSurface good = closed_bifurcation(0.4);
+  const auto fault = [](const LabelledSurface& surface) -> std::string {
+    try {
+      fill_with_tetrahedra(surface, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  LabelledSurface open = good;
+  open.triangles.pop_back(), open.label.pop_back();
+  EXPECT_NE(fault(open).find("the surface is open near ("), std::string::npos) << fault(open);
+  LabelledSurface turned = good;
+  std::swap(turned.triangles[0][1], turned.triangles[0][2]);
+  EXPECT_NE(fault(turned).find("or some that look inward"), std::string::npos) << fault(turned);
+  LabelledSurface crossing = good;
+  crossing.points.col(crossing.triangles[0][0]).head<2>() *= -2;  // through the opposite side
+  EXPECT_NE(fault(crossing).find("crosses itself near ("), std::string::npos) << fault(crossing);
+}
+
+}  // namespace model_test
+}  // namespace tether

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+
+#include "vessel/centreline/tree.hpp"
+#include "vessel/extrude.hpp"
+#include "vessel/mesh_case.hpp"
+#include "vessel/model/model_quality.hpp"
+#include "vessel/surface/surface.hpp"
+
+namespace tether {
+
+/// The volume side of a study: what is made of a clean surface.
+struct VolumeCase {
+  std::optional<double> longest_edge;
+  GrownWallCase wall;
+  Named<GeometricRegionCase> regions;
+  void declare(Fields& f);
+};
+
+/// A vessel ready to be run, how its wall grew, and how good its meshes are.
+struct VesselModel {
+  VesselMesh mesh;
+  GrownWall growth;  ///< its mesh is in `mesh`
+  ModelQuality quality;
+};
+
+/// Fills the lumen, grows the wall, divides it, looks at the result. The surface's and the tree's lengths are those of
+/// `units`. Throws InputError with the place of what cannot be meshed.
+VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tree, const VolumeCase& study,
+                        const UnitSystem& units);
+
+/// Writes FOLDER/lumen.vtu, lumen_faces.vtu, wall.vtu (with the arrays asked_thickness and thickness), wall_faces.vtu,
+/// centreline.csv, quality.json, and case.yaml with flow.csv: a case that runs (see `ready_case`). Throws RunError.
+void write_model(const std::filesystem::path& folder, const VesselModel& model, const CentrelineTree& tree,
+                 const VolumeCase& study, const UnitSystem& units);
+
+}  // namespace tether

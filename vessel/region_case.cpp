@@ -1,0 +1,105 @@
+#include "vessel/region_case.hpp"
+
+#include "common/base/csv.hpp"
+#include "common/base/error.hpp"
+
+namespace tether {
+
+namespace {
+
+Points curve_of(const ObjectCase& given, const UnitSystem& units) {
+  if (!given.point.empty()) return Vec3(given.point[0], given.point[1], given.point[2]);
+  const CsvTable table(given.file);
+  Points curve(3, static_cast<Eigen::Index>(table.rows()));
+  Eigen::Index axis = 0;
+  for (const char* column : {"x", "y", "z"}) {
+    const std::vector<double> values = table.quantities(column, units, dimension::length);
+    curve.row(axis++) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), curve.cols());
+  }
+  return curve;
+}
+
+AngleAbout angle_of(const GeometricRegionCase& given, const std::string& line, const UnitSystem& units) {
+  AngleAbout angle{line, given.angle[0], given.angle[1]};
+  if (!given.angle_origin.empty())
+    angle.direction = {given.angle_origin[0], given.angle_origin[1], given.angle_origin[2]};
+  if (given.toward) angle.toward = curve_of(*given.toward, units);
+  return angle;
+}
+
+RegionRule rule_of(const std::string& name, const GeometricRegionCase& given, const UnitSystem& units) {
+  RegionRule rule;
+  rule.name = name;
+  rule.branches = given.branches;
+  const std::string line = given.line.empty() && given.branches.size() == 1 ? given.branches.front() : given.line;
+  if (!given.along.empty()) rule.along = AlongBranch{line, given.along[0], given.along[1]};
+  if (!given.angle.empty()) rule.angle = angle_of(given, line, units);
+  for (const auto& [object, near] : given.near) rule.near.push_back({curve_of(near.curve, units), near.within});
+  for (const auto& [side, plane] : given.planes) rule.planes.push_back({plane.point, plane.normal});
+  if (given.box) rule.box = InBox{given.box->low, given.box->high};
+  return rule;
+}
+
+}  // namespace
+
+void ObjectCase::declare(Fields& f) {
+  f.numbers("point", point, {3, dimension::length, {}}, "coordinates");
+  f.path("file", file, "CSV file with the columns x [mm], y [mm], z [mm]: a curve, point after point");
+  f.check(point.empty() != file.empty(), "point", "give either a point or a file");
+}
+
+void NearCase::declare(Fields& f) {
+  curve.declare(f);
+  f.number("within", within, dimension::length, range::positive,
+           "the distance, along the wall's surface, from the nearest places of that point or curve");
+}
+
+void PlaneCase::declare(Fields& f) {
+  f.point("point", point, dimension::length, "in the plane");
+  f.point("normal", normal, dimension::none, "points into the region");
+}
+
+void BoxCase::declare(Fields& f) {
+  f.point("low", low, dimension::length, "corner with the smallest coordinates");
+  f.point("high", high, dimension::length, "corner with the largest coordinates");
+}
+
+void GeometricRegionCase::declare(Fields& f) {
+  f.texts("branches", branches, "of the centreline: places nearer to one of these than to any other");
+  f.text("line", line, "branch whose line `along` and `angle` refer to; default: that of `branches`, else the trunk");
+  f.numbers("along", along, {2, dimension::length, range::not_negative}, "from and to along that line, from its start");
+  f.numbers("angle", angle, {2, dimension::none, {-360, 360}},
+            "from and to [degrees] about that line, right-handed about the flow; may pass through zero");
+  f.numbers("angle_origin", angle_origin, {3, dimension::none, {}}, "direction of angle zero; default: x");
+  f.group("toward", toward, "angle zero is where this lies, instead: \"toward the spine\"");
+  f.groups("near", near, "points and curves, by any name, that the region is near to along the surface");
+  f.groups("planes", planes, "planes, by any name, on whose side of the normal the region is");
+  f.group("box", box, "along the axes");
+  f.integer("divide", divide, {1, 1000}, "into parts of equal length along the line, NAME_1, NAME_2, ...");
+  f.check(!toward || angle_origin.empty(), "toward", "give either angle_origin or toward");
+  f.check(angle.size() == 2 || (!toward && angle_origin.empty()), "angle", "must be given with its origin");
+}
+
+std::vector<RegionRule> rules_of(const Named<GeometricRegionCase>& regions, const Anatomy* anatomy,
+                                 const UnitSystem& units,
+                                 const std::function<std::string(const std::string& name)>& where) {
+  std::vector<RegionRule> rules;
+  for (const auto& [name, given] : regions) {
+    RegionRule rule = rule_of(name, given, units);
+    rule.where = where(name);
+    const bool needs_line = !rule.branches.empty() || rule.along || rule.angle || given.divide > 1;
+    if (needs_line && !anatomy)
+      throw input_error(
+          "mesh.files.regions.{}: branches, along, angle and divide refer to the centreline: give "
+          "mesh.files.centreline",
+          name);
+    if (given.divide == 1) {
+      rules.push_back(rule);
+      continue;
+    }
+    for (RegionRule& part : divided_along(rule, given.divide, *anatomy)) rules.push_back(std::move(part));
+  }
+  return rules;
+}
+
+}  // namespace tether
