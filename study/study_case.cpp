@@ -59,6 +59,7 @@ void StudyCase::declare(Fields& f) {
   f.number("centreline_spacing", centreline_spacing, dimension::length, range::positive,
            "between points of centrelines");
   f.group("edges", edges, "of the triangles");
+  f.group("model", model, "meshes of the blood and of the wall, and a case that runs; absent: the surface alone");
   const auto is_opening = [this](const std::string& one) {
     return std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.first == one; });
   };
@@ -78,8 +79,8 @@ StudyCase read_study(const std::filesystem::path& file) {
   StudyCase study;
   Reader reader(tree, units, problems);
   study.declare(reader);
-  const std::vector<std::string> known{"name", "surface", "repair", "openings", "inlet", "trunk", "centreline_spacing",
-                                       "edges"};
+  const std::vector<std::string> known{"name",  "surface", "repair", "openings", "inlet", "trunk", "centreline_spacing",
+                                       "edges", "model"};
   for (const auto& entry : tree.entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
       const std::string near = nearest(entry.key, known);

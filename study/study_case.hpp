@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/fields.hpp"
+#include "vessel/model/vessel_model.hpp"
 
 namespace tether {
 
@@ -55,6 +56,7 @@ struct StudyCase {
   std::string inlet, trunk;
   double centreline_spacing = 0.2;
   EdgeCase edges;
+  std::optional<VolumeCase> model;  ///< none: the surface alone
   void declare(Fields& f);
 };
 

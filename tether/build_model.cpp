@@ -52,6 +52,17 @@ void draw(const fs::path& folder, const std::string& name) {
   if (has_display_server()) draw_picture(folder / (name + ".vtp"), folder / (name + ".png"), options);
 }
 
+std::string model_text(const ModelQuality& quality) {
+  std::string text = fmt::format(
+      "Blood: {} nodes, {} tetrahedra, least dihedral angle {:.1f} degrees\n"
+      "Wall: {} nodes, {} prisms, {:.3g} to {:.3g} cm thick, at least {:.0f} % of what was asked\n",
+      quality.blood.nodes, quality.blood.elements, quality.blood.least_dihedral, quality.wall.nodes,
+      quality.wall.elements, quality.thickness.least, quality.thickness.most, 100 * quality.thickness.least_share);
+  for (const RegionArea& region : quality.regions) text += fmt::format("  {}: {:.4g} cm2\n", region.name, region.area);
+  for (const std::string& warning : quality.warnings) text += "Look at it: " + warning + "\n";
+  return text;
+}
+
 }  // namespace
 
 Made<SurfaceSummary> build_model(const CommandLine& command) {
@@ -72,6 +83,14 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
     for (const char* picture : {"1_read", "2_repaired", "3_opened", "4_closed", "surface"}) draw(folder, picture);
     std::string told =
         text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
+    if (study.model) {
+      const UnitSystem units = UnitSystem::cgs();
+      const VesselModel model = build_model(built.surface, built.tree, *study.model, units);
+      write_model(folder / "model", model, built.tree, *study.model, units);
+      told += model_text(model.quality) +
+              fmt::format("In {0}: meshes, quality.json, case.yaml: tether simulate {0}/case.yaml\n",
+                          (folder / "model").string());
+    }
     return {std::move(built.summary), std::move(told)};
   } catch (const PlacedError& error) {
     write_vtp(places, crosses(error.places));

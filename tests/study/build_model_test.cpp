@@ -41,6 +41,19 @@ TEST(BuildModel, WritesSurfaceCentrelineAndSummary) {
     EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
 }
 
+/// From a surface to a mesh that `tether` takes, by one command.
+TEST(BuildModel, WritesAModelThatRuns) {
+  const fs::path folder = study_in("study_with_model", "model: {wall: {thickness: 1 mm}}\n", testing::bent_tube());
+  const ChildEnd end = built(folder);
+  ASSERT_EQ(end.exit_code, exit_done) << end.errors;
+  const auto quality = read_record<ModelQuality>(folder / "out" / "model" / "quality.json");
+  EXPECT_GT(quality.blood.least_dihedral, 5);
+  EXPECT_GT(quality.wall.least_jacobian, 0.1);
+  EXPECT_NEAR(quality.thickness.mean, 0.1, 1e-3);
+  const ChildEnd valid = capture({{TETHER_PROGRAM, "validate", (folder / "out" / "model" / "case.yaml").string()}, {}});
+  EXPECT_EQ(valid.exit_code, exit_done) << valid.errors;
+}
+
 TEST(BuildModel, MarksThePlaceOfWhatItRefuses) {
   RawSurface hole = testing::bent_tube();
   for (int row = 3; row >= 0; --row) {
@@ -63,7 +76,7 @@ TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
   } catch (const InputError& error) {
     message = error.what();
   }
-  EXPECT_NE(message.find("study.yaml:8: repare: unknown field; did you mean 'repair'?"), std::string::npos) << message;
+  EXPECT_NE(message.find("study.yaml:9: repare: unknown field; did you mean 'repair'?"), std::string::npos) << message;
   EXPECT_NE(message.find("must be one of the other openings"), std::string::npos) << message;
 }
 
