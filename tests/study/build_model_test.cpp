@@ -63,7 +63,7 @@ TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
   } catch (const InputError& error) {
     message = error.what();
   }
-  EXPECT_NE(message.find("study.yaml:8: repare: unknown field; did you mean 'repair'?"), std::string::npos) << message;
+  EXPECT_NE(message.find("study.yaml:9: repare: unknown field; did you mean 'repair'?"), std::string::npos) << message;
   EXPECT_NE(message.find("must be one of the other openings"), std::string::npos) << message;
 }
 

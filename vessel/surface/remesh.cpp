@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "common/mesh/surface.hpp"
@@ -44,6 +45,12 @@ void remesh_part(CgalMesh& mesh, const std::vector<CgalMesh::Face_index>& part, 
                            CGAL::parameters::number_of_iterations(rounds).face_patch_map(ids_of(mesh)));
 }
 
+std::array<Vec3, 3> corners_of(const CgalMesh& mesh, CgalMesh::Face_index face) {
+  const auto h = mesh.halfedge(face);
+  return {vec_of(mesh.point(mesh.source(h))), vec_of(mesh.point(mesh.target(h))),
+          vec_of(mesh.point(mesh.target(mesh.next(h))))};
+}
+
 /// Which cap a triangle is of, by its plane: CGAL gives none to a triangle beside a part that it splits.
 class CapAt {
  public:
@@ -65,24 +72,32 @@ class CapAt {
         return static_cast<int>(k) + 1;
     return 0;
   }
+  /// The radius of the cap beside which a place is: a part's border that met a rim would bend it.
+  std::optional<double> radius_beside(const Vec3& x) const {
+    for (const Cap& cap : caps_)
+      if ((x - cap.plane.origin).norm() < 1.5 * cap.reach) return cap.reach;
+    return std::nullopt;
+  }
+  /// Throws InputError if a triangle of a cap left its plane.
+  void check(const CgalMesh& mesh, const FaceNumbers& ids) const {
+    for (const auto face : mesh.faces())
+      if (ids[face] > 0 && (*this)(corners_of(mesh, face)) != ids[face])
+        throw input_error("the rim at {} was bent by new triangles: try edges.per_radius: 0",
+                          text_of_place(caps_[static_cast<std::size_t>(ids[face]) - 1].plane.origin));
+  }
 
  private:
   struct Cap {
     Plane plane;
     double reach;
   };
+  static constexpr double flat = 1e-4;  // files have single precision, some 1e-6 of the radius; an edge is far longer
   static bool is_on(const Cap& cap, const Vec3& x) {
     const Vec3 from = x - cap.plane.origin;
-    return std::abs(from.dot(cap.plane.normal)) < 1e-6 * cap.reach && from.norm() < 1.01 * cap.reach;
+    return std::abs(from.dot(cap.plane.normal)) < flat * cap.reach && from.norm() < 1.01 * cap.reach;
   }
   std::vector<Cap> caps_;
 };
-
-std::array<Vec3, 3> corners_of(const CgalMesh& mesh, CgalMesh::Face_index face) {
-  const auto h = mesh.halfedge(face);
-  return {vec_of(mesh.point(mesh.source(h))), vec_of(mesh.point(mesh.target(h))),
-          vec_of(mesh.point(mesh.target(mesh.next(h))))};
-}
 
 /// Parts with edges of one length each. A part's border is split and collapsed as the part wants it, which changes
 /// triangles beside it: parts are found anew each time. Three passes, with borders at other places.
@@ -97,8 +112,8 @@ void remesh_by_radius(CgalMesh& mesh, const EdgeLength& length, const std::vecto
     const auto part_of = [&](CgalMesh::Face_index face) {
       const auto x = corners_of(mesh, face);
       const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
-      const double wanted =
-          std::clamp(length.per_radius * radius_at({middle[0], middle[1], middle[2]}), length.least, length.most);
+      const double r = cap_at.radius_beside(middle).value_or(radius_at({middle[0], middle[1], middle[2]}));
+      const double wanted = std::clamp(length.per_radius * r, length.least, length.most);
       return static_cast<int>(std::round(std::log(wanted) / std::log(step) + shift));
     };
     std::set<int> numbers;
@@ -130,6 +145,7 @@ LabelledSurface remeshed(const LabelledSurface& surface, const EdgeLength& lengt
         "edges.per_radius: 0",
         failure.expression());
   }
+  CapAt(surface).check(mesh, ids_of(mesh));
   RawSurface made = raw_surface(mesh);
   return {std::move(made.points), std::move(made.triangles), std::move(made.face_id), surface.openings, surface.inlet};
 }
