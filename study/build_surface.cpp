@@ -1,6 +1,8 @@
 #include "study/build_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "study/openings.hpp"
@@ -40,7 +42,8 @@ int trunk_of(const LabelledSurface& surface, const StudyCase& study, const std::
 bool trim(RawSurface& open, const CentrelineTree& tree, const StudyCase& study, std::vector<Vec3>& middles) {
   bool any = false;
   for (std::size_t i = 0; i < middles.size(); ++i) {
-    const auto& [name, opening] = study.openings[i];
+    const std::string& name = study.openings[i].first;
+    const OpeningCase& opening = study.openings[i].second;
     if (opening.trim == 0) continue;
     const bool is_inlet = name == study.inlet;
     const auto branch =
@@ -72,11 +75,17 @@ std::vector<double> radius_at_points(const LabelledSurface& surface, const Centr
   return radius;
 }
 
+/// Places of the rims as they were cut, areas of the caps as they came out.
 std::vector<BuiltOpening> openings_of(const LabelledSurface& surface, const std::vector<Rim>& rims) {
   std::vector<BuiltOpening> openings;
-  for (std::size_t i = 0; i < rims.size(); ++i)
-    openings.push_back({surface.openings[i], static_cast<int>(i) + 1, rims[i].plane.origin, rims[i].plane.normal,
-                        rims[i].area, rims[i].radius()});
+  for (std::size_t i = 0; i < rims.size(); ++i) {
+    const int label = static_cast<int>(i) + 1;
+    double area = 0;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      if (surface.label[t] == label) area += area_vector(surface.points, surface.triangles[t]).norm();
+    openings.push_back({surface.openings[i], label, rims[i].plane.origin, rims[i].plane.normal, area,
+                        std::sqrt(area / std::numbers::pi)});
+  }
   return openings;
 }
 

@@ -28,15 +28,17 @@ struct RepairCase {
   void declare(Fields& f);
 };
 
+/// A plane that makes an end.
+struct PlaneCase {
+  Vec3 point = Vec3::Constant(undefined), outward = Vec3::Constant(undefined);
+  void declare(Fields& f);
+};
+
 /// An end of the vessel.
 struct OpeningCase {
   int label = 0, order = 0;  ///< 0: not said
   std::vector<double> near;  ///< three coordinates, or empty: not said
   double trim = 0;
-  struct PlaneCase {
-    Vec3 point = Vec3::Constant(undefined), outward = Vec3::Constant(undefined);
-    void declare(Fields& f);
-  };
   std::optional<PlaneCase> cut;
   void declare(Fields& f);
 };

@@ -82,7 +82,7 @@ class CapAt {
   void check(const CgalMesh& mesh, const FaceNumbers& ids) const {
     for (const auto face : mesh.faces())
       if (ids[face] > 0 && (*this)(corners_of(mesh, face)) != ids[face])
-        throw input_error("the rim at {} was bent by new triangles: try another edges.longest, or edges.per_radius: 0",
+        throw input_error("the rim at {} was bent by new triangles: try edges.per_radius: 0",
                           text_of_place(caps_[static_cast<std::size_t>(ids[face]) - 1].plane.origin));
   }
 
@@ -91,9 +91,9 @@ class CapAt {
     Plane plane;
     double reach;
   };
+  static constexpr double flat = 1e-4;  // files have single precision, some 1e-6 of the radius; an edge is far longer
   static bool is_on(const Cap& cap, const Vec3& x) {
     const Vec3 from = x - cap.plane.origin;
-    constexpr double flat = 1e-5;  // of its radius: rims come flat to a tenth of that
     return std::abs(from.dot(cap.plane.normal)) < flat * cap.reach && from.norm() < 1.01 * cap.reach;
   }
   std::vector<Cap> caps_;
