@@ -4,8 +4,8 @@
 #include "common/io/record_file.hpp"
 #include "common/io/vtp_writer.hpp"
 #include "pictures/pictures.hpp"
-#include "study/build_surface.hpp"
 #include "tether/verbs.hpp"
+#include "vessel/study/build_surface.hpp"
 
 namespace tether {
 namespace {

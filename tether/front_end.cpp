@@ -6,9 +6,9 @@
 
 #include "common/base/error.hpp"
 #include "common/protocol/programs.hpp"
-#include "study/study_case.hpp"
 #include "tether/schemas.hpp"
 #include "tether/verbs.hpp"
+#include "vessel/study/study_case.hpp"
 
 namespace tether {
 namespace {

@@ -14,9 +14,9 @@
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
 #include "solid/results/effects_list.hpp"
-#include "study/surface_summary.hpp"
 #include "twin/score.hpp"
 #include "vessel/model/model_quality.hpp"
+#include "vessel/study/surface_summary.hpp"
 
 namespace tether {
 namespace {

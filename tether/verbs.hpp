@@ -10,8 +10,8 @@
 #include "diagnosis/results/noise.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
-#include "study/surface_summary.hpp"
 #include "twin/score.hpp"
+#include "vessel/study/surface_summary.hpp"
 
 namespace tether {
 

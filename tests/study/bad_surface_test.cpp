@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "study/build_surface.hpp"
 #include "tests/study/bent_tube.hpp"
+#include "vessel/study/build_surface.hpp"
 
 /// Surfaces that are wrong in one way each: repaired with a note, or refused with the place.
 namespace tether {

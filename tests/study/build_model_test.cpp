@@ -3,9 +3,9 @@
 #include "common/base/child_process.hpp"
 #include "common/base/error.hpp"
 #include "common/io/record_file.hpp"
-#include "study/study_case.hpp"
-#include "study/surface_summary.hpp"
 #include "tests/study/bent_tube.hpp"
+#include "vessel/study/study_case.hpp"
+#include "vessel/study/surface_summary.hpp"
 
 namespace tether {
 namespace {

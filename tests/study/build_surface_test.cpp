@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "common/base/csv.hpp"
-#include "study/build_surface.hpp"
-#include "study/openings.hpp"
 #include "tests/study/bent_tube.hpp"
 #include "vessel/centreline/curve.hpp"
+#include "vessel/study/build_surface.hpp"
+#include "vessel/study/openings.hpp"
 #include "vessel/surface/smooth.hpp"
 #include "vessel/surface/tidy.hpp"
 

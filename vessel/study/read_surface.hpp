@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/study_case.hpp"
+#include "vessel/study/study_case.hpp"
 #include "vessel/surface/raw_surface.hpp"
 
 namespace tether {

@@ -29,7 +29,7 @@ struct RepairCase {
 };
 
 /// A plane that makes an end.
-struct PlaneCase {
+struct CutPlaneCase {
   Vec3 point = Vec3::Constant(undefined), outward = Vec3::Constant(undefined);
   void declare(Fields& f);
 };
@@ -39,7 +39,7 @@ struct OpeningCase {
   int label = 0, order = 0;  ///< 0: not said
   std::vector<double> near;  ///< three coordinates, or empty: not said
   double trim = 0;
-  std::optional<PlaneCase> cut;
+  std::optional<CutPlaneCase> cut;
   void declare(Fields& f);
 };
 

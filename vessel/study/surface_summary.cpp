@@ -1,4 +1,4 @@
-#include "study/surface_summary.hpp"
+#include "vessel/study/surface_summary.hpp"
 
 #include "common/io/record_json.ipp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/study_case.hpp"
+#include "vessel/study/study_case.hpp"
 #include "vessel/surface/rims.hpp"
 #include "vessel/surface/surface.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <functional>
 
-#include "study/study_case.hpp"
-#include "study/surface_summary.hpp"
 #include "vessel/centreline/tree.hpp"
+#include "vessel/study/study_case.hpp"
+#include "vessel/study/surface_summary.hpp"
 #include "vessel/surface/surface.hpp"
 
 namespace tether {

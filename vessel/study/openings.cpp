@@ -1,8 +1,8 @@
-#include "study/openings.hpp"
+#include "vessel/study/openings.hpp"
 
 #include <algorithm>
 
-#include "study/read_surface.hpp"
+#include "vessel/study/read_surface.hpp"
 #include "vessel/surface/tidy.hpp"
 
 namespace tether {

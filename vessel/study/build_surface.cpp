@@ -1,14 +1,14 @@
-#include "study/build_surface.hpp"
+#include "vessel/study/build_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "study/openings.hpp"
-#include "study/read_surface.hpp"
 #include "vessel/centreline/curve.hpp"
 #include "vessel/centreline/find_tree.hpp"
+#include "vessel/study/openings.hpp"
+#include "vessel/study/read_surface.hpp"
 #include "vessel/surface/crossings.hpp"
 #include "vessel/surface/remesh.hpp"
 #include "vessel/surface/smooth.hpp"

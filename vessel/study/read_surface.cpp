@@ -1,4 +1,4 @@
-#include "study/read_surface.hpp"
+#include "vessel/study/read_surface.hpp"
 
 #include "vessel/mesh_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "study/study_case.hpp"
+#include "vessel/study/study_case.hpp"
 
 #include <algorithm>
 
@@ -26,7 +26,7 @@ void RepairCase::declare(Fields& f) {
   f.integer("smoothing", smoothing, {0, 1000}, "pairs of steps that smooth without shrinking; 0: none");
 }
 
-void PlaneCase::declare(Fields& f) {
+void CutPlaneCase::declare(Fields& f) {
   f.point("point", point, dimension::length, "on the plane, near the vessel's middle");
   f.point("outward", outward, dimension::none, "direction out of the vessel, of any length");
 }
