@@ -76,11 +76,14 @@ std::string regions_legend(const WallMesh& wall) {
   return text;
 }
 
-/// Whether a picture of the regions could be drawn.
-bool draw_regions(const std::filesystem::path& folder, const WallMesh& wall) {
+/// Whether a picture of the regions could be drawn. Where the program that draws is not installed the meshes are there
+/// all the same.
+bool draw_regions(const std::filesystem::path& folder, const WallMesh& wall) try {
   std::vector<std::string> options{"--field", "region", "--title", "region", "--names"};
   for (const Patch& region : wall.outside) options.push_back(region.name);
   return has_display_server() && draw_picture(folder / "regions.vtu", folder / "regions.png", options);
+} catch (const InputError&) {
+  return false;
 }
 
 ReadVessel mesh_of(const CommandLine& command, CaseFile& file) {

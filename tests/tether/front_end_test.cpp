@@ -225,9 +225,10 @@ TEST_F(FrontEnd, WritesMeshesForViewing) {
   EXPECT_NE(end.output.find("wall_faces.vtu    colour by face: 0 interface, 1 all, 2 inlet_ring, 3 outlet_ring\n"),
             std::string::npos)
       << end.output;
+  EXPECT_NE(end.output.find("regions.vtu       colour by region: 0 all\n"), std::string::npos) << end.output;
   EXPECT_NE(end.output.find("  lumen 19."), std::string::npos) << "a polygon in a circle of 20 mm";
   EXPECT_NE(end.output.find("  wall   216 nodes, 720 elements"), std::string::npos) << "three tetrahedra a prism";
-  for (const char* name : {"fluid", "wall", "fluid_faces", "wall_faces"})
+  for (const char* name : {"fluid", "wall", "fluid_faces", "wall_faces", "regions"})
     EXPECT_GT(fs::file_size(folder_ / "results/mesh" / (std::string(name) + ".vtu")), 1000u) << name;
 }
 
