@@ -221,7 +221,7 @@ const Mistake mistakes[] = {
     {"CurveInWrongUnit", In::the_curve, "ml/s", "mmHg",
      "inflow.csv:2: column 'q': '1 mmHg': mmHg is no unit of this field, which is in cm3/s"},
     {"MeshIsNoMesh", In::mesh_in_files, "fluid: PEER/fluid/mesh.vtu", "fluid: PEER/README.md",
-     "README.md: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh or .stl"},
+     "README.md: unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh, .stl or .obj"},
     {"MeshFileIsMissing", In::mesh_in_files, "fluid: PEER/fluid/mesh.vtu", "fluid: lumen.vtu",
      "case.yaml:7: mesh.files.fluid: lumen.vtu: no such file or folder: lumen.vtu (volume mesh of the lumen: .vtu, "
      ".vtk or .msh)"},
