@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/comparison/chances.hpp"
@@ -36,6 +37,13 @@ double lead(const EffectProblem& problem, const std::vector<ShownRun>& runs, con
   return evidence.log_evidence(with) - evidence.log_evidence(without);
 }
 
+/// Their sum without the largest fifth of them, rounded up.
+double without_best_fifth(std::vector<double> each) {
+  std::sort(each.begin(), each.end());
+  const auto left = static_cast<std::ptrdiff_t>(each.size() * 4 / 5);
+  return std::accumulate(each.begin(), each.begin() + left, 0.0);
+}
+
 }  // namespace
 
 std::optional<PhaseGain> phase_gain(const EffectProblem& problem, const std::vector<ShownRun>& runs,
@@ -44,15 +52,16 @@ std::optional<PhaseGain> phase_gain(const EffectProblem& problem, const std::vec
   if (static_cast<int>(moments.size()) < fewest_moments) return std::nullopt;
   const double all = lead(problem, runs, with, without);
   PhaseGain gain;
-  double squares = 0;
+  std::vector<double> each;
   for (const int moment : moments) {
-    const double one = all - lead(without_moment(problem, moment), runs, with, without);
-    gain.value += one;
-    squares += one * one;
-    gain.better += one > 0 ? 1 : 0;
-    ++gain.moments;
+    each.push_back(all - lead(without_moment(problem, moment), runs, with, without));
+    gain.better += each.back() > 0 ? 1 : 0;
   }
-  const double n = gain.moments, variance = std::max(0.0, (squares - gain.value * gain.value / n) / (n - 1));
+  gain.moments = static_cast<int>(each.size());
+  gain.value = std::accumulate(each.begin(), each.end(), 0.0);
+  gain.robust = without_best_fifth(each);
+  const double n = gain.moments, squares = std::inner_product(each.begin(), each.end(), each.begin(), 0.0),
+               variance = std::max(0.0, (squares - gain.value * gain.value / n) / (n - 1));
   gain.deviation = std::sqrt(n * variance);
   gain.positive = gain.deviation > 0 ? 1 - student_tail(gain.value / gain.deviation, gain.moments - 1)
                   : gain.value > 0   ? 1

@@ -314,9 +314,10 @@ struct Compared {
   const Posterior& posterior;
 };
 
-/// Of what does much the same as the group's first, as a run showed, whether the first foretells the moments better.
+/// Of what does much the same as the group's first, as a run showed, whether the first foretells the moments better,
+/// even if a fifth of them is off.
 void compare_moments(WeighedGroup& group, const Compared& of, const EffectSet& best) {
-  constexpr double told = 0.98;
+  const double told = std::log(0.98 / 0.02);
   const SetEvidence evidence(of.problem, of.runs);
   const std::size_t first = group.members.front();
   group.as_good.assign(group.members.size(), false);
@@ -330,7 +331,7 @@ void compare_moments(WeighedGroup& group, const Compared& of, const EffectSet& b
     const double size = evidence.fit(instead, 0).amplitudes[static_cast<std::size_t>(place)];
     if (!std::isfinite(size) || evidence.beyond_runs(c, size, false) > about) continue;
     const auto gain = phase_gain(of.problem, of.runs, best.members, instead);
-    if (!gain || gain->positive >= told) continue;
+    if (!gain || gain->robust >= told) continue;
     const auto own = std::find(group.members.begin(), group.members.end(), c) - group.members.begin();
     if (own == std::ssize(group.members)) {
       group.members.push_back(c);

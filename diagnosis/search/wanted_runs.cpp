@@ -54,7 +54,7 @@ class Wanted {
 
   /// Of probable sets, what may stand in place of a member: it does much the same, and falls behind by less than what a
   /// run at another size, or of a coarser model, may be wrong by. At the end all that do very much the same, so that
-  /// their moments can be compared.
+  /// their moments can be compared, unless runs have shown that they explain less than half of it.
   void add_alternatives() {
     constexpr double probable = 0.05;
     for (const EffectSet& set : posterior_.sets) {
@@ -81,11 +81,11 @@ class Wanted {
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
       const double alike = std::pow(evidence_.cosine(c, member), 2);
       if (alike <= 0.5 || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
-      const bool is_compared = !exploring_ && alike > much_alike && set.all() > leads;
       rest.back() = c;
       const SetFit fit = evidence_.fit(rest, 0);
-      const double size = fit.amplitudes.back(), hope = fit.log_evidence + wrong * (fit.log_evidence - without);
-      const bool may_be_it = is_compared || hope > best - matters_still;
+      const double size = fit.amplitudes.back(), gain = fit.log_evidence - without, hope = gain + wrong * gain;
+      const bool is_compared = !exploring_ && alike > much_alike && set.all() > leads && gain > (best - without) / 2;
+      const bool may_be_it = is_compared || hope > best - without - matters_still;
       if (may_be_it && can_be_run(c, size) && is_far_from_runs(c, size)) wanted_.emplace(c, size);
     }
   }

@@ -24,6 +24,8 @@ TEST(PhaseGain, WhatIsThereForetellsEachMoment) {
   EXPECT_EQ(found.moments, moments);
   EXPECT_GT(found.better, moments / 2);
   EXPECT_GT(found.positive, 0.99);
+  EXPECT_GT(found.robust, 0);
+  EXPECT_LT(found.robust, found.value);
   EXPECT_LE(share([&](auto& g) { return gain(0, g).positive > 0.95; }, 100), 0.05);
   problem.moment.assign(problem.moment.size(), 0);
   EXPECT_FALSE(phase_gain(problem, {}, {2}, {}).has_value()) << "no other moment says anything";
@@ -43,6 +45,19 @@ Weighed weighed_with_late(const EffectProblem& problem) {
   Weighed all = weighed(problem, evidence, posterior);
   foretell_moments(all, problem, runs, posterior);
   return all;
+}
+
+/// The largest fifth of the terms, rounded up, does not count: here there is one moment that says anything.
+TEST(PhaseGain, OneMomentIsNotRobust) {
+  EffectProblem problem = band(true);
+  std::mt19937_64 generator(37);
+  std::normal_distribution<double> normal;
+  problem.residual = VectorXd::Zero(problem.changes.rows());
+  problem.residual.segment(3 * places, places) = strong * problem.changes.col(2).segment(3 * places, places);
+  for (double& datum : problem.residual) datum += normal(generator);
+  const PhaseGain gain = phase_gain(problem, {}, {2}, {}).value();
+  EXPECT_LT(gain.robust, std::log(49));
+  EXPECT_LT(gain.robust, gain.value);
 }
 
 /// What two moments alone speak for is not told from what does much the same, as sure as the noise makes it.
