@@ -112,7 +112,9 @@ void FluidSolver::begin_step(double time, double dt, const Points& predicted) {
   move_mesh();
   predict_velocity();
   prepare_projection();
-  trial_.viscous_load = viscous_load();
+  const Points forces = viscous_forces();
+  trial_.viscous_load = domain_.sigma.shared_by_nodes(forces);
+  trial_.wall_shear = domain_.sigma.mean_shear(forces);
   begun_ = true;
 }
 
@@ -222,15 +224,15 @@ void FluidSolver::accept() {
 }
 
 /// - int 2 mu eps(v~) n phi_a on the interface. (F.10)
-Points FluidSolver::viscous_load() const {
+Points FluidSolver::viscous_forces() const {
   const Surface& sigma = domain_.sigma;
-  Points result = Points::Zero(3, static_cast<Eigen::Index>(sigma.nodes.size()));
+  Points result(3, static_cast<Eigen::Index>(sigma.triangles.size()));
   for (std::size_t t = 0; t < sigma.triangles.size(); ++t) {
     const auto e = static_cast<std::size_t>(sigma.tetrahedra[t]);
     const Mat3 grad_v = velocity_gradient(domain_.geometry()[e], gather(trial_.velocity, domain_.tetrahedra()[e]));
     const double mu = advection_diffusion_.viscosity()[static_cast<Eigen::Index>(e)];
-    const Vec3 force = -mu * (grad_v + grad_v.transpose()) * sigma.area_vectors.col(static_cast<Eigen::Index>(t));
-    for (int node : sigma.triangles[t]) result.col(node) += force / 3;
+    const auto triangle = static_cast<Eigen::Index>(t);
+    result.col(triangle) = -mu * (grad_v + grad_v.transpose()) * sigma.area_vectors.col(triangle);
   }
   return result;
 }

@@ -99,6 +99,7 @@ class FluidSolver {
     std::vector<Points> profiles;  // of each flow inlet, u_in
     double inflow = 0, swept = 0;  // through the flow inlets; by the end faces' own motion, outward
     Points viscous_load;
+    double wall_shear = 0;  // mean over Sigma
     // of the last evaluation
     Points interface_displacement;
     double interface_flux = 0;
@@ -116,7 +117,8 @@ class FluidSolver {
   void predict_velocity();
   void prepare_projection();
   Points acceleration() const;
-  Points viscous_load() const;
+  /// Of the blood on the wall, by its viscosity: on each triangle of Sigma [3 x t].
+  Points viscous_forces() const;
   double kinematic_viscosity() const;
   void observe();
   void observe_sections(std::vector<double>& values) const;

@@ -106,6 +106,7 @@ void FluidSolver::declare_observables() {
     observables_.push_back({section.name() + ".flow", dimension::flow});
     observables_.push_back({section.name() + ".pressure", dimension::pressure});
   }
+  observables_.push_back({"wall_shear", dimension::pressure});
   observables_.push_back({"volume", dimension::volume});
   observables_.push_back({"mass_balance_error", dimension::flow});
   observables_.push_back({"volume_balance_error", dimension::flow});
@@ -149,6 +150,7 @@ void FluidSolver::observe() {
   for (const Probe& probe : probes_) values.push_back(probe.value(solution.pressure));
   observe_sections(values);
   const double volume = domain_.volume(trial_.interface_displacement);
+  values.push_back(trial_.wall_shear);
   values.push_back(volume);
   values.push_back(net_inflow - trial_.interface_flux);
   values.push_back(net_inflow + trial_.swept - (volume - accepted_.volume) / trial_.dt);

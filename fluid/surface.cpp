@@ -112,6 +112,22 @@ Points Surface::pressure_force_change(const VectorXd& pressure, const Points& po
   return result;
 }
 
+Points Surface::shared_by_nodes(const Points& forces) const {
+  Points result = Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int node : triangles[t]) result.col(node) += forces.col(static_cast<Eigen::Index>(t)) / 3;
+  return result;
+}
+
+double Surface::mean_shear(const Points& forces) const {
+  double along = 0;
+  for (Eigen::Index t = 0; t < forces.cols(); ++t) {
+    const Vec3 normal = area_vectors.col(t).normalized();
+    along += (forces.col(t) - normal.dot(forces.col(t)) * normal).norm();
+  }
+  return along / area();
+}
+
 double Surface::total_flux(const Points& velocity) const {
   return flux(velocity).sum();
 }

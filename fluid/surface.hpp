@@ -32,6 +32,10 @@ class Surface {
   /// Change of flux(velocity) and of pressure_force(pressure) when the surface, at `points` (local), moves. (F.11)
   VectorXd flux_change(const Points& velocity, const Points& points, const Points& motion) const;
   Points pressure_force_change(const VectorXd& pressure, const Points& points, const Points& motion) const;
+  /// A third of each triangle's force to each of its nodes; forces: [3 x t], result local.
+  Points shared_by_nodes(const Points& forces) const;
+  /// Mean size of what such forces are along the surface, per area. (F.18)
+  double mean_shear(const Points& forces) const;
   double total_flux(const Points& velocity) const;
   double area() const;
   double mean(const VectorXd& values) const;

@@ -4,6 +4,7 @@
 #include "common/protocol/announce.hpp"
 #include "solid/lumen_regions.hpp"
 #include "solid/wall_series.hpp"
+#include "solid/wall_stress.hpp"
 
 namespace tether {
 namespace {
@@ -49,6 +50,7 @@ protocol::Hello SolidServer::hello() const {
   for (const ParameterTable::Entry& entry : model_->parameters().entries())
     hello.parameters.push_back(protocol::info_of(entry, units_));
   hello.observables.push_back({"largest_displacement", units_.symbol(dimension::length)});
+  hello.observables.push_back({"peak_stress", units_.symbol(dimension::pressure)});
   for (const SurfaceSupport& support : model_->supports())
     for (const char* axis : {"x", "y", "z"})
       hello.observables.push_back(
@@ -100,7 +102,9 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
     solver_->accept();
   else
     solver_->rewind();
-  protocol::StepReport report{{solver_->largest_displacement()}};
+  protocol::StepReport report{
+      {solver_->largest_displacement(),
+       peak_stress(model_->elements(), model_->material(), model_->mesh().points + solver_->displacement())}};
   for (const Vec3& force : solver_->support_forces())
     report.observables.insert(report.observables.end(), force.begin(), force.end());
   return report;

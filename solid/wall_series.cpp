@@ -4,30 +4,23 @@
 
 #include "common/base/error.hpp"
 #include "common/io/vtu_writer.hpp"
+#include "solid/wall_stress.hpp"
 
 namespace tether {
 namespace {
 
-Mat3 tensor(const Voigt& s) {
-  Mat3 m;
-  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  return m;
-}
-
 std::vector<Field> stress_fields(const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress) {
   const Eigen::Index count = stress.cols();
-  VectorXd mises(count), principal(count);
+  VectorXd principal(count);
   std::vector<double> tensors;
   for (Eigen::Index e = 0; e < count; ++e) {
-    const Mat3 s = tensor(stress.col(e));
-    const Mat3 deviator = s - s.trace() / 3 * Mat3::Identity();
-    mises[e] = std::sqrt(1.5) * deviator.norm();
+    const Mat3 s = stress_tensor(stress.col(e));
     principal[e] = Eigen::SelfAdjointEigenSolver<Mat3>(s, Eigen::EigenvaluesOnly).eigenvalues()[2];
     const auto values = s.reshaped();
     tensors.insert(tensors.end(), values.begin(), values.end());
   }
   return {{"stress", 9, std::move(tensors)},
-          Field::scalars("von_mises", mises),
+          Field::scalars("von_mises", von_mises(stress)),
           Field::scalars("largest_principal_stress", principal)};
 }
 

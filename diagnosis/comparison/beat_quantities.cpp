@@ -17,6 +17,7 @@ class Beat {
     for (const std::string& inlet : facts_.inlets) add_pressures(inlet);
     add_stiffness();
     add_flows();
+    add_stresses();
     return std::move(all_);
   }
 
@@ -76,18 +77,27 @@ class Beat {
       const std::string column = "fluid." + outlet + ".flow";
       if (!has(column)) return;
       add(Quantity::peak_flow, outlet, facts_.units.to_ml_per_s(bounds(column).most), "ml/s");
-      volumes.push_back(volume_through(beat(column)));
+      volumes.push_back(integral(beat(column)));
       sum += volumes.back();
     }
     if (volumes.size() < 2 || sum == 0) return;
     for (std::size_t k = 0; k < volumes.size(); ++k)
       add(Quantity::flow_share, facts_.outlets[k], percent * volumes[k] / sum, "%");
   }
-  static double volume_through(const RunTrace& flow) {
-    double volume = 0;
-    for (std::size_t i = 1; i < flow.times.size(); ++i)
-      volume += 0.5 * (flow.values[i] + flow.values[i - 1]) * (flow.times[i] - flow.times[i - 1]);
-    return volume;
+  void add_stresses() {
+    const auto in = [&](double stress, double unit) { return stress * facts_.units.in_si(dimension::pressure) / unit; };
+    if (has("solid.peak_stress")) add(Quantity::peak_wall_stress, "", in(bounds("solid.peak_stress").most, 1e3), "kPa");
+    if (!has("fluid.wall_shear")) return;
+    const RunTrace shear = beat("fluid.wall_shear");
+    const double lasts = shear.times.back() - shear.times.front();
+    if (lasts > 0) add(Quantity::wall_shear, "", in(integral(shear) / lasts, 1), "Pa");
+  }
+  /// Over time.
+  static double integral(const RunTrace& trace) {
+    double sum = 0;
+    for (std::size_t i = 1; i < trace.times.size(); ++i)
+      sum += 0.5 * (trace.values[i] + trace.values[i - 1]) * (trace.times[i] - trace.times[i - 1]);
+    return sum;
   }
 
   const FinishedMotion& run_;

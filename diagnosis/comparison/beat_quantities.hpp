@@ -19,7 +19,7 @@ struct BeatFacts {
   double period = 0;   ///< of the beat; 0: the whole run [time]
 };
 
-/// Of the last beat of a run, in mmHg, %, 1e-3/mmHg, m/s and ml/s; those whose columns the run has. (D.22)
+/// Of the last beat of a run, in mmHg, %, 1e-3/mmHg, m/s, ml/s, kPa and Pa; those whose columns the run has. (D.22)
 std::vector<QuantityFound> beat_quantities(const FinishedMotion& run, const BeatFacts& facts);
 
 }  // namespace tether

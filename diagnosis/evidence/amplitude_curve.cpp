@@ -14,6 +14,11 @@ double factor_between(double a, double b) {
 }  // namespace
 
 void AmplitudeCurve::add(const Point& point) {
+  constexpr double same = 1 + 1e-6;
+  const auto is_known = [&](const Point& other) {
+    return other.is_coarse == point.is_coarse && factor_between(other.size, point.size) < same;
+  };
+  if (std::any_of(points_.begin(), points_.end(), is_known)) return;
   const auto after = std::find_if(points_.begin(), points_.end(),
                                   [&](const Point& other) { return std::abs(other.size) > std::abs(point.size); });
   points_.insert(after, point);

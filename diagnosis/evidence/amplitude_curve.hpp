@@ -25,6 +25,7 @@ class AmplitudeCurve {
     double share;
   };
 
+  /// Unless the same model was run at that size before.
   void add(const Point& point);
   /// What a coarser model shows is scaled as runs of the model itself want it, and is left out near these. columns: of
   /// all runs, each [n]; precision [n].

@@ -35,6 +35,11 @@ struct DataPlace {
   Vec3 middle{0, 0, 0};      ///< of the places that were compared [length]
 };
 
+/// Smallest and largest that an amplitude may be.
+struct AmplitudeInterval {
+  double least = 0, most = 0;
+};
+
 /// What may be missing or wrong: one effect at one place.
 struct Candidate {
   using Kind = CandidateKind;

@@ -234,6 +234,7 @@ SetFit SetEvidence::over_scalars(const Members& scalars, const Products& product
                                  const std::vector<Index>& columns) const {
   const Index r = products.gram.cols() - 1;
   SetFit fit{-0.5 * products.gram(r, r) - products.log_norm, std::vector<double>(scalars.size())};
+  fit.densities.resize(scalars.size());
   if (scalars.empty()) return fit;
   std::vector<VectorXd> places;
   for (const std::size_t c : scalars) places.push_back(all_places(amplitude_of(c), scalars.size() > 2));
@@ -254,6 +255,7 @@ SetFit SetEvidence::over_scalars(const Members& scalars, const Products& product
       Index best = 0;
       found.each[i].maxCoeff(&best);
       fit.amplitudes[i] = grids[i].sizes(best);
+      fit.densities[i] = {grids[i].sizes, (found.each[i].array() - found.all).exp()};
       places[i] = where_it_counts(places[i], found.each[i]);
     }
   }
@@ -270,7 +272,7 @@ SetFit SetEvidence::over_vectors(const Members& vectors, std::size_t next, const
     scales(static_cast<Index>(own.size())) = scale_of(problem_.amplitudes[static_cast<std::size_t>(amplitude)]);
     own.push_back(std::find(columns.begin(), columns.end(), amplitude) - columns.begin());
   }
-  SetFit best{-infinite, std::vector<double>(scalars.size(), undefined)};
+  SetFit best{-infinite, std::vector<double>(scalars.size(), undefined), {scalars.size(), AmplitudeDensity{}}};
   VectorXd logs(multiples.size());
   for (std::size_t k = 0; k < multiples.size(); ++k) {
     const Taken taken =
@@ -290,11 +292,15 @@ SetFit SetEvidence::fit(const Members& members, std::size_t discrepancy) const {
   const std::vector<Index> columns = columns_of(members);
   const Products& all = products_[discrepancy];
   SetFit fit = over_vectors(vectors, 0, {all.gram(columns, columns), all.log_norm}, scalars, columns);
-  std::vector<double> amplitudes;
+  SetFit of_members{fit.log_evidence, {}, {}};
   std::size_t next = 0;
-  for (const std::size_t c : members) amplitudes.push_back(is_scalar(c) ? fit.amplitudes[next++] : undefined);
-  fit.amplitudes = std::move(amplitudes);
-  return fit;
+  for (const std::size_t c : members) {
+    const bool scalar = is_scalar(c);
+    of_members.amplitudes.push_back(scalar ? fit.amplitudes[next] : undefined);
+    of_members.densities.push_back(scalar ? std::move(fit.densities[next]) : AmplitudeDensity{});
+    if (scalar) ++next;
+  }
+  return of_members;
 }
 
 double SetEvidence::log_evidence(const Members& members) const {

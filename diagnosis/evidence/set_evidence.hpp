@@ -22,11 +22,17 @@ struct Assumptions {
   double sizes = 1, noise = 1, discrepancy = 1;
 };
 
+/// How probable an amplitude is about each of these sizes, ascending; together 1.
+struct AmplitudeDensity {
+  VectorXd sizes, probabilities;
+};
+
 /// A set's evidence with one size of discrepancy, and the most probable amplitudes of its members; of several
-/// amplitudes NaN.
+/// amplitudes NaN, and no density.
 struct SetFit {
   double log_evidence = 0;
   std::vector<double> amplitudes;
+  std::vector<AmplitudeDensity> densities = {};
 };
 
 /// The evidence for sets of candidates: the probability of the data with their amplitudes, the allowed errors and what

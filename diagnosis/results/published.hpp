@@ -17,6 +17,8 @@ enum class Quantity {
   pulse_wave_velocity,
   peak_flow,
   flow_share,
+  peak_wall_stress,
+  wall_shear,
   displacement
 };
 
@@ -30,6 +32,9 @@ inline constexpr auto words_of<Quantity> = std::to_array<WordOf<Quantity>>({
     {Quantity::pulse_wave_velocity, "pulse_wave_velocity", "of Bramwell and Hill, from distensibility and density"},
     {Quantity::peak_flow, "peak_flow", "the largest out of an outlet"},
     {Quantity::flow_share, "flow_share", "of all that flows out in a beat, what leaves by an outlet"},
+    {Quantity::peak_wall_stress, "peak_wall_stress",
+     "the largest over the beat of what 99 % of the wall do not exceed, von Mises"},
+    {Quantity::wall_shear, "wall_shear", "of the blood on the wall, mean over the lumen and the beat"},
     {Quantity::displacement, "displacement",
      "from the model as it is: root mean square over the lumen, at the measured moment of most"},
 });

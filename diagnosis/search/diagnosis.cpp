@@ -147,7 +147,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
                              as_many(weighing.shown, report.problem.changes.cols()));
   }
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
-  report.found = search_effects(report.problem, how, residual_at, weighing.weighed);
+  report.found = search_effects(report.problem, how, residual_at, weighing);
   report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
   report.published = published_models(given, evidence, report, trials, base, model.runs);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/search/amplitude_interval.hpp"
 #include "diagnosis/search/refinement.hpp"
 
 namespace tether {
@@ -118,7 +119,7 @@ class Search {
   }
 
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
-  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) const {
+  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) {
     std::vector<Refinement> all;
     for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, trained, plain_, problem_);
     const Scores scores = trained.scores(problem_.changes, now_.residual);
@@ -135,11 +136,15 @@ class Search {
     }
   }
 
-  void run(const std::vector<Refinement*>& open) const {
+  void run(const std::vector<Refinement*>& open) {
     MatrixXd wanted(problem_.changes.cols(), static_cast<Index>(open.size()));
     for (std::size_t i = 0; i < open.size(); ++i) wanted.col(static_cast<Index>(i)) = open[i]->amplitudes();
     const MatrixXd residuals = residual_at_(wanted);
-    for (std::size_t i = 0; i < open.size(); ++i) open[i]->take(residuals.col(static_cast<Index>(i)));
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const auto k = static_cast<Index>(i);
+      open[i]->take(residuals.col(k));
+      result_.runs.push_back({wanted.col(k), residuals.col(k)});
+    }
   }
 
   /// What does the same to first order saturates alike.
@@ -303,7 +308,9 @@ class Search {
       for (TestedEffect& effect : result_.effects)
         if (effect.candidate == now_.accepted[k]) {
           effect.amplitudes = now_.amplitudes(problem_.candidates[effect.candidate].amplitudes);
-          effect.deviations = effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * result_.dispersion);
+          const VectorXd in_proportion =
+              effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * result_.dispersion);
+          effect.deviations = in_proportion.size() == 1 ? in_proportion : in_proportion.cwiseMax(effect.deviations);
         }
     }
   }
@@ -406,8 +413,10 @@ class Search {
 }  // namespace
 
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-                            const Weighed& weighed) {
-  return Search(problem, settings, residual_at, weighed).run();
+                            const Weighing& weighing) {
+  SearchResult result = Search(problem, settings, residual_at, weighing.weighed).run();
+  set_intervals(result, problem, settings, weighing.shown);
+  return result;
 }
 
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,

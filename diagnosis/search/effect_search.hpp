@@ -31,6 +31,7 @@ struct SearchResult {
                            ///< refitted: intervals are widened by its root
   std::optional<Gain> held_out;
   std::vector<StrainedError> strained;  ///< errors beyond twice what is allowed, the worst first
+  std::vector<ShownRun> runs;           ///< that found amplitudes
   Adequacy adequacy;
   bool doubtful = false;  ///< more is left than noise and errors allowed make by chance, though no more than they may
 };
@@ -38,7 +39,7 @@ struct SearchResult {
 /// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the
 /// data at hand and those held out ask for it, and judges what is left. (D.8-D.13)
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-                            const Weighed& weighed);
+                            const Weighing& weighing);
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
                             const ResidualAt& residual_at);
 

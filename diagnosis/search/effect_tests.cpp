@@ -98,19 +98,37 @@ double cosine(const EffectProblem& problem, const Scores& scores, const TestedEf
   return size > 0 ? u.dot(scores.information * v) / std::sqrt(size) : 0;
 }
 
+namespace {
+
+constexpr double at_most = 100;  ///< times what was found
+
+/// What the effect does at a factor of its amplitude, over what it does as found; c: `TestedEffect::saturation`.
+double does_at(double factor, double c) {
+  return factor > 0 ? factor * (1 + c) / (1 + c * factor) : factor;
+}
+
+AmplitudeRange range_of(const AmplitudeInterval& interval, double size, double saturation) {
+  const auto [least, most] = std::minmax({interval.least / size, interval.most / size});
+  const double lower = std::min(least, 1.0), upper = std::clamp(most, 1.0, at_most);
+  return {lower, upper, does_at(lower, saturation), does_at(upper, saturation)};
+}
+
+}  // namespace
+
 AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own) {
-  constexpr double farthest = 100;
   const Candidate& candidate = problem.candidates[effect.candidate];
   const Amplitude& amplitude =
       problem.amplitudes[static_cast<std::size_t>(candidate.amplitudes[static_cast<std::size_t>(own)])];
   const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own) / std::abs(size);
   if (size == 0) return {};
+  const double c = std::max(0.0, effect.saturation);
+  if (effect.interval) return range_of(*effect.interval, size, c);
   if (!amplitude.one_sided) return {1 - half, 1 + half, 1 - half, 1 + half};
   const double least = std::max(0.0, 1 - half);
   if (!effect.confirmed) return {least, 1 + half, least, 1 + half};
-  const double c = std::max(0.0, effect.saturation), does = std::exp(half / (1 + c));
-  const auto at = [&](double does) { return does / std::max(1 + c - c * does, does / farthest); };
-  const double most = std::min(does, at(does) < farthest ? does : (1 + c) / (c + 1 / farthest));
+  const double does = std::exp(half / (1 + c));
+  const auto at = [&](double does) { return does / std::max(1 + c - c * does, does / at_most); };
+  const double most = std::min(does, at(does) < at_most ? does : (1 + c) / (c + 1 / at_most));
   return {at(1 / does), at(does), 1 / does, most};
 }
 

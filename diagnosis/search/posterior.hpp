@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "diagnosis/evidence/set_evidence.hpp"
 #include "diagnosis/results/phase_gain.hpp"

@@ -128,7 +128,8 @@ void Refinement::take(const VectorXd& residual) {
   effect_.amplitudes = factor * direction_(own(effect_.candidate));
   effect_.at_limit = factor > 0.99 * farthest_;
   effect_.saturation = bends_ * factor;
-  effect_.deviations = effect_.amplitudes.cwiseAbs() / std::sqrt(std::max(information, 1e-300));
+  const VectorXd in_proportion = effect_.amplitudes.cwiseAbs() / std::sqrt(std::max(information, 1e-300));
+  effect_.deviations = in_proportion.size() == 1 ? in_proportion : in_proportion.cwiseMax(effect_.deviations);
   effect_.confirmed = true;
   effect_.confirmed_gain = start_ - best_;
   const VectorXd left = residual - per_factor_ * std::log(next_ / last_);

@@ -11,7 +11,8 @@ using Index = Eigen::Index;
 
 constexpr int rounds = 5;  ///< of runs, before what they tell is taken as it is
 
-/// Of each candidate, whether one of its numbers is.
+}  // namespace
+
 std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings& settings) {
   std::vector<bool> refused;
   for (const Candidate& candidate : problem.candidates)
@@ -21,8 +22,6 @@ std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings&
     }));
   return refused;
 }
-
-}  // namespace
 
 Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
                        RunsFor purpose, std::vector<ShownRun> shown) {
@@ -45,9 +44,9 @@ Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& setti
   }
 }
 
-Weighed weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at) {
+Weighing weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at) {
   Weighing explored = weigh_effects(problem, settings, {residual_at}, RunsFor::exploring);
-  return weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(explored.shown)).weighed;
+  return weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(explored.shown));
 }
 
 }  // namespace tether

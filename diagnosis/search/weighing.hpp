@@ -18,6 +18,9 @@ struct SearchSettings {
   std::vector<std::string> refused = {};  ///< numbers of candidates that are not accepted
 };
 
+/// Of each candidate, whether one of its numbers is refused.
+std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings& settings);
+
 /// How probable each explanation is, and the runs that told.
 struct Weighing {
   Weighed weighed;
@@ -32,6 +35,6 @@ struct ShowingRuns {
 Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
                        RunsFor purpose, std::vector<ShownRun> shown = {});
 /// Explored and told with the same runs.
-Weighed weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at);
+Weighing weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at);
 
 }  // namespace tether

@@ -103,10 +103,10 @@ class ElementsOf final : public WallElements {
     return sum;
   }
 
-  double volume() const override {
-    double sum = 0;
-    for (const Element& element : elements_) sum += element.volume();
-    return sum;
+  VectorXd volumes() const override {
+    VectorXd all(static_cast<Eigen::Index>(elements_.size()));
+    for (std::size_t e = 0; e < elements_.size(); ++e) all[static_cast<Eigen::Index>(e)] = elements_[e].volume();
+    return all;
   }
 
   Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const override;

@@ -40,7 +40,9 @@ class WallElements {
   virtual void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
                           SparseMatrix* tangent) const = 0;
   virtual double energy(const Points& x, const Material& material) const = 0;
-  virtual double volume() const = 0;
+  /// Of each element, without stress.
+  virtual VectorXd volumes() const = 0;
+  double volume() const { return volumes().sum(); }
   /// Cauchy stress of each element, averaged over its points: columns 11 22 33 12 23 13.
   virtual Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const = 0;
   virtual SparseMatrix zero_matrix() const = 0;

@@ -59,6 +59,14 @@ TEST(BeatQuantities, AreThoseOfTheLastBeat) {
   EXPECT_NEAR(value(all, Quantity::flow_share, "right"), 25, 1e-9);
 }
 
+TEST(BeatQuantities, StressesOfTheWall) {
+  BeatFacts all = facts();
+  all.columns.insert(all.columns.end(), {"solid.peak_stress", "fluid.wall_shear"});
+  const auto found = beat_quantities(beats(), all);
+  EXPECT_NEAR(value(found, Quantity::peak_wall_stress), 10 * 0.1 / 1e3, 1e-12) << "g/(cm s2) in kPa";
+  EXPECT_NEAR(value(found, Quantity::wall_shear), 5 * 0.1, 1e-6) << "the mean of 10 (1 - cos)/2, in Pa";
+}
+
 TEST(BeatQuantities, OfTheWholeRunWhereNoPeriodIsKnown) {
   BeatFacts whole = facts();
   whole.period = 0;

@@ -90,6 +90,32 @@ TEST(PhaseGain, FewMomentsTellNoLookAlikesApart) {
   for (std::size_t k = 1; k < all.groups[0].members.size(); ++k) EXPECT_FALSE(all.groups[0].as_good[k]);
 }
 
+/// The 95 % interval of what is named, where what is hidden is as large as expected beforehand, and beside something
+/// that the data hardly show in each other data set.
+TEST(AmplitudeInterval, HoldsWhatIsHidden) {
+  EffectProblem problem = band(true);
+  problem.pattern_deviation.setConstant(1e-3);
+  int told = 0;
+  const double inside = share(
+      [&](std::mt19937_64& generator) {
+        std::normal_distribution<double> normal;
+        const double size = 2 + 4 * std::uniform_real_distribution<>()(generator);
+        const double beside = std::uniform_real_distribution<>(-1, 1)(generator);
+        problem.residual = size * problem.changes.col(2) + 0.4 * std::max(0.0, beside) * problem.changes.col(6);
+        for (double& datum : problem.residual) datum += normal(generator);
+        const SearchResult result = found(problem);
+        const TestedEffect& first = result.effects.front();
+        if (!first.accepted || first.candidate != 2) return true;
+        ++told;
+        const AmplitudeInterval interval = first.interval.value();
+        return interval.least <= size && size <= interval.most;
+      },
+      100);
+  EXPECT_GT(told, 90);
+  EXPECT_GE(inside, 0.89) << "0.95 of 100, two standard deviations below";
+  EXPECT_LE(inside, 0.99);
+}
+
 /// What is said to be detectable has 95 % in four of five data sets; half of it hardly ever. Independent data: noise
 /// that is alike would have to be whitened.
 TEST(Detectable, IsProbableInFourOfFive) {
