@@ -96,9 +96,10 @@ Curve curve_of(const EffectCase& effect, const PressureCurveCase& pressure, cons
 
 InletSettings settings_of(const InletCase& inlet, const UnitSystem& units) {
   if (inlet.effect.type == "pressure")
-    return {choice_of(inlet.effect, outlets()), inlet.pressure.load(units), 0, 0, {}};
-  return {choice_of(inlet.effect, inflows()), inlet.flow.load(units), inlet.flow.period.value_or(0), inlet.flow.ramp,
-          profile_named(inlet.profile)};
+    return {choice_of(inlet.effect, outlets()), inlet.pressure.load(units), 0, 0, {}, false};
+  return {choice_of(inlet.effect, inflows()), inlet.flow.load(units),
+          inlet.flow.period.value_or(0),      inlet.flow.ramp,
+          profile_named(inlet.profile),       inlet.flow_through == "ring"};
 }
 
 }  // namespace
@@ -111,6 +112,12 @@ void InletCase::declare(Fields& f) {
               {"parabolic", "the steady developed flow of the inlet's shape"},
               {"womersley", "the oscillating developed flow of each harmonic of the curve"}},
              "how the velocity is spread over the inlet");
+    f.choice("flow_through", flow_through,
+             {{"plane", "a plane that stays in space, as of a magnetic-resonance measurement"},
+              {"ring",
+               "the inlet as it moves, such as what the heart ejects; for a ring that is driven: with one that "
+               "gives way no step would be stable"}},
+             "through what the flow is given");
     f.group("flow", flow, "flow into the vessel over time");
     f.check(profile != "womersley" || flow.period, "profile", "womersley needs a flow with a period");
   });

@@ -17,7 +17,7 @@ struct PressureCurveCase : CurveCase {
 /// An inlet: a flow spread by a profile, or a pressure.
 struct InletCase {
   EffectCase effect{"flow", {}};
-  std::string profile = "parabolic";
+  std::string profile = "parabolic", flow_through = "plane";
   FlowCurveCase flow;
   PressureCurveCase pressure;
   void declare(Fields& f);

@@ -125,7 +125,7 @@ void FluidSolver::move_mesh() {
   domain_.place(trial_.displacement);
 }
 
-/// (F.4)
+/// (F.4), (F.12)
 void FluidSolver::predict_velocity() {
   trial_.velocity = accepted_.velocity;
   trial_.velocity(Eigen::all, domain_.sigma.nodes) = trial_.mesh_velocity(Eigen::all, domain_.sigma.nodes);
@@ -133,7 +133,7 @@ void FluidSolver::predict_velocity() {
   trial_.profiles.clear();
   for (auto& inlet : flow_inlets_) {
     const auto& face = inlet.face();
-    trial_.profiles.push_back(inlet.velocity(trial_.end_time, kinematic_viscosity()));
+    trial_.profiles.push_back(inlet.velocity(trial_.end_time, kinematic_viscosity(), face.local(trial_.mesh_velocity)));
     trial_.inflow -= face.total_flux(trial_.profiles.back());
     for (int local : face.inner)
       trial_.velocity.col(face.nodes[static_cast<std::size_t>(local)]) = trial_.profiles.back().col(local);

@@ -97,7 +97,7 @@ class FluidSolver {
     VectorXd known;                                // of each opening
     std::vector<OutletInput> inputs;
     std::vector<Points> profiles;  // of each flow inlet, u_in
-    double inflow = 0, swept = 0;  // through the flow inlets; by the end faces' own motion, outward
+    double inflow = 0, swept = 0;  // through the flow inlets, in space; by the end faces' own motion, outward
     Points viscous_load;
     double wall_shear = 0;  // mean over Sigma
     // of the last evaluation

@@ -130,7 +130,8 @@ void FluidSolver::observe_sections(std::vector<double>& values) const {
     }
 }
 
-/// Flows are those of the blood in space: into the vessel at inlets, out of it at outlets. (F.13)
+/// Flows are into the vessel at inlets, out of it at outlets, of the blood in space; where a flow is given, that flow.
+/// (F.13)
 void FluidSolver::observe() {
   const auto& solution = trial_.solution;
   std::vector<double> values;

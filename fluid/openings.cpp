@@ -12,7 +12,8 @@ FlowInlet::FlowInlet(const EndFace& face, const InletSettings& settings)
       curve_(settings.curve),
       period_(settings.period),
       ramp_(settings.ramp),
-      kind_(settings.profile) {}
+      kind_(settings.profile),
+      through_ring_(settings.through_ring) {}
 
 double FlowInlet::opening(double clock) const {
   const double s = ramp_ > 0 ? std::clamp(clock / ramp_, 0.0, 1.0) : 1.0;
@@ -24,14 +25,16 @@ double FlowInlet::flow(double time) const {
   return inflow->gain() * curve_(clock) + opening(clock) * inflow->added(time, period_);
 }
 
-Points FlowInlet::velocity(double time, double kinematic_viscosity) {
+Points FlowInlet::velocity(double time, double kinematic_viscosity, const Points& mesh_velocity) {
   if (!profile_ || (kind_ == Profile::womersley && kinematic_viscosity != profile_viscosity_)) {
     const double opened = period_ > 0 ? period_ * std::ceil(ramp_ / period_) : 0;  // a whole number of periods
     profile_.emplace(*face_, kind_, PeriodicCurve{curve_, period_, opened}, kinematic_viscosity);
     profile_viscosity_ = kinematic_viscosity;
   }
   const double clock = inflow->curve_time(time);
-  return profile_->velocity(*face_, flow(time), clock, inflow->gain() * opening(clock));
+  Points result = profile_->velocity(*face_, flow(time), clock, inflow->gain() * opening(clock));
+  if (through_ring_) result += mesh_velocity;
+  return result;
 }
 
 Opening::Opening(const EndFace& face, const EffectChoice& effect, const Curve& curve, bool is_inlet)

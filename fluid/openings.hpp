@@ -19,10 +19,11 @@ class FlowInlet {
   const EndFace& face() const { return *face_; }
   Configured<Inflow> inflow;
 
-  /// Into the vessel [volume/time].
+  /// Into the vessel, in space or through the face as it moves [volume/time].
   double flow(double time) const;
-  /// At the face's nodes (local), in space; its flux is -flow(time) to round-off.
-  Points velocity(double time, double kinematic_viscosity);
+  /// At the face's nodes (local), in space; `mesh_velocity`: there, of the mesh. Its flux, relative to the face if the
+  /// flow is given so, is -flow(time) to round-off.
+  Points velocity(double time, double kinematic_viscosity, const Points& mesh_velocity);
 
  private:
   const EndFace* face_;
@@ -32,6 +33,7 @@ class FlowInlet {
 
   double period_, ramp_;
   Profile kind_;
+  bool through_ring_;
   std::optional<InletProfile> profile_;  // made when first needed, and again when the viscosity has changed
   double profile_viscosity_ = 0;
 };

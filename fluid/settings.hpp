@@ -32,6 +32,7 @@ struct InletSettings {
   Curve curve = Curve::constant(0);  ///< flow into the vessel [volume/time], or pressure
   double period = 0, ramp = 0;       ///< with which the curve was made, for Womersley's profile
   Profile profile = Profile::parabolic;
+  bool through_ring = false;  ///< the flow is that through the face as it moves; else in space
 };
 
 struct OutletSettings {

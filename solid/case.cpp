@@ -18,6 +18,11 @@ const EffectDeclaration clamped_ring{.name = "clamped",
                                      .place = Place::ring,
                                      .parameters = {},
                                      .role = EffectRole::holds};
+const EffectDeclaration driven_ring{.name = "driven",
+                                    .meaning = "The ring moves as 'motion' says, whatever the forces",
+                                    .place = Place::ring,
+                                    .parameters = {},
+                                    .role = EffectRole::holds};
 const EffectDeclaration free_ring{.name = "free",
                                   .meaning = "Nothing holds the ring",
                                   .place = Place::ring,
@@ -27,7 +32,7 @@ const EffectDeclaration free_ring{.name = "free",
 const std::vector<const EffectDeclaration*>& ring_family() {
   static const std::vector<const EffectDeclaration*> family = [] {
     std::vector<const EffectDeclaration*> list = declarations(supports());
-    list.insert(list.begin(), {&clamped_ring, &free_ring});
+    list.insert(list.begin(), {&clamped_ring, &driven_ring, &free_ring});
     return list;
   }();
   return family;
@@ -51,11 +56,16 @@ void check_names(const Named<Section>& sections, const std::vector<Patch>& patch
       throw input_error("{}: the wall has no such part; it has: {}", file.where(field + "." + name), known);
 }
 
-std::vector<int> clamped_nodes(const SolidCase& solid, const WallMesh& mesh) {
+bool is_given(const RingCase& ring) {
+  return ring.effect.type == clamped_ring.name || ring.effect.type == driven_ring.name;
+}
+
+/// Of rings that are clamped or driven.
+std::vector<int> given_nodes(const SolidCase& solid, const WallMesh& mesh) {
   std::vector<int> nodes;
   for (const Patch& ring : mesh.rings) {
     const RingCase* chosen = named(solid.rings, ring.name);
-    if (chosen != nullptr && chosen->effect.type != clamped_ring.name) continue;
+    if (chosen != nullptr && !is_given(*chosen)) continue;
     if (is_loose(ring.name, solid.effects)) continue;
     const std::vector<int> more = nodes_of(ring.triangles);
     nodes.insert(nodes.end(), more.begin(), more.end());
@@ -65,17 +75,33 @@ std::vector<int> clamped_nodes(const SolidCase& solid, const WallMesh& mesh) {
   return nodes;
 }
 
-std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file) {
+TissueMotion motion_of(const MotionCase& given, const Patch& ring, const WallMesh& mesh, const CaseFile& file,
+                       std::vector<std::string>& notices) {
+  const RigidMotion motion = given.load(file.units(), ring, mesh.points);
+  notices.push_back(fmt::format("ring {}: {}", ring.name, describe(motion, given, file.units())));
+  return motion;
+}
+
+std::vector<DrivenRing> driven_rings(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file,
+                                     std::vector<std::string>& notices) {
+  std::vector<DrivenRing> result;
+  for (const Patch& ring : mesh.rings)
+    if (const RingCase* chosen = named(solid.rings, ring.name); chosen && chosen->effect.type == driven_ring.name)
+      result.push_back({ring.name, nodes_of(ring.triangles), motion_of(*chosen->motion, ring, mesh, file, notices)});
+  return result;
+}
+
+std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file,
+                                          std::vector<std::string>& notices) {
   std::vector<SurfaceSupport> result;
   for (const Patch& region : mesh.outside)
     if (const SupportCase* chosen = named(solid.support.regions, region.name))
       result.emplace_back(region, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values));
   for (const Patch& ring : mesh.rings) {
     const RingCase* chosen = named(solid.rings, ring.name);
-    if (chosen == nullptr || chosen->effect.type == clamped_ring.name || chosen->effect.type == free_ring.name)
-      continue;
+    if (chosen == nullptr || is_given(*chosen) || chosen->effect.type == free_ring.name) continue;
     result.emplace_back(ring, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values),
-                        chosen->motion ? chosen->motion->load(file.units()) : TissueMotion{});
+                        chosen->motion ? motion_of(*chosen->motion, ring, mesh, file, notices) : TissueMotion{});
   }
   add_surface_effects(solid.effects, mesh, file, result);
   return result;
@@ -136,8 +162,10 @@ void SupportCase::declare(Fields& f) {
 
 void RingCase::declare(Fields& f) {
   f.effect(effect, ring_family(), "how this end ring is held");
-  f.when("type", effect.type, {"visco_elastic", "normal_visco_elastic"},
-         [&] { f.group("motion", motion, "motion of what the ring is tied to: the heart; absent: it rests"); });
+  f.when("type", effect.type, {"visco_elastic", "normal_visco_elastic", "driven"}, [&] {
+    f.group("motion", motion, "motion of the ring, or of what it is tied to: the heart; absent: it rests");
+    f.check(motion.has_value() || effect.type != driven_ring.name, "type", "needs a section 'motion'");
+  });
 }
 
 void SupportsCase::declare(Fields& f) {
@@ -189,17 +217,19 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
                               .theta = solid.theta,
                               .conserve_energy = solid.integrator == "energy_conserving",
                               .support_on_current_area = solid.support.area == "current"};
-  const std::vector<int> clamped = clamped_nodes(solid, mesh);
-  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file);
+  PreparedWall wall;
+  const std::vector<int> clamped = given_nodes(solid, mesh);
+  std::vector<DrivenRing> driven = driven_rings(solid, mesh, file, wall.notices);
+  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file, wall.notices);
   const ImageCase& image = file.common().image;
   const Points stress_free =
       image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;
-  PreparedWall wall;
   if (file.common().observer.is_on()) wall.observer_gain = observer_gain(file.common().observer, mesh);
   if (nothing_holds(held)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
   std::vector<LocalEffect> local = local_effects(solid.effects, mesh);
   wall.model =
       std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local));
+  wall.model->drive(std::move(driven));
   if (image.loads_wall() && image.wall == "prestressed") wall.notices.push_back(prestress(*wall.model, image.pressure));
   return wall;
 }

@@ -15,7 +15,7 @@ struct SupportCase {
   void declare(Fields& f);
 };
 
-/// How an end ring is held: clamped, free, or by a support, which may follow a measured motion.
+/// How an end ring is held: clamped, driven along a measured motion, free, or by a support, which may follow one.
 struct RingCase {
   EffectCase effect{"clamped", {}};
   std::optional<MotionCase> motion;

@@ -210,7 +210,8 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
   for (const auto& [name, block] : effects)
     if (is_of(motions(), block.effect.type)) {
       Configured<MotionLaw> motion(motions(), block.effect.type, block.effect.values);
-      TissueMotion measured = block.motion ? block.motion->load(file.units()) : TissueMotion{};
+      TissueMotion measured;
+      if (block.motion) measured = block.motion->load(file.units(), patch_of(block.region, mesh), mesh.points);
       tie(std::make_shared<MovingTissue>(MovingTissue{"solid.effects." + name, std::move(motion), std::move(measured)}),
           patch_of(block.region, mesh).triangles, supports);
     }

@@ -37,12 +37,27 @@ void SolidSolver::begin_step(double time, double dt) {
   dt_ = dt;
   iterate_ = mean_velocity_;
   for (const int unknown : model_.clamped_unknowns()) iterate_.reshaped()[unknown] = 0;  // of a clamp just set
+  place_driven();
   drift_.setZero();
   evaluations_ = 0;
   calls_ = most_calls_ = 0;
   tangent_serves_ = false;
   model_.place_supports(displacement_);
   renew_factor_if_stale();
+}
+
+/// The velocity that brings driven nodes to where they must be at the end of the step. Their u0 is that of the motion:
+/// from (S.5) it would ring, odd-even, about a velocity that does not start from rest. (S.23)
+void SolidSolver::place_driven() {
+  for (const DrivenRing& ring : model_.driven()) {
+    const AffineDisplacement end = ring.motion(time_ + dt_), before = ring.motion(time_ - dt_ / 2),
+                             after = ring.motion(time_ + dt_ / 2);
+    for (const int node : ring.nodes) {
+      const Vec3 x = model_.mesh().points.col(node);
+      iterate_.col(node) = (end.at(x) - displacement_.col(node)) / dt_;
+      velocity_.col(node) = (after.at(x) - before.at(x)) / dt_;
+    }
+  }
 }
 
 VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {

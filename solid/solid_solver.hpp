@@ -72,6 +72,7 @@ class SolidSolver {
     double mark() const;  ///< differs for any other displacement, dt or parameters
   };
 
+  void place_driven();
   /// load - forces at the iterate, zero on clamped unknowns.
   VectorXd out_of_balance(const Points& load, bool renew_tangent);
   const SparseMatrix& current_tangent();

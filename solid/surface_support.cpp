@@ -59,30 +59,32 @@ void SurfaceSupport::place(const Points& x) {
 }
 
 /// y_b: where the tissue's springs are at rest.
-Vec3 SurfaceSupport::rest_at(double time) const {
-  Vec3 rest = motion_ ? motion_(time) : Vec3::Zero();
+AffineDisplacement SurfaceSupport::rest_at(double time) const {
+  AffineDisplacement rest = motion_ ? motion_(time) : AffineDisplacement{};
   for (const auto& tissue : tissues_)
     if (!tissue->motion.is_absent()) rest += tissue->motion->at(time, tissue->measured);
   return rest;
 }
 
-SupportTraction SurfaceSupport::at(const SupportStep& step, const Vec3& rest, const Face& face, int point) const {
+SupportTraction SurfaceSupport::at(const SupportStep& step, const AffineDisplacement& rest, const Face& face,
+                                   int point) const {
   const Vec3 shapes = face.shapes.col(point);
   const auto mean = [&](const Points& values) -> Vec3 {
     return shapes[0] * values.col(face.nodes[0]) + shapes[1] * values.col(face.nodes[1]) +
            shapes[2] * values.col(face.nodes[2]);
   };
-  SupportPoint here{mean(step.displacement) - rest, mean(step.velocity), face.normal};
+  const Vec3 imaged = face.corners * shapes;
+  SupportPoint here{mean(step.displacement) - rest.at(imaged), mean(step.velocity), face.normal};
   if (step.acceleration != nullptr) here.acceleration = mean(*step.acceleration);
   here.axial = face.axial;
-  here.position = face.corners * shapes;
+  here.position = imaged;
   here.time = step.time;
   return support_->at(here);
 }
 
 void SurfaceSupport::add(const SupportStep& step, VectorXd& force, SparseMatrix* tangent) const {
   if (support_.is_absent()) return;
-  const Vec3 rest = rest_at(step.time);
+  const AffineDisplacement rest = rest_at(step.time);
   const double acceleration_by_velocity = step.acceleration != nullptr ? 1 / step.advance : 0;
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const Face& face = faces_[k];
@@ -110,7 +112,7 @@ void SurfaceSupport::add_stiffness(SparseMatrix& K) const {
     Block block = Block::Zero();
     for (int point = 0; point < 3; ++point)
       add_products(faces_[k].shapes.col(point), faces_[k].area / 3,
-                   at(at_rest, Vec3::Zero(), faces_[k], point).stiffness, block);
+                   at(at_rest, AffineDisplacement{}, faces_[k], point).stiffness, block);
     scatter_.add(K, k, block.data());
   }
 }
@@ -118,7 +120,7 @@ void SurfaceSupport::add_stiffness(SparseMatrix& K) const {
 Vec3 SurfaceSupport::resultant(const SupportStep& step) const {
   Vec3 sum = Vec3::Zero();
   if (support_.is_absent()) return sum;
-  const Vec3 rest = rest_at(step.time);
+  const AffineDisplacement rest = rest_at(step.time);
   for (const Face& face : faces_)
     for (int point = 0; point < 3; ++point) sum += face.area / 3 * at(step, rest, face, point).traction;
   return sum;

@@ -69,8 +69,8 @@ class SurfaceSupport {
     Vec3 normal, axial;
     Mat3 corners;  ///< imaged
   };
-  SupportTraction at(const SupportStep& step, const Vec3& rest, const Face& face, int point) const;
-  Vec3 rest_at(double time) const;
+  SupportTraction at(const SupportStep& step, const AffineDisplacement& rest, const Face& face, int point) const;
+  AffineDisplacement rest_at(double time) const;
 
   Patch patch_;
   Configured<Support> support_;

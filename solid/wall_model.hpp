@@ -24,6 +24,13 @@ struct WallSettings {
   bool support_on_current_area = false;  ///< areas at the start of each step, else those of the imaged wall
 };
 
+/// Nodes that move as given, whatever the forces: those of a ring that the heart carries along.
+struct DrivenRing {
+  std::string name;
+  std::vector<int> nodes;
+  TissueMotion motion;
+};
+
 /// Wall with material and supports; all parameters settable by name.
 class WallModel {
  public:
@@ -34,6 +41,10 @@ class WallModel {
   WallModel(const WallModel&) = delete;  // the parameter table refers into this object
   WallModel& operator=(const WallModel&) = delete;
 
+  /// Rings whose nodes are among the clamped ones, and move (S.23).
+  void drive(std::vector<DrivenRing> rings) { driven_ = std::move(rings); }
+  const std::vector<DrivenRing>& driven() const { return driven_; }
+
   /// The imaged wall carries this stress, and the surroundings hold the rest.
   void set_initial_stress(const InitialStress& initial);
 
@@ -41,7 +52,7 @@ class WallModel {
   const WallSettings& settings() const { return settings_; }
   const WallElements& elements() const { return *elements_; }
   const Material& material() const { return *material_; }
-  /// Those of the clamped nodes, and of rings whose clamp nothing replaces now.
+  /// Those of the clamped and driven nodes, and of rings whose clamp nothing replaces now: their velocity is given.
   const std::vector<int>& clamped_unknowns() const { return clamped_; }
   const std::vector<SurfaceSupport>& supports() const { return supports_; }
   const ParameterTable& parameters() const { return parameters_; }
@@ -72,6 +83,7 @@ class WallModel {
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
   std::vector<LocalEffect> effects_;
+  std::vector<DrivenRing> driven_;
   std::vector<WallZone> zones_;
   std::vector<std::vector<double>> mixtures_;  ///< of zones, of elements that several share: what each has
   VectorXd

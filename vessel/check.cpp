@@ -118,6 +118,17 @@ double likely_factor(double diameter_mm) {
   return std::pow(10.0, std::round(std::log10(15.0 / diameter_mm)));
 }
 
+/// A velocity is spread over nodes inside the rim, which is the wall's: a face without one lets nothing through.
+void check_open(const std::string& mesh, const FluidMesh& fluid, const std::vector<Patch>& faces) {
+  const std::vector<int> wall = nodes_of(fluid.interface);
+  for (const Patch& face : faces) {
+    const std::vector<int> nodes = nodes_of(face.triangles);
+    if (std::includes(wall.begin(), wall.end(), nodes.begin(), nodes.end()))
+      throw input_error("{}: face {}, near {}, has no node inside its rim: the triangles there must be smaller", mesh,
+                        face.name, coordinates(middle(fluid.points, nodes)));
+  }
+}
+
 }  // namespace
 
 void check(const FluidMesh& fluid) {
@@ -127,6 +138,8 @@ void check(const FluidMesh& fluid) {
   if (fluid.inlets.empty() && fluid.outlets.empty()) throw input_error("{}: has neither inlet nor outlet", mesh);
   check_boundary(mesh, fluid.points, fluid.tetrahedra, faces_of(fluid.interface, fluid.inlets, fluid.outlets),
                  "the interface, an inlet or an outlet");
+  check_open(mesh, fluid, fluid.inlets);
+  check_open(mesh, fluid, fluid.outlets);
 }
 
 void check(const WallMesh& wall) {

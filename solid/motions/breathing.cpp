@@ -49,9 +49,9 @@ const EffectDeclaration breathing_declaration{
 class Breathing final : public MotionLaw {
  public:
   explicit Breathing(std::span<const double> v) : amplitude_(v[0], v[1], v[2]), period_(v[3]), phase_(v[4]) {}
-  Vec3 at(double time, const TissueMotion&) const override {
+  AffineDisplacement at(double time, const TissueMotion&) const override {
     const auto sine = [](double part) { return std::sin(2 * std::numbers::pi * part); };
-    return (sine(time / period_ + phase_) - sine(phase_)) * amplitude_;
+    return {(sine(time / period_ + phase_) - sine(phase_)) * amplitude_};
   }
 
  private:

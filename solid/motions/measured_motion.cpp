@@ -17,11 +17,11 @@ const EffectDeclaration measured_motion_declaration{
                     .prior_deviation = 0.5}},
     .role = EffectRole::loads};
 
-/// y_b = factor (measured(t) - measured(0)) (S.18)
+/// y_b = factor measured(t) (S.18)
 class MeasuredMotion final : public MotionLaw {
  public:
   explicit MeasuredMotion(double factor) : factor_(factor) {}
-  Vec3 at(double time, const TissueMotion& measured) const override { return factor_ * (measured(time) - measured(0)); }
+  AffineDisplacement at(double time, const TissueMotion& measured) const override { return factor_ * measured(time); }
 
  private:
   double factor_;

@@ -11,13 +11,19 @@
 namespace tether {
 namespace {
 
-class Rings : public ::testing::TestWithParam<std::pair<const char*, const char*>> {
+struct Inlet {
+  const char *name, *ring, *flow_through = "plane";
+};
+
+class Rings : public ::testing::TestWithParam<Inlet> {
  protected:
   std::filesystem::path tube() const {
-    const auto file = case_variant(TETHER_SOURCE "/configs/tube/case.yaml", folder / "case",
-                                   {{"around: 24", "around: 12"},
-                                    {"along: 20", "along: 12"},
-                                    {"inlet_ring: {type: clamped}", std::string("inlet_ring: ") + GetParam().second}});
+    const auto file = case_variant(
+        TETHER_SOURCE "/configs/tube/case.yaml", folder / "case",
+        {{"around: 24", "around: 12"},
+         {"along: 20", "along: 12"},
+         {"inlet_ring: {type: clamped}", std::string("inlet_ring: ") + GetParam().ring},
+         {"profile: parabolic", "profile: parabolic\n      flow_through: " + std::string(GetParam().flow_through)}});
     std::ofstream motion(folder / "case/heart.csv");
     motion << "time [s], x [cm], y [cm], z [cm]\n";
     for (int k = 0; k < 80; ++k)
@@ -46,13 +52,15 @@ TEST_P(Rings, StayQuiet) {
   EXPECT_LT(mass, 1e-9);
 }
 
+constexpr const char* heart = "{type: driven, motion: {file: heart.csv, period: 0.8, harmonics: 2}}";
+
 INSTANTIATE_TEST_SUITE_P(
     Inlet, Rings,
-    ::testing::Values(std::pair{"clamped", "{type: clamped}"}, std::pair{"free", "{type: free}"},
-                      std::pair{"held", "{type: visco_elastic, stiffness: 1e5}"},
-                      std::pair{"moved",
-                                "{type: visco_elastic, stiffness: 1e7, motion: {file: heart.csv, period: 0.8}}"}),
-    [](const auto& info) { return std::string(info.param.first); });
+    ::testing::Values(Inlet{"clamped", "{type: clamped}"}, Inlet{"free", "{type: free}"},
+                      Inlet{"held", "{type: visco_elastic, stiffness: 1e5}"},
+                      Inlet{"moved", "{type: visco_elastic, stiffness: 1e7, motion: {file: heart.csv, period: 0.8}}"},
+                      Inlet{"driven", heart}, Inlet{"driven_with_the_flow", heart, "ring"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace tether

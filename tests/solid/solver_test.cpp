@@ -30,7 +30,8 @@ struct Vessel {
   std::vector<SurfaceSupport> held() const {
     std::vector<SurfaceSupport> list;
     list.emplace_back(wall.outside[0], spring(1e5, 1e3));
-    list.emplace_back(wall.rings[1], spring(1e6, 0), [](double t) { return Vec3(0, 0, 0.05 * std::sin(20 * t)); });
+    list.emplace_back(wall.rings[1], spring(1e6, 0),
+                      [](double t) { return AffineDisplacement{Vec3(0, 0, 0.05 * std::sin(20 * t))}; });
     return list;
   }
   /// A pressure that rises, with a part that bends the tube.

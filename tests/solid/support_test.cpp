@@ -263,7 +263,7 @@ TEST(SurfaceSupport, AreaIsThatOfTheImageUnlessTheCaseSaysCurrent) {
 
 TEST(SurfaceSupport, ARingTiedToMovingTissueFollowsIt) {
   const WallMesh wall = plate({2, 1, 0.2}, {4, 2}, 1);
-  const auto motion = [](double time) { return Vec3(0.01 * time, 0.02 * time, 0); };
+  const auto motion = [](double time) { return AffineDisplacement{Vec3(0.01 * time, 0.02 * time, 0)}; };
   WallSettings settings{.material = "neo_hookean", .material_values = {100.0, 0.3}, .density = 1e-3};
   WallModel model(
       wall, settings, wall.points, {},
@@ -279,7 +279,7 @@ TEST(SurfaceSupport, ARingTiedToMovingTissueFollowsIt) {
   }
   const Points y = solver.displacement();
   for (const int node : nodes_of(wall.rings[0].triangles))
-    EXPECT_LE((y.col(node) - motion(2.0)).norm(), 1e-3 * motion(2.0).norm());
+    EXPECT_LE((y.col(node) - motion(2.0).offset).norm(), 1e-3 * motion(2.0).offset.norm());
 }
 
 /// Pressed into springs, held by nothing else: the support carries the load exactly, at the displacement load/(k area).

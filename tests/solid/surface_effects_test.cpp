@@ -268,20 +268,21 @@ TEST(Breathing, CarriesAHeldWallAlong) {
 }
 
 TEST(Motions, AreAtRestAtTheStartAndWhenAbsent) {
-  const TissueMotion measured = [](double t) { return Vec3(1 + t, 2, t * t); };
+  const TissueMotion measured = [](double t) { return AffineDisplacement{Vec3(t, 0, t * t), t * Mat3::Ones()}; };
   for (const Registered<MotionLaw>& entry : motions()) {
     std::vector<double> values, absent;
     for (const Parameter& p : entry.declaration.parameters) {
       values.push_back(0.3);
       absent.push_back(std::isnan(p.absent) ? 0.3 : p.absent);
     }
-    EXPECT_EQ(entry.make(values)->at(0, measured), Vec3::Zero()) << entry.declaration.name;
-    EXPECT_GT(entry.make(values)->at(0.05, measured).norm(), 0) << entry.declaration.name;
-    EXPECT_EQ(entry.make(absent)->at(0.7, measured), Vec3::Zero()) << entry.declaration.name;
+    const Vec3 x(0.1, 0.2, 0.3);
+    EXPECT_EQ(entry.make(values)->at(0, measured).at(x), Vec3::Zero()) << entry.declaration.name;
+    EXPECT_GT(entry.make(values)->at(0.05, measured).at(x).norm(), 0) << entry.declaration.name;
+    EXPECT_EQ(entry.make(absent)->at(0.7, measured).at(x), Vec3::Zero()) << entry.declaration.name;
     EXPECT_TRUE(Configured<MotionLaw>(motions(), entry.declaration.name, absent).is_absent());
   }
   const std::vector<double> twice{2.0};
-  EXPECT_EQ(measured_motion.make(twice)->at(3, measured), Vec3(6, 0, 18));
+  EXPECT_EQ(measured_motion.make(twice)->at(3, measured).at(Vec3(1, 0, 0)), Vec3(12, 6, 24));
 }
 
 /// A tube on springs, with as many effects beside as there are kinds, all absent, or none.

@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "common/mesh/locator.hpp"
+#include "tests/mesh/box.hpp"
 #include "vessel/sweep.hpp"
 
 namespace tether {
@@ -40,6 +41,20 @@ TEST(Check, InvertedAndFlatElementsAreCountedAndTheWorstIsNamed) {
   expect_part(moved, "tetrahedra are inverted or flat: the worst is number ");
   expect_part(moved, "must be positive");
   expect_part(message_after([](VesselMesh& m) { m.wall.points.col(100) *= 0.5; }), "prisms are inverted or flat");
+}
+
+TEST(Check, AnOpeningWithoutAnInnerNodeIsNamed) {
+  const BoxMesh box = box_mesh({1, 1, 2}, {1, 1, 2});
+  FluidMesh fluid{
+      box.points, box.tetrahedra, {}, {{"mouth", box.sides[4].triangles}}, {{"end", box.sides[5].triangles}}};
+  for (std::size_t side = 0; side < 4; ++side)
+    fluid.interface.insert(fluid.interface.end(), box.sides[side].triangles.begin(), box.sides[side].triangles.end());
+  try {
+    check(fluid);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    expect_part(error.what(), "face mouth, near (0.5, 0.5, 0), has no node inside its rim");
+  }
 }
 
 TEST(Check, NegativeThicknessIsSeen) {
