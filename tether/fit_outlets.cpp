@@ -1,0 +1,40 @@
+#include "fluid/windkessels/fit_outlets.hpp"
+
+#include "common/base/error.hpp"
+#include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "fluid/windkessels/outlets_text.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+
+namespace fs = std::filesystem;
+
+Made<FittedOutlets> fit_outlets(const CommandLine& command) {
+  const OutletsCase asked = read_outlets_case(command.case_file);
+  const fs::path folder = command.output.empty() ? fs::path("out") / asked.name : command.output;
+  hold_output(folder);
+  for (const char* old : {"outlets.json", "outlets.csv", "case.yaml", "plots/outlets.png"}) fs::remove(folder / old);
+  OutletsFit fit = [&] {
+    try {
+      return fit_outlets(asked, folder);
+    } catch (const InputError& error) {
+      throw input_error("{}: {}", command.case_file.string(), error.what());
+    }
+  }();
+  write_record(folder / "outlets.json", fit.result);
+  write_beat(folder / "outlets.csv", fit);
+  std::string told = text_of(fit.result) + fmt::format("In {}: outlets.json, outlets.csv", folder.string());
+  if (draw_outlets(folder, fit)) told += ", plots/outlets.png";
+  if (fit.overlay) {
+    write_overlay(folder / "case.yaml", *fit.overlay);
+    told += fmt::format(", case.yaml: tether simulate {}", (folder / "case.yaml").string());
+  }
+  return {std::move(fit.result), told + "\n"};
+}
+
+void check_outlets(const CommandLine& command) {
+  read_outlets_case(command.case_file);
+}
+
+}  // namespace tether
