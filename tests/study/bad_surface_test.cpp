@@ -16,7 +16,7 @@ using Spoil = std::function<void(RawSurface&)>;
 StudyCase study_of(const std::filesystem::path& file) {
   StudyCase study;
   study.name = "bad";
-  study.surface.file = file, study.surface.unit = "cm";
+  study.surface = {file, "cm"};
   study.openings.resize(2);
   study.openings[0] = {"in", {}}, study.openings[0].second.near = {4, 0, 0};
   study.openings[1] = {"out", {}}, study.openings[1].second.near = {-2, 3.46, 0};
@@ -253,10 +253,10 @@ TEST(BadSurface, AWrongUnitIsRefusedWithWhatWasMeasured) {
   const std::string wide = refusal(spoilt("ten_times_too_wide", [](RawSurface& s) { s.points *= 10; }), placed);
   EXPECT_NE(wide.find("cm wide in cm, which no vessel is; did you mean mm"), std::string::npos) << wide;
   StudyCase study = spoilt("ten_times_too_narrow", [](RawSurface&) {});
-  study.surface.unit = "mm";
+  study.surface->unit = "mm";
   const std::string narrow = refusal(study, placed);
   EXPECT_NE(narrow.find("did you mean cm"), std::string::npos) << narrow;
-  study.surface.any_size = true;
+  study.surface->any_size = true;
   study.openings[0].second.near = {0.4, 0, 0}, study.openings[1].second.near = {-0.2, 0.346, 0};
   study.edges.longest = 0.025, study.centreline_spacing = 0.02;
   EXPECT_NEAR(build_surface(study).summary.surface.volume, 1e-3 * testing::tube_volume(),

@@ -16,9 +16,8 @@ using testing::bent_tube;
 StudyCase tube_study(const RawSurface& surface, const std::string& name) {
   StudyCase study;
   study.name = name;
-  study.surface.file = std::filesystem::path(::testing::TempDir()) / (name + ".stl");
-  study.surface.unit = "cm";
-  testing::write_stl(study.surface.file, surface);
+  study.surface = {std::filesystem::path(::testing::TempDir()) / (name + ".stl"), "cm"};
+  testing::write_stl(study.file(), surface);
   study.openings.resize(2);
   study.openings[0] = {"in", {}}, study.openings[0].second.near = {4, 0, 0};
   study.openings[1] = {"out", {}}, study.openings[1].second.near = {-2, 3.46, 0};

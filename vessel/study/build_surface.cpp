@@ -7,6 +7,8 @@
 
 #include "vessel/centreline/curve.hpp"
 #include "vessel/centreline/find_tree.hpp"
+#include "vessel/image/image_file.hpp"
+#include "vessel/image/lumen_of_image.hpp"
 #include "vessel/study/openings.hpp"
 #include "vessel/study/read_surface.hpp"
 #include "vessel/surface/crossings.hpp"
@@ -16,6 +18,15 @@
 
 namespace tether {
 namespace {
+
+/// As it is in the file, or in the image, which is kept.
+RawSurface given_surface(const StudyCase& study, BuiltSurface& built) {
+  if (study.surface) return read_surface(*study.surface);
+  built.image = read_image(study.image->file, in_cm(study.image->unit));
+  LumenOfImage lumen = lumen_of(*built.image, *study.image);
+  built.summary.image = lumen.summary;
+  return std::move(lumen.surface);
+}
 
 void repair(Repaired& state, const RepairCase& given) {
   merge_points(state, given.merge);
@@ -75,8 +86,15 @@ std::vector<double> radius_at_points(const LabelledSurface& surface, const Centr
   return radius;
 }
 
+/// Whether a place is among the image's outermost voxels.
+bool ends_at(const ImageVolume& image, const Vec3& place) {
+  const Vec3 index = image.index(place), last = Vec3(image.count[0], image.count[1], image.count[2]).array() - 1;
+  return std::min(index.minCoeff(), (last - index).minCoeff()) < 0.5;
+}
+
 /// Places of the rims as they were cut, areas of the caps as they came out.
-std::vector<BuiltOpening> openings_of(const LabelledSurface& surface, const std::vector<Rim>& rims) {
+std::vector<BuiltOpening> openings_of(const LabelledSurface& surface, const std::vector<Rim>& rims,
+                                      const std::optional<ImageVolume>& image) {
   std::vector<BuiltOpening> openings;
   for (std::size_t i = 0; i < rims.size(); ++i) {
     const int label = static_cast<int>(i) + 1;
@@ -84,7 +102,7 @@ std::vector<BuiltOpening> openings_of(const LabelledSurface& surface, const std:
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       if (surface.label[t] == label) area += area_vector(surface.points, surface.triangles[t]).norm();
     openings.push_back({surface.openings[i], label, rims[i].plane.origin, rims[i].plane.normal, area,
-                        std::sqrt(area / std::numbers::pi)});
+                        std::sqrt(area / std::numbers::pi), image && ends_at(*image, rims[i].plane.origin)});
   }
   return openings;
 }
@@ -100,16 +118,17 @@ std::vector<BuiltBranch> branches_of(const CentrelineTree& tree) {
 
 }  // namespace
 
-BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen) {
+BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen, const ImageSeen& image_seen) {
   const auto show = [&](const char* step, const RawSurface& surface) {
     if (seen) seen(step, surface);
   };
-  Repaired state{read_surface(study.surface), {}};
+  BuiltSurface built;
+  Repaired state{given_surface(study, built), {}};
   show("1_read", state.surface);
+  if (built.image && image_seen) image_seen(*built.image, state.surface);
   repair(state, study.repair);
   show("2_repaired", state.surface);
   std::vector<Vec3> middles = open_ends(state, study);
-  BuiltSurface built;
   built.summary.smoothing_volume_change = smooth(state.surface, study.repair.smoothing);
   show("3_opened", state.surface);
   LabelledSurface closed = capped(state.surface, middles, study);
@@ -125,23 +144,24 @@ BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen) {
       remeshed(closed, {edges.shortest, edges.longest, edges.per_radius}, radius_at_points(closed, built.tree));
   SurfaceSummary& summary = built.summary;
   const SurfaceMeasures before = measures_of(closed);
-  summary.study = study.name, summary.file = study.surface.file.filename().string(), summary.inlet = study.inlet;
+  summary.study = study.name, summary.file = study.file().filename().string(), summary.inlet = study.inlet;
   summary.repairs = state.notes;
   summary.surface = measures_of(built.surface);
   summary.remeshing_volume_change = summary.surface.volume / before.volume - 1;
   summary.remeshing_area_change = summary.surface.wall_area / before.wall_area - 1;
   summary.distance = distance_between(closed, built.surface);
-  summary.openings = openings_of(built.surface, rims_at(state.surface, middles));
+  summary.openings = openings_of(built.surface, rims_at(state.surface, middles), built.image);
   summary.branches = branches_of(built.tree);
   return built;
 }
 
 std::string text_of(const SurfaceSummary& s) {
   std::string text = s.study + ": the lumen of " + s.file + "\n";
+  if (s.image) text += text_of(*s.image);
   for (const RepairNote& note : s.repairs) text += "  repair: " + text_of(note) + "\n";
   for (const BuiltOpening& o : s.openings)
-    text += fmt::format("  {} {}: radius {:.3g} cm, at {}\n", o.name == s.inlet ? "inlet" : "outlet", o.name, o.radius,
-                        text_of_place(o.centre));
+    text += fmt::format("  {} {}: radius {:.3g} cm, at {}{}\n", o.name == s.inlet ? "inlet" : "outlet", o.name,
+                        o.radius, text_of_place(o.centre), o.at_image_border ? ", where the image ends" : "");
   for (const BuiltBranch& b : s.branches)
     text += fmt::format("  line to {}: {:.3g} cm long, radius {:.3g} cm on average, {:.3g} at least\n", b.name,
                         b.length, b.mean_radius, b.least_radius);

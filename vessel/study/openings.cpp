@@ -60,8 +60,7 @@ std::size_t rim_of(const std::string& name, const OpeningCase& opening, const st
 
 std::vector<std::size_t> named_rims(const StudyCase& study, const std::vector<Rim>& rims) {
   if (rims.empty())
-    throw input_error("{}: is closed and has no flat ends: give the openings by label or cut",
-                      study.surface.file.string());
+    throw input_error("{}: is closed and has no flat ends: give the openings by label or cut", study.file().string());
   std::vector<std::size_t> named;
   for (const auto& [name, opening] : study.openings) {
     const std::size_t rim = rim_of(name, opening, rims);
@@ -97,9 +96,9 @@ std::vector<Vec3> open_ends(Repaired& state, const StudyCase& study) {
   std::vector<Rim> rims;
   take_ends_off(state, study, rims);
   if (!rims.empty())
-    check_unit(study.surface, std::max_element(rims.begin(), rims.end(), [](const Rim& a, const Rim& b) {
-                                return a.area < b.area;
-                              })->radius());
+    check_unit(study, std::max_element(rims.begin(), rims.end(), [](const Rim& a, const Rim& b) {
+                        return a.area < b.area;
+                      })->radius());
   const std::vector<std::size_t> named = named_rims(study, rims);
   fill_others(state, rims, named, study.repair.largest_hole);
   std::vector<Vec3> middles;

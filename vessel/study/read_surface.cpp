@@ -5,14 +5,14 @@
 namespace tether {
 namespace {
 
-double in_cm(const std::string& unit) {
-  return unit == "mm" ? 0.1 : unit == "m" ? 100 : 1;
-}
-
 // A newborn's aorta is 6 mm wide, a giant aneurysm 12 cm.
 constexpr double least_radius = 0.25, most_radius = 6;  // [cm]
 
 }  // namespace
+
+double in_cm(const std::string& unit) {
+  return unit == "mm" ? 0.1 : unit == "m" ? 100 : 1;
+}
 
 RawSurface read_surface(const SurfaceCase& given) {
   const MeshFile file = read_mesh_file(given.file);
@@ -27,15 +27,18 @@ RawSurface read_surface(const SurfaceCase& given) {
   return surface;
 }
 
-void check_unit(const SurfaceCase& given, double radius) {
-  if (given.any_size || (radius >= least_radius && radius <= most_radius)) return;
+void check_unit(const StudyCase& study, double radius) {
+  const bool any_size = study.surface ? study.surface->any_size : study.image->any_size;
+  const std::string& given = study.surface ? study.surface->unit : study.image->unit;
+  if (any_size || (radius >= least_radius && radius <= most_radius)) return;
   std::string fitting;
   for (const char* unit : {"mm", "cm", "m"})
-    if (const double other = radius / in_cm(given.unit) * in_cm(unit); other >= least_radius && other <= most_radius)
+    if (const double other = radius / in_cm(given) * in_cm(unit); other >= least_radius && other <= most_radius)
       fitting += fmt::format("{}{} ({:.3g} cm)", fitting.empty() ? "" : " or ", unit, 2 * other);
   throw input_error(
-      "{}: its largest opening is {:.3g} cm wide in {}, which no vessel is{}; surface.any_size: true takes it as it is",
-      given.file.string(), 2 * radius, given.unit, fitting.empty() ? "" : "; did you mean " + fitting);
+      "{}: its largest opening is {:.3g} cm wide in {}, which no vessel is{}; {}.any_size: true takes it as it is",
+      study.file().string(), 2 * radius, given, fitting.empty() ? "" : "; did you mean " + fitting,
+      study.surface ? "surface" : "image");
 }
 
 }  // namespace tether

@@ -6,7 +6,6 @@
 #include "common/config/case_tree.hpp"
 #include "common/config/describe.hpp"
 #include "common/config/reader.hpp"
-#include "common/config/rules.hpp"
 
 namespace tether {
 
@@ -51,7 +50,8 @@ void EdgeCase::declare(Fields& f) {
 
 void StudyCase::declare(Fields& f) {
   f.text("name", name, "of the study; results go to out/NAME", Need::required);
-  f.group("surface", surface, "of the lumen");
+  f.group("surface", surface, "of the lumen, as a file; or:");
+  f.group("image", image, "a volume that shows the lumen");
   f.group("repair", repair, "what is mended of it");
   f.groups("openings", openings, "the vessel's ends, each by label, near, order or cut", Need::required);
   f.text("inlet", inlet, "the opening that blood enters", Need::required);
@@ -60,6 +60,7 @@ void StudyCase::declare(Fields& f) {
            "between points of centrelines");
   f.group("edges", edges, "of the triangles");
   f.group("model", model, "meshes of the blood and of the wall, and a case that runs; absent: the surface alone");
+  f.check(surface.has_value() != image.has_value(), "surface", "or image must be given, one of them");
   const auto is_opening = [this](const std::string& one) {
     return std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.first == one; });
   };
@@ -70,6 +71,19 @@ void StudyCase::declare(Fields& f) {
             "must each have one of label, near, order and cut");
 }
 
+namespace {
+
+/// The line of each field below a node.
+void find_lines(const YamlNode& node, const std::string& field, std::map<std::string, std::string>& lines) {
+  for (const auto& entry : node.entries) {
+    const std::string path = field + "." + entry.key;
+    lines[path] = entry.place.text();
+    find_lines(entry.value, path, lines);
+  }
+}
+
+}  // namespace
+
 StudyCase read_study(const std::filesystem::path& file) {
   const YamlNode tree = read_case_tree(file);
   if (tree.kind == YamlNode::Kind::scalar || tree.kind == YamlNode::Kind::list)
@@ -79,16 +93,12 @@ StudyCase read_study(const std::filesystem::path& file) {
   StudyCase study;
   Reader reader(tree, units, problems);
   study.declare(reader);
-  const std::vector<std::string> known{"name",  "surface", "repair", "openings", "inlet", "trunk", "centreline_spacing",
-                                       "edges", "model"};
-  for (const auto& entry : tree.entries)
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      const std::string near = nearest(entry.key, known);
-      problems.add(entry.place,
-                   fmt::format("{}: unknown field; {}", entry.key,
-                               near.empty() ? "known are " + listed(known) : fmt::format("did you mean '{}'?", near)));
-    }
+  reader.report_unknown();
   problems.throw_if_any();
+  if (const YamlNode* image = tree.find("image")) {
+    study.image->lines["image"] = image->place.text();
+    find_lines(*image, "image", study.image->lines);
+  }
   return study;
 }
 

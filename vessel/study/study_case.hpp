@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/fields.hpp"
+#include "vessel/image/image_case.hpp"
 #include "vessel/model/vessel_model.hpp"
 
 namespace tether {
@@ -49,10 +50,11 @@ struct EdgeCase {
   void declare(Fields& f);
 };
 
-/// From a surface to a model: what the user says of it.
+/// From a surface or an image to a model: what the user says of it.
 struct StudyCase {
   std::string name;
-  SurfaceCase surface;
+  std::optional<SurfaceCase> surface;  ///< one of these two
+  std::optional<LumenImageCase> image;
   RepairCase repair;
   Named<OpeningCase> openings;
   std::string inlet, trunk;
@@ -60,6 +62,8 @@ struct StudyCase {
   EdgeCase edges;
   std::optional<VolumeCase> model;  ///< none: the surface alone
   void declare(Fields& f);
+
+  std::filesystem::path file() const { return surface ? surface->file : image->file; }
 };
 
 /// Throws InputError with a line for each mistake.

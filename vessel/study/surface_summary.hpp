@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "vessel/image/image_summary.hpp"
 #include "vessel/surface/measure.hpp"
 #include "vessel/surface/raw_surface.hpp"
 
@@ -13,6 +14,7 @@ struct BuiltOpening {
   int label = 0;
   Vec3 centre = Vec3::Zero(), outward = Vec3::Zero();
   double area = 0, radius = 0;
+  bool at_image_border = false;
 
   static void fields(auto& self, auto&& field) {
     field("name", self.name, "");
@@ -21,6 +23,7 @@ struct BuiltOpening {
     field("outward", self.outward, "unit normal");
     field("area", self.area, "[cm2]");
     field("radius", self.radius, "of the circle with that area [cm]");
+    field("at_image_border", self.at_image_border, "whether it is where the lumen leaves the image");
   }
 };
 
@@ -42,6 +45,7 @@ struct BuiltBranch {
 struct SurfaceSummary {
   static constexpr const char* type_name = "surface_summary";
   std::string study, file;
+  std::optional<ImageSummary> image;
   std::vector<RepairNote> repairs;
   double smoothing_volume_change = 0, remeshing_volume_change = 0, remeshing_area_change = 0;
   std::string inlet;
@@ -52,7 +56,8 @@ struct SurfaceSummary {
 
   static void fields(auto& self, auto&& field) {
     field("study", self.study, "its name");
-    field("file", self.file, "the surface that was given");
+    field("file", self.file, "the surface or image that was given");
+    field("image", self.image, "null: a surface was given");
     field("repairs", self.repairs, "what was done to it, in that order");
     field("smoothing_volume_change", self.smoothing_volume_change, "as a fraction");
     field("remeshing_volume_change", self.remeshing_volume_change, "as a fraction");

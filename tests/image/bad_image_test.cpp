@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <fstream>
+
+#include "tests/study/bent_tube.hpp"
+#include "vessel/image/image_file.hpp"
+#include "vessel/study/build_surface.hpp"
+
+/// Images and studies that are wrong in one way each: one message with the study's line or the file; or taken all the
+/// same.
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;
+
+/// The bent tube in a box of 1.5 mm voxels that its ends leave: grey values fall from 350 to 50 about the wall.
+ImageVolume tube_image(const Vec3& spacing = Vec3::Constant(0.15), const Mat3& axes = Mat3::Identity()) {
+  const Vec3 low(-2, 0, -1.5), high(5.5, 5.5, 1.5);
+  ImageVolume image{"tube", {}, axes * low, spacing, axes, {}};
+  for (int axis = 0; axis < 3; ++axis)
+    image.count[static_cast<std::size_t>(axis)] = static_cast<int>((high - low)[axis] / spacing[axis]) + 1;
+  for (int k = 0; k < image.count[2]; ++k)
+    for (int j = 0; j < image.count[1]; ++j)
+      for (int i = 0; i < image.count[0]; ++i) {
+        const Vec3 x = axes.transpose() * image.place(Vec3(i, j, k));
+        const double off = std::hypot(x.head<2>().norm() - bend_radius, x.z()) - tube_radius;
+        image.values.push_back(static_cast<float>(50 + 300 / (1 + std::exp(off / 0.05))));
+      }
+  return image;
+}
+
+struct Folder {
+  fs::path path;
+  explicit Folder(const std::string& name) : path(fs::path(::testing::TempDir()) / ("image_" + name)) {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  /// A study of an image; line 2 is the section `image`.
+  StudyCase study(const std::string& image, const std::string& in = "[4, 0, 0]",
+                  const std::string& out = "[-2, 3.46, 0]") const {
+    std::ofstream(path / "study.yaml") << "name: tube\nimage: {" << image << "}\nopenings:\n  in: {near: " << in
+                                       << "}\n  out: {near: " << out << "}\ninlet: in\nedges: {longest: 3 mm}\n";
+    return read_study(path / "study.yaml");
+  }
+  std::string refusal(const std::string& image) const {
+    try {
+      build_surface(study(image));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "was not refused";
+  }
+  void text(const std::string& file, const std::string& header, const std::string& data = "") const {
+    std::ofstream(path / file, std::ios::binary) << "ObjectType = Image\n"
+                                                 << header << "ElementDataFile = LOCAL\n"
+                                                 << data;
+  }
+};
+
+void expect_said(const std::string& message, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
+}
+
+struct Wrong {
+  const char* name;
+  const char* image;  ///< the section of the study, of the tube's image
+  std::vector<const char*> said;
+};
+class WrongStudy : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongStudy, IsToldInOneMessageWithItsLine) {
+  const Folder folder(GetParam().name);
+  write_image(folder.path / "grey.mha", tube_image());
+  ImageVolume labels = tube_image();
+  for (float& value : labels.values) value = value > 200 ? 3 : value > 60 ? 7 : 0;
+  write_image(folder.path / "labels.nii.gz", labels, true);
+  std::fill(labels.values.begin(), labels.values.end(), 0.0F);
+  write_image(folder.path / "empty.nrrd", labels, true);
+  const std::string message = folder.refusal(GetParam().image);
+  for (const char* part : GetParam().said)
+    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
+}
+
+const Wrong wrong[] = {
+    {"empty_label_map", "file: empty.nrrd, label: 1", {"study.yaml:2: image.label", "empty.nrrd is empty"}},
+    {"label_that_is_not_there", "file: labels.nii.gz, label: 4", {"study.yaml:2: image.label: 4", "which has 3, 7"}},
+    {"grey_values_as_labels", "file: grey.mha, label: 1", {"study.yaml:2: image.label", "is no label map"}},
+    {"threshold_above_all",
+     "file: grey.mha, threshold: {above: 900}",
+     {"study.yaml:2: image.threshold.above: 900: nothing", "from 50 to 350"}},
+    {"threshold_below_all",
+     "file: grey.mha, threshold: {above: 10}",
+     {"study.yaml:2: image.threshold.above: 10: all", "from 50 to 350"}},
+    {"upper_threshold_below_all",
+     "file: grey.mha, threshold: {below: 10}",
+     {"study.yaml:2: image.threshold.below: 10: nothing"}},
+    {"seed_outside_the_image",
+     "file: grey.mha, threshold: {above: 200}, seeds: {a: [40, 0, 0]}",
+     {"study.yaml:2: image.seeds.a", "(40, 0, 0) cm lies outside", "reaches from (-2.075, -0.075, -1.575)"}},
+    {"seed_in_the_background",
+     "file: grey.mha, threshold: {above: 200}, seeds: {a: [0, 0, 0]}",
+     {"study.yaml:2: image.seeds.a", "outside the lumen", "value 50"}},
+    {"no_method", "file: grey.mha", {"study.yaml:2: image", "or threshold or level_set must be given"}},
+    {"two_methods", "file: grey.mha, label: 1, threshold: {above: 3}", {"study.yaml:2: image", "one of them"}},
+    {"level_set_without_seeds", "file: grey.mha, level_set: {}", {"image.seeds: must be given with a level_set"}},
+    {"level_set_in_an_even_image",
+     "file: empty.nrrd, level_set: {}, seeds: {a: [4, 0.1, 0]}",
+     {"study.yaml:2: image.level_set", "does not change around the seeds"}},
+    {"threshold_of_nothing", "file: grey.mha, threshold: {}", {"image.threshold.above: or below must be given"}},
+    {"metres_for_millimetres", "file: grey.mha, threshold: {above: 200}, unit: m", {"cm wide in m", "did you mean"}},
+    {"no_image", "file: study.yaml, threshold: {above: 200}", {"study.yaml: an image is .mha"}},
+};
+INSTANTIATE_TEST_SUITE_P(BadImage, WrongStudy, ::testing::ValuesIn(wrong),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
+  const Folder folder("files");
+  const auto refusal = [&](const std::string& file) {
+    return folder.refusal("file: " + file + ", threshold: {above: 1}");
+  };
+  const std::string bytes(27, '\2');
+  folder.text("flat.mha", "NDims = 2\nDimSize = 5 5\nElementType = MET_UCHAR\n", bytes);
+  expect_said(refusal("flat.mha"), {"flat.mha: is not a volume: 5 x 5 x 1"});
+  folder.text("one_slice.mha", "NDims = 3\nDimSize = 5 5 1\nElementType = MET_UCHAR\n", bytes);
+  expect_said(refusal("one_slice.mha"), {"is not a volume: 5 x 5 x 1"});
+  folder.text("film.mha", "NDims = 4\nDimSize = 2 2 2 3\nElementType = MET_UCHAR\n", bytes);
+  expect_said(refusal("film.mha"), {"film.mha: has 4 dimensions, 3 images in a row"});
+  folder.text("colour.mha", "NDims = 3\nDimSize = 2 2 2\nElementNumberOfChannels = 3\nElementType = MET_UCHAR\n",
+              bytes);
+  expect_said(refusal("colour.mha"), {"colour.mha: has 3 values a voxel"});
+  folder.text("cut.mha", "NDims = 3\nDimSize = 9 9 9\nElementType = MET_UCHAR\n", bytes);
+  expect_said(refusal("cut.mha"), {"cut.mha: its voxels take 729 bytes, it has 27: cut short?"});
+  folder.text("sheared.mha",
+              "NDims = 3\nDimSize = 3 3 3\nTransformMatrix = 1 0 0 0 1 0.3 0 0 1\nElementType = MET_UCHAR\n", bytes);
+  expect_said(refusal("sheared.mha"), {"sheared.mha: the header's axes are not at right angles"});
+  std::ofstream(folder.path / "words.nrrd") << "no image at all";
+  expect_said(refusal("words.nrrd"), {"words.nrrd: is not an image"});
+}
+
+/// A compressed file that ends early, of each kind.
+TEST(BadImage, ATruncatedFileIsRefused) {
+  const Folder folder("truncated");
+  for (const char* file : {"cut.mha", "cut.nrrd", "cut.nii.gz", "cut.nii"}) {
+    write_image(folder.path / file, tube_image());
+    fs::resize_file(folder.path / file, fs::file_size(folder.path / file) / 2);
+    const std::string message = folder.refusal(std::string("file: ") + file + ", threshold: {above: 200}");
+    expect_said(message, {file});
+    EXPECT_NE(message, "was not refused") << file;
+    EXPECT_EQ(message.find("openings"), std::string::npos) << message;
+  }
+}
+
+TEST(BadImage, ValuesThatAreNotFiniteAreRefused) {
+  const Folder folder("not_finite");
+  ImageVolume image = tube_image();
+  image.values[image.at(3, 2, 1)] = image.values[image.at(4, 4, 4)] = std::numeric_limits<float>::quiet_NaN();
+  write_image(folder.path / "nan.mha", image);
+  expect_said(folder.refusal("file: nan.mha, threshold: {above: 200}"), {"2 voxels", "not finite", "voxel 3 2 1"});
+}
+
+TEST(OddImage, ObliqueAndLeftHandedAxesGiveTheSameLumenInThePatientsCoordinates) {
+  const Folder folder("oblique");
+  Mat3 turned = (Eigen::AngleAxisd(0.5, Vec3(1, 2, 3).normalized())).toRotationMatrix();
+  Mat3 mirrored = Mat3::Identity();
+  mirrored(2, 2) = -1;
+  for (const Mat3& axes : {turned, mirrored})
+    for (const char* file : {"tube.mha", "tube.nrrd", "tube.nii.gz"}) {
+      write_image(folder.path / file, tube_image(Vec3::Constant(0.15), axes));
+      const auto at = [&](const Vec3& x) {
+        const Vec3 y = axes * x;
+        return fmt::format("[{}, {}, {}]", y[0], y[1], y[2]);
+      };
+      const BuiltSurface built = build_surface(
+          folder.study(std::string("file: ") + file + ", threshold: {above: 200}", at({4, 0, 0}), at({-2, 3.46, 0})));
+      EXPECT_NEAR(built.summary.surface.volume, tube_volume(), 0.02 * tube_volume()) << file;
+      EXPECT_TRUE(built.summary.openings[0].at_image_border);
+      EXPECT_LT((built.summary.openings[0].centre - axes * Vec3(4, 0, 0)).norm(), 0.02) << file;
+      for (const RepairNote& note : built.summary.repairs) EXPECT_NE(note.kind, RepairKind::triangles_turned) << file;
+    }
+}
+
+TEST(OddImage, MixedSpacingWorksAndIsNoted) {
+  const Folder folder("mixed");
+  write_image(folder.path / "tube.mha", tube_image({0.08, 0.1, 0.3}));
+  const BuiltSurface built = build_surface(folder.study("file: tube.mha, threshold: {above: 200}"));
+  EXPECT_NEAR(built.summary.surface.volume, tube_volume(), 0.03 * tube_volume());
+  expect_said(text_of(built.summary), {"a voxel is 3.8 times as long as wide"});
+}
+
+TEST(OddImage, WhatDoesNotHangTogetherWithASeedIsLeftOut) {
+  const Folder folder("parts");
+  ImageVolume image = tube_image();
+  for (int k = 0; k < 20; ++k)  // a bone
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 14; ++i) image.values[image.at(i, j, k)] = 900;
+  image.values[image.at(45, 33, 3)] = 400;
+  write_image(folder.path / "tube.mha", image);
+  const BuiltSurface built = build_surface(
+      folder.study("file: tube.mha, threshold: {above: 200}, smoothing: 0, seeds: {middle: [2, 3.46, 0]}"));
+  ASSERT_TRUE(built.summary.image);
+  EXPECT_EQ(built.summary.image->parts_dropped, 2);
+  EXPECT_NEAR(built.summary.surface.volume, tube_volume(), 0.02 * tube_volume());
+}
+
+}  // namespace
+}  // namespace tether

@@ -1,0 +1,149 @@
+#include "vessel/image/image_file.hpp"
+
+#define ITK_IO_FACTORY_REGISTER_MANAGER_NONE
+#include <itkCastImageFilter.h>
+#include <itkImage.h>
+#include <itkImageFileReader.h>
+#include <itkImageFileWriter.h>
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "vessel/image/file_length.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+using Grey = itk::Image<float, 3>;
+
+bool ends_with(const fs::path& file, std::initializer_list<const char*> endings) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::any_of(endings.begin(), endings.end(), [&](const char* e) { return name.ends_with(e); });
+}
+
+itk::ImageIOBase::Pointer format_of(const fs::path& file) {
+  if (ends_with(file, {".mha", ".mhd"})) return itk::MetaImageIO::New().GetPointer();
+  if (ends_with(file, {".nrrd", ".nhdr"})) return itk::NrrdImageIO::New().GetPointer();
+  if (ends_with(file, {".nii", ".nii.gz"})) return itk::NiftiImageIO::New().GetPointer();
+  throw input_error("{}: an image is .mha, .mhd, .nrrd, .nhdr, .nii or .nii.gz", file.string());
+}
+
+/// What ITK says of a failure, without its own sources' names.
+std::string reason(const itk::ExceptionObject& error) {
+  std::string text = error.GetDescription();
+  if (const auto end = text.find("): "); text.starts_with("ITK ERROR") && end != std::string::npos)
+    text.erase(0, end + 3);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Throws InputError unless the header is that of a volume with one value a voxel.
+void check_header(const std::string& name, const itk::ImageIOBase& io) {
+  const auto size = [&](unsigned axis) { return axis < io.GetNumberOfDimensions() ? io.GetDimensions(axis) : 1; };
+  if (io.GetNumberOfDimensions() < 3 || size(0) < 2 || size(1) < 2 || size(2) < 2)
+    throw input_error("{}: is not a volume: {} x {} x {} voxels", name, size(0), size(1), size(2));
+  for (unsigned axis = 3; axis < io.GetNumberOfDimensions(); ++axis)
+    if (size(axis) > 1)
+      throw input_error("{}: has {} dimensions, {} images in a row: give one of them", name, io.GetNumberOfDimensions(),
+                        size(axis));
+  if (io.GetNumberOfComponents() != 1)
+    throw input_error("{}: has {} values a voxel ({}): grey values or labels are wanted, one a voxel", name,
+                      io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
+}
+
+/// The header's geometry, lengths in cm.
+ImageVolume geometry_of(const Grey& from, const std::string& name, double cm) {
+  ImageVolume image;
+  image.name = name;
+  const auto size = from.GetLargestPossibleRegion().GetSize();
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    image.count[axis] = static_cast<int>(size[axis]);
+    image.origin[axis] = cm * from.GetOrigin()[axis], image.spacing[axis] = cm * from.GetSpacing()[axis];
+    for (unsigned row = 0; row < 3; ++row) image.axes(row, axis) = from.GetDirection()(row, axis);
+  }
+  if (!(image.spacing.minCoeff() > 0) || !image.spacing.allFinite() || !image.origin.allFinite())
+    throw input_error("{}: the header's spacing or origin is no length", name);
+  if (!(image.axes.transpose() * image.axes).isIdentity(1e-3))
+    throw input_error("{}: the header's axes are not at right angles (a tilted gantry?): resample the image", name);
+  return image;
+}
+
+void check_finite(const ImageVolume& image) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t i = 0; i < image.values.size(); ++i)
+    if (!std::isfinite(image.values[i]) && ++count == 1) first = i;
+  if (count == 0) return;
+  const auto [i, j, k] = image.voxel(first);
+  throw input_error("{}: {} voxels have values that are not finite, the first is voxel {} {} {} (from 0)", image.name,
+                    count, i, j, k);
+}
+
+template <class Voxel>
+void write_as(const fs::path& file, const Grey& image) {
+  using Out = itk::Image<Voxel, 3>;
+  const auto cast = itk::CastImageFilter<Grey, Out>::New();
+  cast->SetInput(&image);
+  const auto writer = itk::ImageFileWriter<Out>::New();
+  writer->SetImageIO(format_of(file));
+  writer->SetFileName(file.string());
+  writer->SetInput(cast->GetOutput());
+  writer->UseCompressionOn();
+  writer->Update();
+}
+
+}  // namespace
+
+ImageVolume read_image(const fs::path& file, double cm) {
+  const auto io = format_of(file);
+  const std::string name = file.string();
+  try {
+    io->SetFileName(name);
+    if (!io->CanReadFile(name.c_str())) throw input_error("{}: is not an image of the kind that its ending says", name);
+    io->ReadImageInformation();
+    check_header(name, *io);
+    check_length(file, static_cast<std::uint64_t>(io->GetImageSizeInBytes()));
+    const auto reader = itk::ImageFileReader<Grey>::New();
+    reader->SetImageIO(io);
+    reader->SetFileName(name);
+    reader->Update();
+    ImageVolume image = geometry_of(*reader->GetOutput(), name, cm);
+    const float* first = reader->GetOutput()->GetBufferPointer();
+    image.values.assign(first, first + reader->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels());
+    check_finite(image);
+    return image;
+  } catch (const itk::ExceptionObject& error) {
+    throw input_error("{}: cannot be read: {}", name, reason(error));
+  }
+}
+
+void write_image(const fs::path& file, const ImageVolume& image, bool whole) {
+  constexpr double mm = 10;
+  const auto grey = Grey::New();
+  Grey::SizeType size;
+  Grey::PointType origin;
+  Grey::SpacingType spacing;
+  Grey::DirectionType axes;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    size[axis] = static_cast<itk::SizeValueType>(image.count[axis]);
+    origin[axis] = mm * image.origin[axis], spacing[axis] = mm * image.spacing[axis];
+    for (unsigned row = 0; row < 3; ++row) axes(row, axis) = image.axes(row, axis);
+  }
+  grey->SetRegions(size);
+  grey->SetOrigin(origin), grey->SetSpacing(spacing), grey->SetDirection(axes);
+  grey->Allocate();
+  std::transform(image.values.begin(), image.values.end(), grey->GetBufferPointer(),
+                 [whole](float value) { return whole ? std::round(value) : value; });
+  try {
+    whole ? write_as<std::int16_t>(file, *grey) : write_as<float>(file, *grey);
+  } catch (const itk::ExceptionObject& error) {
+    throw run_error("{}: cannot be written: {}", file.string(), reason(error));
+  }
+}
+
+}  // namespace tether

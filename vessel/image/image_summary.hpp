@@ -1,0 +1,44 @@
+#pragma once
+
+#include "common/base/types.hpp"
+#include "common/io/record.hpp"
+
+namespace tether {
+
+enum class ImageMethod { label, threshold, level_set };
+template <>
+inline constexpr std::array words_of<ImageMethod>{
+    WordOf<ImageMethod>{ImageMethod::label, "label", "voxels with a label"},
+    WordOf<ImageMethod>{ImageMethod::threshold, "threshold", "grey values above or below a limit"},
+    WordOf<ImageMethod>{ImageMethod::level_set, "level_set", "a front that stops where grey values change"}};
+
+/// What an image was, and what of it was taken for lumen.
+struct ImageSummary {
+  static constexpr const char* type_name = "image_summary";
+  ImageMethod method = ImageMethod::label;
+  Vec3 voxels = Vec3::Zero(), voxel = Vec3::Zero();
+  double least = 0, greatest = 0, anisotropy = 1, lumen_volume = 0;
+  int parts_dropped = 0, iterations = 0;
+  double parts_volume = 0, edge = 0;
+  Vec3 part_place = Vec3::Zero();
+
+  static void fields(auto& self, auto&& field) {
+    field("method", self.method, "by which the lumen was told");
+    field("voxels", self.voxels, "along each axis");
+    field("voxel", self.voxel, "size of one along each axis [cm]");
+    field("anisotropy", self.anisotropy, "longest over shortest side of a voxel");
+    field("least", self.least, "value");
+    field("greatest", self.greatest, "value");
+    field("lumen_volume", self.lumen_volume, "of the voxels taken [cm3]");
+    field("parts_dropped", self.parts_dropped, "that are like the lumen, but do not hang together with it");
+    field("parts_volume", self.parts_volume, "of all of these [cm3]");
+    field("part_place", self.part_place, "a place in the largest of them [cm]");
+    field("iterations", self.iterations, "of the front; 0 without a level set");
+    field("edge", self.edge, "change of grey values per cm at which the front stops; 0 without a level set");
+  }
+};
+
+/// What a person is told of it.
+std::string text_of(const ImageSummary& summary);
+
+}  // namespace tether

@@ -1,0 +1,169 @@
+#include "vessel/image/level_set.hpp"
+
+#define ITK_IO_FACTORY_REGISTER_MANAGER_NONE
+#include <itkGeodesicActiveContourLevelSetImageFilter.h>
+#include <itkImage.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "vessel/image/edge_map.hpp"
+#include "vessel/image/smooth_field.hpp"
+
+namespace tether {
+namespace {
+
+using Grey = itk::Image<float, 3>;
+using Front = itk::GeodesicActiveContourLevelSetImageFilter<Grey, Grey>;
+
+/// Part of an image: first and last voxel along each axis, which may lie beyond the image's.
+struct Box {
+  std::array<int, 3> low, high;
+};
+
+constexpr int beyond = 4;  // voxels, for the front's layers where it leaves the image
+
+/// Around the voxels that are inside, with a margin; `beyond` the image where it would leave it.
+Box box_around(const ImageVolume& image, const std::vector<char>& inside, int margin) {
+  Box box{image.count, {-1, -1, -1}};
+  for (std::size_t n = 0; n < inside.size(); ++n) {
+    if (!inside[n]) continue;
+    const std::array<int, 3> voxel = image.voxel(n);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], voxel[axis]);
+      box.high[axis] = std::max(box.high[axis], voxel[axis]);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::max(box.low[axis] - margin, -beyond);
+    box.high[axis] = std::min(box.high[axis] + margin, image.count[axis] - 1 + beyond);
+  }
+  return box;
+}
+
+/// A voxel of a box, and the nearest of the image.
+struct BoxVoxel {
+  std::size_t number, of_image;
+  bool in_image, at_side;  ///< whether the image has it, whether it is the box's last before others of the image
+};
+template <class Visit>
+void for_each(const Box& box, const ImageVolume& image, Visit visit) {
+  BoxVoxel voxel{};
+  std::array<int, 3> at{}, nearest{};
+  for (at[2] = box.low[2]; at[2] <= box.high[2]; ++at[2])
+    for (at[1] = box.low[1]; at[1] <= box.high[1]; ++at[1])
+      for (at[0] = box.low[0]; at[0] <= box.high[0]; ++at[0]) {
+        voxel.at_side = false;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          nearest[axis] = std::clamp(at[axis], 0, image.count[axis] - 1);
+          voxel.at_side = voxel.at_side || ((at[axis] == box.low[axis] || at[axis] == box.high[axis]) &&
+                                            nearest[axis] > 0 && nearest[axis] < image.count[axis] - 1);
+        }
+        voxel.in_image = at == nearest, voxel.of_image = image.at(nearest[0], nearest[1], nearest[2]);
+        visit(voxel);
+        ++voxel.number;
+      }
+}
+
+/// In units of the shortest side of a voxel, so that weights do not depend on the image's size.
+Grey::Pointer empty_image(const Box& box, const Vec3& spacing) {
+  const auto image = Grey::New();
+  Grey::SizeType size;
+  Grey::SpacingType voxel;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    size[axis] = static_cast<itk::SizeValueType>(box.high[axis] - box.low[axis] + 1);
+    voxel[axis] = spacing[axis] / spacing.minCoeff();
+  }
+  image->SetRegions(size);
+  image->SetSpacing(voxel);
+  image->Allocate();
+  return image;
+}
+
+/// Ends a front once what it encloses, averaged over some steps, does not change any more: single steps go to and fro.
+class Stillness {
+ public:
+  explicit Stillness(Front& front) : front_(front) {}
+  void operator()(const itk::EventObject&) {
+    const Grey& height = *front_.GetOutput();
+    const float* first = height.GetBufferPointer();
+    sum_ += static_cast<double>(std::count_if(first, first + height.GetLargestPossibleRegion().GetNumberOfPixels(),
+                                              [](float value) { return value < 0; }));
+    if (front_.GetElapsedIterations() % window != 0) return;
+    const double mean = sum_ / window;
+    if (std::abs(mean - before_) < 5e-4 * mean + few) front_.SetNumberOfIterations(front_.GetElapsedIterations());
+    before_ = mean, sum_ = 0;
+  }
+
+ private:
+  static constexpr int window = 20, few = 5;  // steps; voxels
+  Front& front_;
+  double sum_ = 0, before_ = 0;
+};
+
+/// Where it is pushed outward by how even the image is, and drawn to where it is least even. `step`: of a voxel, at
+/// most.
+Front::Pointer moved(Grey* start, Grey* evenness, double outward, double step, const LevelSetCase& how) {
+  constexpr double attraction = 3;  // holds the front at an edge against a push of 1: (M.21)
+  const auto front = Front::New();
+  front->SetInput(start);
+  front->SetFeatureImage(evenness);
+  front->SetPropagationScaling(outward);
+  front->SetCurvatureScaling(how.curvature);
+  front->SetAdvectionScaling(attraction);
+  front->SetDerivativeSigma(0.5);
+  front->SetMaximumRMSError(0);
+  front->SetNumberOfIterations(static_cast<unsigned>(how.iterations));
+  dynamic_cast<itk::LevelSetFunction<Grey>&>(*front->GetSegmentationFunction()).SetMaximumPropagationTimeStep(step);
+  front->AddObserver(itk::IterationEvent(), Stillness(*front));
+  front->Update();
+  return front;
+}
+
+struct Settled {
+  bool reaches_side = false;  ///< of the box
+  LevelSet found;
+};
+
+/// The front in a box: grown with a push outward until it stands still, then settled without, by small steps.
+Settled settled_in(const Box& box, const ImageVolume& image, const ImageVolume& gradient,
+                   const std::vector<char>& inside, double edge, const LevelSetCase& how) {
+  const auto start = empty_image(box, image.spacing), evenness = empty_image(box, image.spacing);
+  for_each(box, image, [&](const BoxVoxel& voxel) {
+    const double steepness = 2 * gradient.values[voxel.of_image] / edge;
+    start->GetBufferPointer()[voxel.number] = inside[voxel.of_image] ? -0.5F : 0.5F;
+    evenness->GetBufferPointer()[voxel.number] = static_cast<float>(1 / (1 + steepness * steepness));  // (M.21)
+  });
+  const auto grown = moved(start, evenness, 1, 1.0 / 6, how);
+  const auto front = moved(grown->GetOutput(), evenness, 0, 0.08, how);
+  Settled result{false, {image, 0, edge}};
+  result.found.iterations = static_cast<int>(grown->GetElapsedIterations() + front->GetElapsedIterations());
+  std::vector<float>& field = result.found.field.values;
+  std::fill(field.begin(), field.end(), -1.0F);
+  const float* height = front->GetOutput()->GetBufferPointer();
+  for_each(box, image, [&](const BoxVoxel& voxel) {
+    if (voxel.in_image) field[voxel.of_image] = -height[voxel.number];
+    if (voxel.at_side && height[voxel.number] < 0) result.reaches_side = true;
+  });
+  return result;
+}
+
+}  // namespace
+
+LevelSet level_set(const ImageVolume& image, const LumenImageCase& how, const std::vector<std::size_t>& seeds) {
+  ImageVolume smooth = image;
+  smooth_field(smooth, how.smoothing.value_or(1));
+  const ImageVolume gradient = gradient_magnitude(smooth);
+  WallSeen wall = wall_around(smooth, gradient, seeds);
+  if (how.level_set->edge) wall.edge = *how.level_set->edge;
+  if (!(wall.edge > 0) || !(wall.contrast > 0))
+    throw input_error("{}: the image does not change around the seeds", how.at("image.level_set"));
+  const std::vector<char> inside = flooded(smooth, gradient, wall, seeds);
+  for (int margin = 16;; margin *= 4) {
+    Settled settled = settled_in(box_around(image, inside, margin), image, gradient, inside, wall.edge, *how.level_set);
+    if (!settled.reaches_side) return std::move(settled.found);
+  }
+}
+
+}  // namespace tether

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "vessel/image/image_case.hpp"
+#include "vessel/image/image_volume.hpp"
+
+namespace tether {
+
+/// A front that stands still where grey values change most.
+struct LevelSet {
+  ImageVolume field;  ///< positive in the lumen
+  int iterations = 0;
+  double edge = 0;  ///< change of grey values at the wall [per cm]
+};
+
+/// The geodesic active contour of Caselles, Kimmel and Sapiro (1997) from the seeds outward (M.21). Throws InputError
+/// if there is no edge around the seeds.
+LevelSet level_set(const ImageVolume& image, const LumenImageCase& how, const std::vector<std::size_t>& seeds);
+
+}  // namespace tether

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "vessel/image/image_volume.hpp"
+
+namespace tether {
+
+/// Smooths along each axis by `2 G - G G` (M.20), G a Gaussian of that deviation [voxels], without moving a curved
+/// surface by its curvature. Beyond the image's border it goes on as at the border. 0: as it is.
+void smooth_field(ImageVolume& field, double deviation);
+
+}  // namespace tether
