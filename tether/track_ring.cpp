@@ -1,0 +1,31 @@
+#include "vessel/ring/track_ring.hpp"
+
+#include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "tether/verbs.hpp"
+#include "vessel/ring/ring_text.hpp"
+
+namespace tether {
+
+namespace fs = std::filesystem;
+
+Made<TrackedRing> track_ring(const CommandLine& command) {
+  const RingTrackCase asked = read_ring_case(command.case_file);
+  const fs::path folder = command.output.empty() ? fs::path("out") / asked.name : command.output;
+  hold_output(folder);
+  for (const char* old : {"ring.json", "poses.csv", "plots/ring.png"}) fs::remove(folder / old);
+  TrackedRing ring = track_ring(asked);
+  write_record(folder / "ring.json", ring);
+  write_poses(folder / "poses.csv", ring);
+  std::string told = text_of(ring) + fmt::format("In {}: ring.json, poses.csv", folder.string());
+  if (draw_ring(folder)) told += ", plots/ring.png";
+  told += fmt::format("\nFor a case: motion: {{file: {}, table: poses, period: ..., harmonics: 3}}\n",
+                      (folder / "poses.csv").string());
+  return {std::move(ring), told};
+}
+
+void check_ring(const CommandLine& command) {
+  read_ring_case(command.case_file);
+}
+
+}  // namespace tether
