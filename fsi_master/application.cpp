@@ -18,6 +18,7 @@
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupled_codes.hpp"
 #include "fsi_master/group_server.hpp"
+#include "fsi_master/periodicity.hpp"
 #include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
 #include "observation_manager/measurements/flow_observations.hpp"
@@ -114,16 +115,22 @@ std::vector<std::string> notices_of(std::span<Partner> partners, const RunPlan& 
   return all;
 }
 
-/// What the processes have cost so far.
-std::vector<ProcessCost> costs(Crew& crew, std::span<Partner> partners) {
-  const auto &fluid = partners[0].hello(), &solid = partners[1].hello();
-  std::vector<ProcessCost> all{{"fsi_master", program_name, 0, {cpu_seconds(), peak_memory_mb()}},
-                               {"fluid", fluid.program, fluid.unknowns, crew.fluid.usage().get()},
-                               {"solid", solid.program, solid.unknowns, crew.solid.usage().get()}};
+/// What the processes have cost so far, in the order of RunStatistics.
+std::vector<PartnerUsage> costs(Crew& crew, std::span<Partner> partners) {
+  std::vector<PartnerUsage> all{{cpu_seconds(), peak_memory_mb()}, crew.fluid.usage().get(), crew.solid.usage().get()};
   if (partners.size() > 2) {
     const auto usage = partners[2].ask(protocol::GetUsage{});
-    all.push_back({"observation_manager", partners[2].hello().program, 0, {usage.cpu_seconds, usage.peak_memory_mb}});
+    all.push_back({usage.cpu_seconds, usage.peak_memory_mb});
   }
+  return all;
+}
+
+/// The processes in the same order.
+std::vector<RunProcess> processes_of(std::span<Partner> partners) {
+  std::vector<RunProcess> all{{"fsi_master", program_name, 0}};
+  for (Partner& partner : partners.first(2))
+    all.push_back({partner.role(), partner.hello().program, partner.hello().unknowns});
+  if (partners.size() > 2) all.push_back({"observation_manager", partners[2].hello().program, 0});
   return all;
 }
 
@@ -178,28 +185,28 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
   plan.fingerprint = fingerprint(cases_of(processes, master.file), plan.dt, codes.interface().points);
   Crew crew = codes.crew();
+  crew.usage = [&crew, processes] { return costs(crew, processes); };
   for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
   check_points(simulation, master.file, codes.size());
   check_columns(master.flow, simulation.columns(), master.file);
-  const auto before = costs(crew, processes);
   simulation.begin();
   if (plan.resume) {
     mark_output(plan.output, master.file.path());
     remove_what_was_made_of_runs(plan.output);
   }
   simulation.run();
-  RunFacts facts{master.file.common().name,
-                 master.file.common().title,
-                 fs::absolute(master.file.path()).string(),
-                 codes.coupling().name(),
-                 costs(crew, processes),
-                 merged_json({own_sections(master), fluid_case, solid_case}),
-                 master.file.common().observer.largest_gain(),
-                 notices,
-                 from};
-  for (std::size_t i = 0; i < before.size(); ++i)
-    facts.processes[i].loop_cpu_seconds = facts.processes[i].usage.cpu_seconds - before[i].usage.cpu_seconds;
+  RunFacts facts{
+      master.file.common().name,
+      master.file.common().title,
+      fs::absolute(master.file.path()).string(),
+      codes.coupling().name(),
+      processes_of(processes),
+      merged_json({own_sections(master), fluid_case, solid_case}),
+      master.file.common().observer.largest_gain(),
+      notices,
+      from,
+      periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start, plan.image_pressure, plan.units)};
   check_held(plan.output);
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }

@@ -52,6 +52,7 @@ void Simulation::run() {
 
 void Simulation::begin() {
   if (!plan_.resume) {
+    count_costs(false);
     series_.start();
     motion_.start();
     if (velocity_) velocity_->start();
@@ -61,6 +62,7 @@ void Simulation::begin() {
   const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
   loop_.restore(checkpoint.snapshot);
   statistics_ = checkpoint.statistics;
+  count_costs(false);
   coupled_otherwise_ = checkpoint.coupling != plan_.coupling;
   saved_step_ = first_step_ = checkpoint.step;
   plan_.last_step = std::max(plan_.last_step, first_step_);
@@ -159,7 +161,22 @@ void Simulation::write_files(std::int64_t step) {
   solid.get();
 }
 
+void Simulation::count_costs(bool of_steps) {
+  if (!crew_.usage) return;
+  const std::vector<PartnerUsage> now = crew_.usage();
+  counted_.resize(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    ProcessTotals& all = statistics_.processes.at(i);
+    const double since = now[i].cpu_seconds - counted_[i].cpu_seconds;
+    all.cpu_seconds += since;
+    if (of_steps) all.loop_cpu_seconds += since;
+    all.peak_memory_mb = std::max(all.peak_memory_mb, now[i].peak_memory_mb);
+  }
+  counted_ = now;
+}
+
 void Simulation::save(std::int64_t step) {
+  count_costs(true);
   std::string without_state;
   if (!crew_.fluid.has_state()) without_state = crew_.fluid.name();
   if (!crew_.solid.has_state()) without_state += (without_state.empty() ? "" : " and ") + crew_.solid.name();

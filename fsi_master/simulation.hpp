@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "common/base/progress_line.hpp"
 #include "common/base/units.hpp"
@@ -46,6 +47,8 @@ struct Crew {
   Points interface;  ///< reference positions of the master's interface nodes
   std::vector<protocol::ObservableInfo> fluid_observables, solid_observables;
   Observer* observer = nullptr;  ///< none: the run is not corrected
+  /// What the processes have cost since they started, in the order of RunStatistics; nobody asks if it is not set.
+  std::function<std::vector<PartnerUsage>()> usage = {};
 };
 
 /// A direct simulation: steps, table, files for viewing, checkpoints, progress.
@@ -77,6 +80,8 @@ class Simulation {
   void note_fluid(const std::vector<double>& observables);
   void write_files(std::int64_t step);
   void save(std::int64_t step);
+  /// Adds what the processes have cost since the last time.
+  void count_costs(bool of_steps);
   /// For a person whose run has ended early.
   std::string what_is_saved() const;
   Vec3 displacement_of(int node) const { return loop_.displacement().segment<3>(3 * node); }
@@ -91,6 +96,7 @@ class Simulation {
   LumenMotionWriter motion_;
   std::optional<BloodVelocityWriter> velocity_;
   RunStatistics statistics_;
+  std::vector<PartnerUsage> counted_;  ///< the processes' usage that is in the statistics
   Extent pressure_now_;
   std::int64_t first_step_ = 0;
   bool coupled_otherwise_ = false;

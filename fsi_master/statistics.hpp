@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -28,6 +29,13 @@ struct Extent {
   }
 };
 
+/// What a process cost over all parts of a run: the first, and those after a resume.
+struct ProcessTotals {
+  double cpu_seconds = 0;       ///< with starting up in each part
+  double loop_cpu_seconds = 0;  ///< of the steps that count in the run's wall clock
+  double peak_memory_mb = 0;    ///< in any part
+};
+
 /// What the summary tells of all steps, those before a resume included.
 struct RunStatistics {
   MeanMax evaluations, krylov_iterations;
@@ -36,6 +44,7 @@ struct RunStatistics {
   double mass_balance_error = 0;
   double repeated_steps = 0;  ///< done in halves
   double wall_seconds = 0;
+  std::array<ProcessTotals, 4> processes;  ///< fsi_master, fluid, solid, observation_manager
 
   /// All numbers in order, for a checkpoint; the visitor may read or write them.
   template <class Visitor>
@@ -43,6 +52,7 @@ struct RunStatistics {
     for (MeanMax* m : {&evaluations, &krylov_iterations}) visit(m->sum), visit(m->max), visit(m->count);
     visit(pressure.min), visit(pressure.max), visit(max_displacement), visit(mass_balance_error), visit(repeated_steps);
     visit(wall_seconds);
+    for (ProcessTotals& p : processes) visit(p.cpu_seconds), visit(p.loop_cpu_seconds), visit(p.peak_memory_mb);
   }
 };
 

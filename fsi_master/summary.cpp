@@ -20,24 +20,25 @@ std::optional<PressureRange> pressure_range(const Extent& pressure, double image
 }
 
 /// A number of each process, and their sum.
-template <class Number>
-std::map<std::string, double> by_process(const std::vector<ProcessCost>& all, const Number& number) {
+std::map<std::string, double> by_process(const std::vector<RunProcess>& all, const RunStatistics& s,
+                                         double ProcessTotals::*number) {
   std::map<std::string, double> of;
   double total = 0;
-  for (const auto& process : all) total += of[process.name] = number(process);
+  for (std::size_t i = 0; i < all.size(); ++i) total += of[all[i].name] = s.processes.at(i).*number;
   of["total"] = total;
   return of;
 }
 
-void add_costs(RunSummary& summary, const std::vector<ProcessCost>& processes, const RunStatistics& s,
-               double steps_now) {
-  summary.loop_cpu_seconds = by_process(processes, [](const ProcessCost& p) { return p.loop_cpu_seconds; });
-  summary.cpu_seconds = by_process(processes, [](const ProcessCost& p) { return p.usage.cpu_seconds; });
-  summary.peak_memory_mb = by_process(processes, [](const ProcessCost& p) { return p.usage.peak_memory_mb; });
+/// Wall clock and CPU are of the same steps: all of the run, those before a resume included.
+void add_costs(RunSummary& summary, const std::vector<RunProcess>& processes, const RunStatistics& s) {
+  const double steps = s.evaluations.count;
+  summary.loop_cpu_seconds = by_process(processes, s, &ProcessTotals::loop_cpu_seconds);
+  summary.cpu_seconds = by_process(processes, s, &ProcessTotals::cpu_seconds);
+  summary.peak_memory_mb = by_process(processes, s, &ProcessTotals::peak_memory_mb);
   summary.wall_seconds = s.wall_seconds;
-  summary.seconds_per_step = s.evaluations.count > 0 ? s.wall_seconds / s.evaluations.count : 0.0;
-  summary.cpu_seconds_per_step = steps_now > 0 ? summary.loop_cpu_seconds["total"] / steps_now : 0.0;
-  for (const auto& process : processes) {
+  summary.seconds_per_step = steps > 0 ? s.wall_seconds / steps : 0.0;
+  summary.cpu_seconds_per_step = steps > 0 ? summary.loop_cpu_seconds["total"] / steps : 0.0;
+  for (const RunProcess& process : processes) {
     if (process.unknowns > 0) summary.unknowns[process.name] = process.unknowns;
     summary.versions[process.name] = process.program;
   }
@@ -75,13 +76,13 @@ RunSummary summary_of(const Simulation& simulation, const RunFacts& facts) {
   summary.dt = plan.dt;
   summary.time = {plan.start, plan.time_at(plan.last_step)};
   summary.coupling_method = facts.method;
-  add_costs(summary, facts.processes, simulation.statistics(),
-            static_cast<double>(plan.last_step - simulation.first_step()));
+  add_costs(summary, facts.processes, simulation.statistics());
   add_results(summary, simulation);
   if (const Observer* observer = simulation.observer())
     summary.observer = work_of(observer->statistics(), facts.observer_gain, plan.units);
   summary.notices = facts.notices;
   summary.effective_case.text = facts.effective_case;
+  summary.periodicity = facts.periodicity;
   summary.made_from = facts.made_from;
   summary.made_from.coupled_otherwise = simulation.coupled_otherwise();
   return summary;

@@ -8,22 +8,21 @@
 
 namespace tether {
 
-/// What one process cost; `loop_cpu_seconds` is its part between the first and the last step.
-struct ProcessCost {
+/// A process that took part.
+struct RunProcess {
   std::string name, program;
   std::int64_t unknowns = 0;  ///< as it announces them; the master has none
-  PartnerUsage usage;
-  double loop_cpu_seconds = 0;
 };
 
 /// What the summary tells beside the simulation itself.
 struct RunFacts {
   std::string case_name, title, case_file, method;
-  std::vector<ProcessCost> processes;
-  std::string effective_case;  ///< JSON
-  double observer_gain = 0;    ///< the largest of any region [1/s]
+  std::vector<RunProcess> processes;  ///< in the order of RunStatistics
+  std::string effective_case;         ///< JSON
+  double observer_gain = 0;           ///< the largest of any region [1/s]
   std::vector<std::string> notices;
   MadeFrom made_from;
+  std::optional<Periodicity> periodicity;
 };
 
 /// What was run, how it went and what it cost, in the case's units and in mmHg and mm.

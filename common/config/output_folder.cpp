@@ -21,14 +21,16 @@ bool is_empty_but_for_lock(const fs::path& folder) {
                      [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
 }
 
-/// Throws InputError if the folder holds anything but results of this very case file.
-void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file) {
+/// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
+/// checkpoint then says whose they are.
+void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file, bool goes_on) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
   if (!fs::exists(folder / case_as_run)) {
     if (is_empty_but_for_lock(folder)) return;
     throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
   }
+  if (goes_on) return;
   const YamlNode marker = read_yaml(folder / case_as_run);
   const YamlNode* owner = marker.find("name");
   const std::optional<fs::path> whose = owner_of(folder);
@@ -65,7 +67,7 @@ void hold_output(const fs::path& folder) {
 fs::path claim_output(const CommandLine& command, const CaseFile& file) {
   const fs::path folder = output_of(command, file);
   const auto check = [&] {
-    if (!command.overwrite) check_owner(folder, file.common().name, file.path());
+    if (!command.overwrite) check_owner(folder, file.common().name, file.path(), command.resume);
   };
   check();
   hold_output(folder);

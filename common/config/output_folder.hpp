@@ -19,7 +19,8 @@ std::filesystem::path output_of(const CommandLine& command, const CaseFile& file
 void hold_output(const std::filesystem::path& folder);
 
 /// The folder for a run's results: --output, or out/NAME. It is made if need be, and held. Throws InputError also if
-/// there are another case's results in it, or files that are no results, unless --overwrite.
+/// there are another case's results in it, or files that are no results, unless --overwrite. With --resume another case
+/// file may go on, one that lasts longer: whether it is the same run is for the checkpoint to say.
 std::filesystem::path claim_output(const CommandLine& command, const CaseFile& file);
 
 /// Marks a folder as this case's, as the case and its files now are. To be called when no results of an earlier state

@@ -41,6 +41,8 @@ class Reader : public Fields {
   void numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning, Need need) override;
   void texts(Text name, std::vector<std::string>& values, Text meaning, Need need) override;
   void check(bool holds, Text field, Text rule) override;
+  /// Of the whole tree: to be called last, where all of it was read by one declaration.
+  void report_unknown() { report_unknown(sections_.back()); }
 
  protected:
   double from_si(double value, Dimension dimension) const override { return units_.from_si(value, dimension); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/io/record.hpp"
+#include "fsi_master/results/periodicity.hpp"
 
 namespace tether {
 
@@ -131,6 +132,7 @@ struct RunSummary {
   std::optional<PressureRange> pressure;
   double max_displacement = 0, max_displacement_mm = 0;
   std::map<std::string, FollowedPoint> points;
+  std::optional<Periodicity> periodicity;
   std::optional<ObserverWork> observer;
   std::vector<std::string> notices;
   std::map<std::string, std::string> versions;
@@ -146,11 +148,11 @@ struct RunSummary {
     field("resumed_at_step", self.resumed_at_step, "null: it was not");
     field("dt", self.dt, "step [s]");
     field("time", self.time, "simulated");
-    field("wall_seconds", self.wall_seconds, "of the steps");
+    field("wall_seconds", self.wall_seconds, "of the steps, in all parts of a run that was resumed");
     field("seconds_per_step", self.seconds_per_step, "wall clock");
     field("cpu_seconds_per_step", self.cpu_seconds_per_step, "of all processes");
-    field("cpu_seconds", self.cpu_seconds, "of each process, and their total");
-    field("loop_cpu_seconds", self.loop_cpu_seconds, "between the first and the last step");
+    field("cpu_seconds", self.cpu_seconds, "of each process and their total, in all parts of a run that was resumed");
+    field("loop_cpu_seconds", self.loop_cpu_seconds, "of the steps alone, those that wall_seconds counts");
     field("peak_memory_mb", self.peak_memory_mb, "[MB]");
     field("unknowns", self.unknowns, "of each code");
     field("coupling_method", self.coupling_method, "in words");
@@ -162,6 +164,7 @@ struct RunSummary {
     field("max_displacement", self.max_displacement, "of the lumen [length]");
     field("max_displacement_mm", self.max_displacement_mm, "the same [mm]");
     field("points", self.points, "followed ones, by name");
+    field("periodicity", self.periodicity, "from beat to beat; null: there are not two, or no period");
     field("observer", self.observer, "null: none");
     field("notices", self.notices, "of the programs");
     field("versions", self.versions, "of the programs");

@@ -42,6 +42,20 @@ TEST_F(OutputFolder, IsRefusedToAnotherFileOfTheSameName) {
   EXPECT_EQ(claim("tube", true, "copy.yaml"), "no error");
 }
 
+/// A longer case in another file goes on with the run; whether it is the same one, its checkpoint says.
+TEST_F(OutputFolder, MayBeResumedByAnotherFile) {
+  EXPECT_EQ(claim("tube"), "no error");
+  const auto path = write_file("longer.yaml", "name: longer\nunits: cgs\ntime: {step: 0.1, end: 2}\n");
+  CommandLine command;
+  command.output = test_folder() / "results";
+  command.resume = true;
+  EXPECT_EQ(input_error_of([&] { claim_output(command, CaseFile(path)); }), "no error");
+  std::filesystem::remove(test_folder() / "results" / case_as_run);
+  std::ofstream(test_folder() / "results" / "thesis.txt") << "precious";
+  EXPECT_NE(input_error_of([&] { claim_output(command, CaseFile(path)); }).find("are not the results of a run"),
+            std::string::npos);
+}
+
 TEST_F(OutputFolder, IsNotTakenFromOtherFiles) {
   write_file("results", "a file");
   EXPECT_EQ(claim("tube"), "results: is not a folder");

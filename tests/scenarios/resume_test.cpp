@@ -19,15 +19,15 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int all_steps = 12;
 
-class Resume : public ::testing::TestWithParam<const char*> {
+class ResumedRun : public ::testing::Test {
  protected:
-  Resume() {
+  explicit ResumedRun(const std::string& method = "newton_krylov") {
     case_file = case_variant(TETHER_SOURCE "/configs/tube/case.yaml", folder / "case",
                              {{"around: 24", "around: 12"},
                               {"along: 20", "along: 12"},
                               {"write_every: 10", "write_every: 3"},
                               {"checkpoint_every: 100", "checkpoint_every: 4"},
-                              {"coupling: {", coupling(GetParam())}});
+                              {"coupling: {", coupling(method)}});
     std::ofstream ring(folder / "case/ring.csv");
     ring << "slice, frame, time [s], x [cm], y [cm], z [cm]\n";
     for (int frame = 0; frame < 2; ++frame)
@@ -80,6 +80,11 @@ class Resume : public ::testing::TestWithParam<const char*> {
   fs::path case_file;
 };
 
+class Resume : public ResumedRun, public ::testing::WithParamInterface<const char*> {
+ protected:
+  Resume() : ResumedRun(GetParam()) {}
+};
+
 TEST_P(Resume, LeavesTheFilesOfARunThatWasNotInterrupted) {
   ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
 
@@ -94,6 +99,28 @@ TEST_P(Resume, LeavesTheFilesOfARunThatWasNotInterrupted) {
   ASSERT_EQ(simulate("killed", all_steps, {"--resume"}).exit_code, 0);
   EXPECT_GE(summary("killed")["resumed_at_step"], 4);
   expect_same_results("whole", "killed");
+}
+
+/// A case in another file that builds on the first and only lasts longer goes on; wall clock and CPU then are of the
+/// same steps, all of them.
+TEST_F(ResumedRun, TakesALongerCase) {
+  ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
+  ASSERT_EQ(simulate("begun", 6).exit_code, 0);
+  const auto before = summary("begun");
+  const fs::path longer = folder.file("case/longer.yaml", "base: case.yaml\nname: longer\ntime: {end: 0.024}\n");
+  const ChildEnd end =
+      capture({{TETHER_PROGRAM, "simulate", longer.string(), "--output", folder / "begun", "--resume", "--quiet"}, {}});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  expect_same_results("whole", "begun");
+  const auto after = summary("begun");
+  EXPECT_EQ(after["case"], "longer");
+  for (const char* process : {"fsi_master", "fluid", "solid", "total"}) {
+    EXPECT_GT(after["loop_cpu_seconds"][process], before["loop_cpu_seconds"][process]) << process;
+    EXPECT_GT(after["cpu_seconds"][process], before["cpu_seconds"][process]) << process;
+    EXPECT_GE(after["peak_memory_mb"][process], before["peak_memory_mb"][process]) << process;
+  }
+  EXPECT_NEAR(after["cpu_seconds_per_step"], after["loop_cpu_seconds"]["total"].get<double>() / all_steps, 1e-12);
+  EXPECT_NEAR(after["seconds_per_step"], after["wall_seconds"].get<double>() / all_steps, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Coupling, Resume, ::testing::Values("newton_krylov", "iqn_ils", "observed"),
