@@ -5,6 +5,7 @@
 #include "common/io/vtp_writer.hpp"
 #include "pictures/pictures.hpp"
 #include "tether/verbs.hpp"
+#include "vessel/image/slices.hpp"
 #include "vessel/study/build_surface.hpp"
 
 namespace tether {
@@ -76,7 +77,9 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
     write_vtp(folder / (step + ".vtp"), surface.points, surface.triangles, surface.face_id);
   };
   try {
-    BuiltSurface built = build_surface(study, keep);
+    BuiltSurface built = build_surface(study, keep, [&](const ImageVolume& image, const RawSurface& lumen) {
+      draw_slices(folder / "1_slices.png", image, lumen);
+    });
     write_vtp(folder / "surface.vtp", built.surface.points, built.surface.triangles, built.surface.label);
     write_tree(folder, built.tree);
     write_record(folder / "surface.json", built.summary);
@@ -94,7 +97,7 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
     return {std::move(built.summary), std::move(told)};
   } catch (const PlacedError& error) {
     write_vtp(places, crosses(error.places));
-    throw input_error("{}: {} (marked in {})", study.surface.file.string(), error.what(), places.string());
+    throw input_error("{}: {} (marked in {})", study.file().string(), error.what(), places.string());
   }
 }
 

@@ -6,8 +6,10 @@
 
 #include "common/base/error.hpp"
 #include "common/protocol/programs.hpp"
+#include "fluid/windkessels/outlets_case.hpp"
 #include "tether/schemas.hpp"
 #include "tether/verbs.hpp"
+#include "vessel/ring/ring_case.hpp"
 #include "vessel/study/study_case.hpp"
 
 namespace tether {
@@ -53,6 +55,10 @@ constexpr std::array verbs{
          told<fs::path, report>},
     Verb{"build-model", "make a lumen with named openings and centrelines of a surface, as a study file says",
          told<SurfaceSummary, build_model>, false, false, true, false, study_reference, check_study},
+    Verb{"fit-outlets", "find Windkessels from pressures, a flow and its split, and the state in which they begin",
+         told<FittedOutlets, fit_outlets>, false, false, true, false, outlets_reference, check_outlets},
+    Verb{"track-ring", "follow the ring of an opening through the frames of a segmented lumen: a table of its motion",
+         told<TrackedRing, track_ring>, false, false, true, false, ring_reference, check_ring},
     Verb{"validate", "find mistakes in a case without running it", validate},
     Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
     Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false, false, false},

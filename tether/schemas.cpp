@@ -10,12 +10,14 @@
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/missing_force.hpp"
 #include "diagnosis/results/noise.hpp"
+#include "fluid/windkessels/outlets_result.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
 #include "solid/results/effects_list.hpp"
 #include "twin/score.hpp"
 #include "vessel/model/model_quality.hpp"
+#include "vessel/ring/tracked_ring.hpp"
 #include "vessel/study/surface_summary.hpp"
 
 namespace tether {
@@ -44,6 +46,8 @@ const std::vector<ResultSchema>& result_schemas() {
       {"noise.json", schema<NoiseMeasurements>},
       {"surface.json", schema<SurfaceSummary>},
       {"quality.json", schema<ModelQuality>},
+      {"outlets.json", schema<FittedOutlets>},
+      {"ring.json", schema<TrackedRing>},
   };
   return all;
 }

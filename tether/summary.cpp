@@ -34,11 +34,20 @@ std::string coupling(const RunSummary& s) {
                      s.coupling_iterations.max, s.coupling_method);
 }
 
+std::string periodicity(const std::optional<Periodicity>& p) {
+  if (!p || p->beats.empty()) return "";
+  const BeatChange& last = p->beats.back();
+  const std::string since = p->periodic_from ? fmt::format("since beat {}", *p->periodic_from) : "not yet";
+  return fmt::format(
+      "  periodic       {}: beat {} differs from the one before by at most {:.2g} % in pressure, {:.2g} % in volume\n",
+      since, last.beat, 100 * last.pressure, 100 * last.volume);
+}
+
 }  // namespace
 
 std::string text_of(const RunSummary& s) {
   return cost(s) + pressure(s.pressure) + fmt::format("  displacement   at most {:.3g} mm\n", s.max_displacement_mm) +
-         coupling(s) + observer(s.observer) +
+         coupling(s) + periodicity(s.periodicity) + observer(s.observer) +
          fmt::format("  mass balance   off by at most {:.1e} {}\n", s.mass_balance_error_max, s.units.flow);
 }
 

@@ -8,9 +8,11 @@
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
 #include "diagnosis/results/noise.hpp"
+#include "fluid/windkessels/outlets_result.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "twin/score.hpp"
+#include "vessel/ring/tracked_ring.hpp"
 #include "vessel/study/surface_summary.hpp"
 
 namespace tether {
@@ -81,6 +83,17 @@ Made<std::filesystem::path> report(const CommandLine& command);
 Made<SurfaceSummary> build_model(const CommandLine& command);
 /// Throws InputError if the study file is wrong.
 void check_study(const CommandLine& command);
+
+/// Windkessels that make a mean and a pulse pressure, or a pressure curve, of a flow that they share
+/// (docs/build-model.md): outlets.json and .csv, a plot, a case with them.
+Made<FittedOutlets> fit_outlets(const CommandLine& command);
+/// Throws InputError if its file is wrong.
+void check_outlets(const CommandLine& command);
+
+/// The ring of an opening through the frames of a segmented lumen (docs/heart-motion.md): ring.json, poses.csv, a plot.
+Made<TrackedRing> track_ring(const CommandLine& command);
+/// Throws InputError if its file is wrong.
+void check_ring(const CommandLine& command);
 
 /// Walks the whole path by itself: compares, finds what the model lacks, adds it, identifies it, compares on held-out
 /// data, and again until there is a verdict: explain.json (docs/explain.md). What was done before is kept.

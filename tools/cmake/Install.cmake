@@ -25,7 +25,7 @@ install(FILES ${PROJECT_BINARY_DIR}/TetherConfig.cmake ${PROJECT_BINARY_DIR}/Tet
 install(DIRECTORY tools/python/ DESTINATION lib/python3/dist-packages PATTERN __pycache__ EXCLUDE)
 
 install(DIRECTORY configs DESTINATION ${share_dir})
-install(PROGRAMS tools/cine_mr_contours.py tools/end_diastolic_contours.py tools/fit_windkessel.py DESTINATION ${share_dir}/tools)
+install(PROGRAMS tools/cine_mr_contours.py tools/end_diastolic_contours.py DESTINATION ${share_dir}/tools)
 install(FILES README.md CONTRIBUTING.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMISSIONS)
