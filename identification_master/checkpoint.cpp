@@ -62,7 +62,8 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
   protocol::Writer writer;
   writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, records,
          std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
-         PackedMatrix(state.last_mean),
+         PackedMatrix(state.last_mean), PackedMatrix(state.lasting.mean), PackedMatrix(state.lasting.slope),
+         PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),
          std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
                              static_cast<double>(cost.moved_values)});
   const fs::path folder = output / "checkpoint", fresh = folder / "identification.new";
@@ -83,15 +84,18 @@ IdentificationCheckpoint read_checkpoint(const fs::path& output, std::uint64_t f
   IdentificationCheckpoint checkpoint;
   IdentificationState& state = checkpoint.state;
   state.step = content.step;
-  PackedMatrix theta, states, last_mean;
+  PackedMatrix theta, states, last_mean, lasting_mean, lasting_slope, lasting_covariance, information;
   std::vector<PackedRecord> records;
   std::vector<double> innovations, cost;
   protocol::Reader reader("checkpoint", content.bytes);
-  reader(theta, states, state.memories, records, innovations, last_mean, cost);
+  reader(theta, states, state.memories, records, innovations, last_mean, lasting_mean, lasting_slope,
+         lasting_covariance, information, cost);
   reader.expect_end();
   state.theta = theta.matrix();
   state.states = states.matrix();
   state.last_mean = last_mean.vector();
+  state.lasting = {lasting_mean.vector(), lasting_slope.matrix(), lasting_covariance.matrix()};
+  state.information = information.matrix();
   for (const PackedRecord& record : records) state.records.push_back(unpacked(record));
   state.innovations = {innovations.at(0), innovations.at(1), innovations.at(2)};
   checkpoint.cost = {cost.at(0), cost.at(1), cost.at(2), static_cast<int>(cost.at(3))};

@@ -91,6 +91,19 @@ InnovationsTold innovations_of(const Identification& done) {
           all.tempered_steps};
 }
 
+std::vector<LastingErrorTold> lasting_errors_of(const Identification& done) {
+  const LastingErrors& found = done.state().lasting;
+  std::vector<LastingErrorTold> all;
+  if (!done.plan().corrects) return all;
+  const VectorXd deviations = found.whole_covariance().diagonal().cwiseSqrt();
+  for (const LastingError& error : done.lasting_errors()) {
+    const auto k = static_cast<Eigen::Index>(all.size());
+    all.push_back(
+        {error.source, error.name, error.deviation, error.deviation * found.mean(k), error.deviation * deviations(k)});
+  }
+  return all;
+}
+
 EstimateCost cost_of(const IdentificationFacts& facts, Eigen::Index parameters) {
   return {static_cast<int>(parameters) + 1, static_cast<int>(facts.groups), facts.cost.wall_seconds,
           facts.cost.cpu_seconds,           facts.cost.master_cpu_seconds,  facts.peak_memory_mb};
@@ -139,6 +152,7 @@ void write_estimate(const std::filesystem::path& path, const IdentifiedParameter
   }
   estimate.correlations = correlations(last.covariance);
   estimate.covariance_of_theta = last.covariance;
+  estimate.lasting_errors = lasting_errors_of(done);
   estimate.identifiability = {
       what.gramian, {what.information.begin(), what.information.end()}, what.directions.transpose()};
   estimate.innovations = innovations_of(done);

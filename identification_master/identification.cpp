@@ -43,13 +43,16 @@ DataTotals totals_of(const std::vector<EstimateRecord>& records) {
 }
 
 Identification::Identification(IdentificationPlan plan, const IdentifiedParameters& parameters,
-                               const DataPrecision& precision, const Observations& observations, Ensemble& ensemble)
+                               const DataPrecision& precision, const Observations& observations, Ensemble& ensemble,
+                               LastingColumns lasting)
     : plan_(plan),
       parameters_(parameters),
       precision_(precision),
       ensemble_(ensemble),
+      lasting_errors_(std::move(lasting.errors)),
       filter_(parameters.prior_mean(),
-              diagonal(parameters.prior_variances() * (plan.corrects ? 1 : nearness * nearness))) {
+              diagonal(parameters.prior_variances() * (plan.corrects ? 1 : nearness * nearness)),
+              std::move(lasting.values)) {
   for (const auto& observable : ensemble.model().observables) moment_.names.push_back(observable.name);
   moment_.points = observations.points();
   for (const Measurement* source : observations.FlowObservations::all()) {
@@ -60,6 +63,9 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
   state_.theta = filter_.particles();
   state_.states = ensemble.initial_state().replicate(1, particles);  // L_x = 0
   state_.memories.resize(static_cast<std::size_t>(particles));
+  state_.lasting = filter_.lasting();
+  const Eigen::Index numbers = filter_.parameters() + state_.lasting.count();
+  state_.information = MatrixXd::Zero(plan.corrects ? 0 : numbers, plan.corrects ? 0 : numbers);
   state_.records.push_back({plan.start, parameters.prior_mean(), diagonal(parameters.prior_variances())});
 }
 
@@ -67,8 +73,11 @@ void Identification::restore(IdentificationState state) {
   if (state.theta.rows() != state_.theta.rows() || state.states.rows() != state_.states.rows())
     throw input_error("the checkpoint is of {} parameters and a state of {} numbers; this case has {} and {}",
                       state.theta.rows(), state.states.rows(), state_.theta.rows(), state_.states.rows());
+  if (state.lasting.count() != state_.lasting.count())
+    throw input_error("the checkpoint knows of {} errors that last; these data have {}", state.lasting.count(),
+                      state_.lasting.count());
   state_ = std::move(state);
-  filter_ = ReducedOrderFilter(state_.theta);
+  filter_.restore(state_.theta, state_.lasting);
 }
 
 void Identification::advance() {
@@ -92,6 +101,7 @@ void Identification::advance() {
   }
   record.mean = filter_.mean();
   state_.theta = filter_.particles();
+  state_.lasting = filter_.lasting();
   state_.records.push_back(std::move(record));
   ++state_.step;
 }
@@ -150,8 +160,10 @@ double Identification::effective_number(const Data& data) const {
 /// Leaves out data farther from the mean than the stated noise and the particles' spread explain.
 void Identification::reject_outliers(Data& data) const {
   if (plan_.reject_beyond <= 0) return;
-  const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies);
-  const VectorXd spread = ReducedOrderFilter::spread_of(data.discrepancies).rowwise().squaredNorm();
+  const MatrixXd D = filter_.without_lasting(data.discrepancies);
+  const VectorXd mean = ReducedOrderFilter::mean_of(D);
+  VectorXd spread = ReducedOrderFilter::spread_of(D).rowwise().squaredNorm();
+  if (state_.lasting.count() > 0) spread += filter_.lasting_variances();
   for (Eigen::Index row = 0; row < mean.size(); ++row) {
     const double variance = std::pow(precision_.deviations()(row), 2) + spread(row);
     if (mean(row) * mean(row) > plan_.reject_beyond * plan_.reject_beyond * variance) data.weights.precision(row) = 0;
@@ -166,26 +178,36 @@ void Identification::correct(const std::vector<ParticleReport>& reports, double 
   record.rejected = before - record.data;
   record.expected_chi_square =
       data.weights.precision.dot(precision_.deviations().cwiseAbs2().cwiseProduct(data.weights.expected_squares));
+  note_innovation(ReducedOrderFilter::mean_of(filter_.without_lasting(data.discrepancies)), data.weights);
   const FilterCorrection done = filter_.correct(data.discrepancies, data.weights.precision, plan_.largest_shift);
   record.chi_square = done.chi_square;
   record.tempering = done.tempering;
   state_.states *= done.mix.transpose();  // (K.4)
-  note_innovation(data);
 }
 
-/// The particles stay near the prior's mean, and the data of all steps add up to what they would leave: P^-1 =
-/// P_0^-1 + sum L_theta^-T L_d' W L_d L_theta^-1. (K.7)
+/// Of theta, from what all data so far would tell of it and of the errors that last. (K.7)
+MatrixXd Identification::covariance_left() const {
+  MatrixXd joint = state_.information;
+  const Eigen::Index p = filter_.parameters();
+  joint.diagonal().head(p) += parameters_.prior_variances().cwiseInverse();
+  joint.diagonal().tail(joint.rows() - p).array() += 1;
+  return joint.inverse().topLeftCorner(p, p);
+}
+
+/// The particles stay near the prior's mean, and the data of all steps add up to what they would leave. (K.7)
 void Identification::note_sensitivities(const std::vector<ParticleReport>& reports, double time,
-                                        EstimateRecord& record) const {
+                                        EstimateRecord& record) {
   const Data data = gather(reports, time);
   const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies), &W = data.weights.precision;
   const MatrixXd L_theta = ReducedOrderFilter::spread_of(filter_.particles());
   const MatrixXd changes = -ReducedOrderFilter::spread_of(data.discrepancies) * L_theta.inverse() *
                            parameters_.prior_variances().cwiseSqrt().asDiagonal();
   const VectorXd scale = parameters_.prior_variances().cwiseSqrt().cwiseInverse();
-  const MatrixXd information =
-      scale.asDiagonal() * MatrixXd(changes.transpose() * W.asDiagonal() * changes) * scale.asDiagonal();
-  record.covariance = MatrixXd(record.covariance.inverse() + information).inverse();
+  MatrixXd all(changes.rows(), state_.information.cols());
+  all.leftCols(changes.cols()) = changes * scale.asDiagonal();
+  if (state_.lasting.count() > 0) all.rightCols(state_.lasting.count()) = filter_.lasting_columns();
+  state_.information += all.transpose() * (W.asDiagonal() * all);
+  record.covariance = covariance_left();
   record.data = effective_number(data);
   record.expected_chi_square = W.dot(precision_.deviations().cwiseAbs2().cwiseProduct(data.weights.expected_squares));
   record.chi_square = mean.dot(W.asDiagonal() * mean);
@@ -193,13 +215,12 @@ void Identification::note_sensitivities(const std::vector<ParticleReport>& repor
 }
 
 /// Each datum with itself at its series' last frame.
-void Identification::note_innovation(const Data& data) {
-  const VectorXd mean = ReducedOrderFilter::mean_of(data.discrepancies);
+void Identification::note_innovation(const VectorXd& mean, const DatumWeights& weights) {
   VectorXd& last = state_.last_mean;
   if (last.size() != mean.size()) last = VectorXd::Constant(mean.size(), std::nan(""));
   for (Eigen::Index row = 0; row < mean.size(); ++row) {
-    const double precision = data.weights.precision(row), now = mean(row), before = last(row);
-    if (precision == 0 || !data.weights.on_frame[static_cast<std::size_t>(row)]) continue;
+    const double precision = weights.precision(row), now = mean(row), before = last(row);
+    if (precision == 0 || !weights.on_frame[static_cast<std::size_t>(row)]) continue;
     if (!std::isnan(before)) {
       state_.innovations.products += precision * now * before;
       state_.innovations.squares += precision * now * now;

@@ -5,6 +5,7 @@
 
 #include "identification_master/data_precision.hpp"
 #include "identification_master/ensemble.hpp"
+#include "identification_master/lasting_columns.hpp"
 #include "identification_master/reduced_order_filter.hpp"
 #include "observation_manager/measurements/observations.hpp"
 
@@ -70,14 +71,17 @@ struct IdentificationState {
   std::vector<EstimateRecord> records;
   InnovationStatistics innovations;
   VectorXd last_mean;  ///< discrepancy of the mean at each datum's last frame; NaN before the first
+  LastingErrors lasting;
+  MatrixXd information;  ///< if nothing is corrected: of all data so far, of theta and lasting errors [(p+q) x (p+q)]
 };
 
 /// The filter's cycle: sample, predict, correct (K.3, K.4), once a time step.
 class Identification {
  public:
-  /// All must outlive it. Throws InputError if the model has no observable that data are compared with.
+  /// All must outlive it. lasting: what data may be off by at all times. Throws InputError if the model has no
+  /// observable that data are compared with.
   Identification(IdentificationPlan plan, const IdentifiedParameters& parameters, const DataPrecision& precision,
-                 const Observations& observations, Ensemble& ensemble);
+                 const Observations& observations, Ensemble& ensemble, LastingColumns lasting = {});
 
   /// One step of all particles, and its correction.
   void advance();
@@ -88,6 +92,8 @@ class Identification {
   /// Continues from such a state. Throws InputError if it does not fit.
   void restore(IdentificationState state);
   const EstimateRecord& last() const { return state_.records.back(); }
+  /// What the data may be off by at all times; state().lasting has what was found of it, in these deviations.
+  const std::vector<LastingError>& lasting_errors() const { return lasting_errors_; }
   /// Called in each observed step if nothing is corrected.
   void report_sensitivities(std::function<void(const StepSensitivities&)> to) { report_ = std::move(to); }
 
@@ -102,8 +108,9 @@ class Identification {
   double effective_number(const Data& data) const;
   void reject_outliers(Data& data) const;
   void correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
-  void note_innovation(const Data& data);
-  void note_sensitivities(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record) const;
+  void note_innovation(const VectorXd& mean, const DatumWeights& weights);
+  void note_sensitivities(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
+  MatrixXd covariance_left() const;
   void diffuse_and_forget();
 
   IdentificationPlan plan_;
@@ -112,6 +119,7 @@ class Identification {
   std::vector<const Measurement*> blood_;  ///< sources behind the samples of lumen data
   ModelMoment moment_;                     ///< with the names and points that they ask for
   Ensemble& ensemble_;
+  std::vector<LastingError> lasting_errors_;
   ReducedOrderFilter filter_;
   IdentificationState state_;
   std::function<void(const StepSensitivities&)> report_;

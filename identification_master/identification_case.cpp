@@ -64,6 +64,10 @@ void IdentificationCase::declare(Fields& f) {
   for (const auto& [name, parameter] : parameters) names.push_back(name);
   const std::string fault = fault_of(names);
   f.check(fault.empty(), "parameters", fault);
+  f.group(
+      "allowed", allowed,
+      "standard deviations of what the data may be off by in all frames alike, which is found beside the parameters "
+      "(K.8); 0: nothing");
   f.choice("observe", observe,
            {{"every_step", "data are interpolated between frames, each frame counting once in all"},
             {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"},

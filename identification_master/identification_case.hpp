@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/config/fields.hpp"
+#include "observation_manager/measurements/faults/allowance.hpp"
 
 namespace tether {
 
@@ -18,6 +19,7 @@ struct ParameterCase {
 /// The section `identification` of a case.
 struct IdentificationCase {
   Named<ParameterCase> parameters;
+  LastingAllowance allowed;
   std::string observe = "every_step";
   double reject_beyond = 0, memory_time = 0, largest_shift = 2;
   int groups = 0;

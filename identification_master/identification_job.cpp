@@ -95,7 +95,8 @@ class Job {
         precision_(data_, pool.lumen(), given.file.common().time.step,
                    {given.file.common().time.start, given.file.common().time.end}),
         plan_(plan_of(given, command)),
-        filter_(plan_, parameters_, prepared(), data_, pool) {}
+        filter_(plan_, parameters_, prepared(), data_, pool,
+                lasting_columns(data_, given.lumen(), pool.lumen(), given.identification.allowed, plan_.start)) {}
 
   void run() {
     begin();

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "common/base/types.hpp"
+#include "identification_master/lasting_errors.hpp"
 
 namespace tether {
 
@@ -19,18 +19,27 @@ struct FilterCorrection {
 /// The reduced-order unscented Kalman filter (Moireau and Chapelle 2011; Moireau et al. 2012): p parameters carried by
 /// p + 1 particles. Between two corrections the particles ARE the distribution (U = 1): nothing else is kept, and a
 /// step without data changes nothing. States are the caller's; they follow by `mix`. Discrepancies are data minus
-/// model.
+/// model. Errors of the data that last are found beside the parameters, without particles of their own (K.8).
 class ReducedOrderFilter {
  public:
-  /// A normal distribution of theta: mean [p], covariance [p x p], positive definite.
-  ReducedOrderFilter(const VectorXd& mean, const MatrixXd& covariance);
+  /// A normal distribution of theta: mean [p], covariance [p x p], positive definite. lasting: what errors of deviation
+  /// 1 that last do to the data [m x q]; none: no columns.
+  ReducedOrderFilter(const VectorXd& mean, const MatrixXd& covariance, MatrixXd lasting = {});
   /// From particles, one a column [p x (p+1)].
   explicit ReducedOrderFilter(MatrixXd particles);
+  /// Goes on from particles and what is known of the errors that last.
+  void restore(MatrixXd particles, LastingErrors lasting);
 
   Eigen::Index parameters() const { return particles_.rows(); }
   const MatrixXd& particles() const { return particles_; }
   VectorXd mean() const;
   MatrixXd covariance() const;
+  const LastingErrors& lasting() const { return lasting_; }
+  const MatrixXd& lasting_columns() const { return columns_; }
+  /// Without the errors that last, as each particle has them [m x (p+1)].
+  MatrixXd without_lasting(const MatrixXd& discrepancies) const;
+  /// Variances of what the data may be off by the errors that last, the parameters given [m].
+  VectorXd lasting_variances() const;
 
   /// discrepancies: one particle a column [m x (p+1)]; precision: inverse variances [m], zero for no observation.
   /// If the mean would move by more than `largest_shift` deviations the data get less weight. (K.3)
@@ -49,6 +58,8 @@ class ReducedOrderFilter {
 
  private:
   MatrixXd particles_;
+  MatrixXd columns_;  ///< N of (K.8)
+  LastingErrors lasting_;
 };
 
 }  // namespace tether

@@ -20,7 +20,7 @@ void add_patterns(EffectProblem& problem, const Evidence& evidence, const Allowa
   for (const auto& part : evidence.parts()) {
     if (!evidence.fallible(part).in_place) continue;
     const double phase = 2 * std::numbers::pi * (part.time - start) / (end - start);
-    const double model = allowed.model.value_or(0.25 * evidence.noise(part).deviation);
+    const double model = allowed.of_model(evidence.noise(part).deviation);
     const auto add = [&](double key, double value, int form) {
       for (Index i = part.first; i < part.first + part.count; ++i) {
         const auto k = static_cast<std::size_t>(i);

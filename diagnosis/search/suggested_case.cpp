@@ -28,7 +28,8 @@ std::string without_dots(std::string name) {
   return name;
 }
 
-/// The prior: what was found, and how sure that is, at least a factor of the square root of two either way.
+/// The prior: what was found, and twice how unsure that is, at least a factor of the square root of two either way. The
+/// same data found it: nearer to it they would count twice.
 void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValue& found) {
   const std::string path = "identification.parameters." + without_dots(amplitude.name);
   const bool positive = amplitude.doubles || amplitude.one_sided || (amplitude.lower == 0 && amplitude.base > 0);
@@ -37,9 +38,16 @@ void add_parameter(Overlay& overlay, const Amplitude& amplitude, const FoundValu
   overlay.values.push_back({path + ".mean", number_text(found.value)});
   const double half = found.upper - found.value;
   constexpr double unknown = 3;  // powers of two: more is no more of a prior
-  const double deviation = positive ? std::clamp(std::log2(found.upper / found.value), 0.5, unknown)
-                                    : std::max(half, 0.25 * std::abs(found.value));
+  const double deviation = positive ? std::clamp(2 * std::log2(found.upper / found.value), 0.5, unknown)
+                                    : std::max(2 * half, 0.25 * std::abs(found.value));
   overlay.values.push_back({path + ".deviation", number_text(deviation)});
+}
+
+/// What the diagnosis allows data to be off by at all times, the filter allows as well.
+void allow_the_same(Overlay& overlay, const LastingAllowance& allowed) {
+  for (const auto& [name, deviation] :
+       {std::pair{"model", allowed.model}, {"bias", allowed.bias}, {"displacement", allowed.displacement}})
+    if (deviation) overlay.values.push_back({std::string("identification.allowed.") + name, number_text(*deviation)});
 }
 
 }  // namespace
@@ -81,7 +89,10 @@ bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& giv
     }
   }
   if (nothing_added) return false;
-  if (!from.has("identification")) overlay.values.push_back({"identification.observe", "frames"});
+  if (!from.has("identification")) {
+    overlay.values.push_back({"identification.observe", "frames"});
+    allow_the_same(overlay, given.diagnosis.allowed);
+  }
   write_overlay(file, overlay);
   return true;
 }

@@ -66,6 +66,21 @@ struct EstimatedParameter {
   }
 };
 
+/// An error of the data that is the same in all frames, as it was found beside the parameters.
+struct LastingErrorTold {
+  static constexpr const char* type_name = "lasting_error";
+  std::string source, name;
+  double allowed = 0, value = 0, deviation = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("source", self.source, "the data, by their place in the case");
+    field("name", self.name, "bias: along the normal; x, y, z: displacement; a region: the model's own");
+    field("allowed", self.allowed, "deviation before the data [length]");
+    field("value", self.value, "by which these data lie farther out, or along that axis [length]");
+    field("deviation", self.deviation, "of it, after the data [length]");
+  }
+};
+
 /// Directions in the space of the parameters, by how much the data say of them.
 struct IdentifiabilityTold {
   static constexpr const char* type_name = "identifiability";
@@ -122,6 +137,7 @@ struct Estimate {
   bool corrected = false;
   std::vector<EstimatedParameter> parameters;
   MatrixXd correlations, covariance_of_theta;
+  std::vector<LastingErrorTold> lasting_errors;
   IdentifiabilityTold identifiability;
   InnovationsTold innovations;
   std::int64_t values_moved_into_their_range = 0;
@@ -138,6 +154,7 @@ struct Estimate {
     field("parameters", self.parameters, "in the case's order");
     field("correlations", self.correlations, "of the parameters' theta");
     field("covariance_of_theta", self.covariance_of_theta, "after the data");
+    field("lasting_errors", self.lasting_errors, "of the data, the same in all frames");
     field("identifiability", self.identifiability, "what the data say");
     field("innovations", self.innovations, "how well the data were foretold");
     field("values_moved_into_their_range", self.values_moved_into_their_range, "of all particles and steps");

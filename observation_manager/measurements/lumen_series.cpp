@@ -107,9 +107,12 @@ CountedRows LumenSeries::rows(const Points& imaged, double start) const {
   std::vector<double> observed(names.size(), 0.0);
   const std::vector<Sample> samples = observe(imaged, any_time);
   rows.positions.resize(3, static_cast<Eigen::Index>(samples.size()));
+  rows.normals.resize(3, rows.positions.cols());
   for (const Sample& sample : samples) {
     observed[static_cast<std::size_t>(sample.series)] += sample.weight;
-    rows.positions.col(static_cast<Eigen::Index>(rows.series_of.size())) = sample.position;
+    const auto row = static_cast<Eigen::Index>(rows.series_of.size());
+    rows.positions.col(row) = sample.position;
+    rows.normals.col(row) = sample.normal;
     rows.series_of.push_back(static_cast<std::size_t>(sample.series));
     rows.region.push_back(sample.region);
   }

@@ -60,6 +60,7 @@ struct CountedRows {
   std::vector<int> region;             ///< of each row; -1: none
   std::vector<std::size_t> group_of;   ///< of each row
   Points positions;                    ///< of each row, in the image; no columns if they have none [length]
+  Points normals = Points(3, 0);       ///< of each row on the lumen, out of it, in the image; else no columns
 };
 
 /// A row at a time: measured minus the model's.

@@ -1,0 +1,94 @@
+// What data may be off by in all frames alike: what it is, and what it makes of an estimate.
+#include "identification_master/lasting_columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/identification_master/measured_tube.hpp"
+
+namespace tether::testing {
+namespace lasting_columns_test {
+
+LastingColumns columns_of(const LastingAllowance& allowed) {
+  static const Observations data = surfaces(24, 20, 0.3, -0.1, 12, 10);
+  const LumenSurface model = lumen(BreathingTube::at(12, 10, 0, 0, 0));
+  return lasting_columns(data, model, model.points, allowed, 0);
+}
+
+TEST(LastingColumns, AreABiasADisplacementAndADistanceOfEachRegion) {
+  const LastingColumns found = columns_of({});
+  const Points x = BreathingTube::at(12, 10, 0, 0, 0).points;
+  std::vector<std::string> names;
+  for (const LastingError& error : found.errors) names.push_back(error.name);
+  ASSERT_GE(names.size(), 4U);
+  EXPECT_EQ(names[0], "bias");
+  EXPECT_EQ(found.errors[0].source, "observations.surfaces.data");
+  EXPECT_NEAR(found.errors[0].deviation, 0.5 * deviation, 1e-15);
+  ASSERT_EQ(found.values.rows(), x.cols());
+  EXPECT_LT((found.values.col(0).array() - 0.5 * deviation).abs().maxCoeff(), 1e-15);
+  const auto along_x = std::find(names.begin(), names.end(), "x") - names.begin();
+  ASSERT_LT(along_x, std::ssize(names));
+  const double facet = 0.5 * deviation * std::numbers::pi / 24;  // normals are those of the measured facets
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    EXPECT_NEAR(found.values(i, along_x), 0.5 * deviation * x(0, i) / x.col(i).head<2>().norm(), facet);
+  for (std::size_t k = 4; k < names.size(); ++k)
+    EXPECT_NEAR(found.values.col(static_cast<Eigen::Index>(k)).maxCoeff(), 0.25 * deviation, 1e-15) << names[k];
+}
+
+TEST(LastingColumns, AreNoneIfNothingIsAllowed) {
+  EXPECT_EQ(columns_of(nothing_lasts).values.cols(), 0);
+  const LastingColumns bias = columns_of({0, 0.02, 0});
+  ASSERT_EQ(bias.errors.size(), 1U);
+  EXPECT_EQ(bias.errors[0].deviation, 0.02);
+}
+
+/// Surfaces that are drawn too large by 0.1 in all frames: counted as new in each frame, front and rear come out wrong
+/// and sure; as what lasts, right and less sure. What widens in time is told from what stays.
+TEST(LastingErrors, DoNotPassForTheParameters) {
+  std::vector<SurfaceFrame> list;
+  for (int k = 0; k < frames; ++k) {
+    const double time = BreathingTube::beat * k / frames;
+    TriangleSurface surface = BreathingTube::measured(48, 40, time, 0.3, -0.1);
+    surface.points.topRows<2>() *= 1.05;
+    list.push_back({time, std::move(surface), {}});
+  }
+  const LumenSurface model = lumen(BreathingTube::at(24, 20, 0, 0, 0));
+  SourceSettings settings = settings_for(model);
+  settings.period = BreathingTube::beat;
+  settings.noise = {deviation, correlation, 0};
+  Observations data;
+  data.lumen.push_back(
+      std::make_unique<SurfaceSeries>(settings, std::move(list), std::vector<bool>(frames, false), model));
+  const EstimateRecord ignorant = identified(data, 24, 20, 0.02),
+                       knowing = identified(data, 24, 20, 0.02, true, {0, 0.1, 0});
+  EXPECT_GT(std::abs(ignorant.mean(0) - 0.3), 5 * deviations(ignorant)(0));
+  EXPECT_NEAR(knowing.mean(0), 0.3, 0.015);
+  EXPECT_NEAR(knowing.mean(1), -0.1, 0.015);
+  EXPECT_GT(deviations(knowing)(0), 1.05 * deviations(ignorant)(0));
+}
+
+/// The tube is linear in its parameters: what the data would tell is what they tell, whatever lasts.
+TEST(LastingErrors, AreAllowedForWhereNothingIsCorrected) {
+  const Observations data = surfaces(24, 20, 0.3, -0.1, 24, 20);
+  BreathingEnsemble ensemble(data, 24, 20);
+  const IdentifiedParameters parameters = parameters_of_tube();
+  const DataPrecision precision(data, ensemble.lumen(), 0.02, {0, BreathingTube::beat});
+  const LastingColumns lasting =
+      lasting_columns(data, lumen(BreathingTube::at(24, 20, 0, 0, 0)), ensemble.lumen(), {}, 0);
+  IdentificationPlan plan{.start = 0, .dt = 0.02, .steps = 40, .largest_shift = 1e9};
+  Identification correcting(plan, parameters, precision, data, ensemble, lasting);
+  plan.corrects = false;
+  Identification watching(plan, parameters, precision, data, ensemble, lasting);
+  for (int step = 0; step < 17; ++step) correcting.advance();
+  Identification resumed(correcting.plan(), parameters, precision, data, ensemble, lasting);
+  resumed.restore(correcting.state());
+  while (!correcting.is_done()) correcting.advance();
+  while (!resumed.is_done()) resumed.advance();
+  while (!watching.is_done()) watching.advance();
+  EXPECT_EQ(correcting.last().mean, resumed.last().mean);
+  EXPECT_EQ(correcting.state().lasting.mean, resumed.state().lasting.mean);
+  const VectorXd ratio = deviations(watching.last()).cwiseQuotient(deviations(correcting.last()));
+  EXPECT_LT((ratio.array() - 1).abs().maxCoeff(), 0.02);
+}
+
+}  // namespace lasting_columns_test
+}  // namespace tether::testing
