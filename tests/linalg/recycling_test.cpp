@@ -104,8 +104,8 @@ TEST(Recycling, PutsNewPairsBeforeOldOnes) {
 
 TEST(Recycling, ForgetsAnotherSizeAndWhatMovesHeldUnknowns) {
   const MatrixXd H = near_one(0, 0.05);
-  Recycling recycling;
   const auto taught = [&](const VectorXd& next) {
+    Recycling recycling;
     teach(recycling, H, random_matrix(size, 6));
     recycling.begin(next);
     return recycling.directions();
