@@ -5,7 +5,8 @@
 namespace tether {
 namespace {
 
-constexpr double just_enough = 0.3;        // share of the tolerance left to a linear solve
+constexpr double just_enough = 0.3;        // share of what will be left anyway, that a linear solve may leave
+constexpr double useful = 0.1;             // most that a linear solve may leave for its answer to be taken
 constexpr double correction_share = 0.01;  // of r, that the correction will at least have
 
 int largest_node(const VectorXd& values) {
@@ -36,8 +37,16 @@ double Convergence::target(const VectorXd& V, const VectorXd& residual) const {
   return std::max(floor_, options_.tolerance * std::max(V.norm(), (V + residual).norm()));
 }
 
-double Convergence::linear_target(const VectorXd& V, const VectorXd& residual) const {
-  return just_enough * std::max(floor_, options_.tolerance * std::max(V.norm(), correction_share * residual.norm()));
+double Convergence::linear_target(const VectorXd& V, const VectorXd& residual, double left) const {
+  const double wanted = std::max(floor_, options_.tolerance * std::max(V.norm(), correction_share * residual.norm()));
+  return just_enough * std::max(wanted, left);  // (C.5)
+}
+
+void Convergence::note(const KrylovResult& solve) {
+  result_.krylov_iterations += solve.iterations;
+  if (solve.converged || solve.residual <= useful || !result_.failure.empty()) return;
+  result_.failure = fmt::format("the linear equations of a correction kept {:.2g} of their residual in {} iterations",
+                                solve.residual, solve.iterations);
 }
 
 bool Convergence::is_same(const VectorXd& velocity, const VectorXd& V) const {

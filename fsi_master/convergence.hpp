@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/linalg/krylov.hpp"
 #include "fsi_master/coupling.hpp"
 
 namespace tether {
@@ -18,10 +19,13 @@ class Convergence {
   bool is_reached() const { return result_.converged; }
   /// Notes an evaluation at V; true if it converged.
   bool reached(const VectorXd& V, const VectorXd& residual);
-  void count_krylov(int iterations) { result_.krylov_iterations += iterations; }
+  int evaluations() const { return result_.evaluations; }
+  /// A linear solve for a correction has ended. One that did hardly anything ends the loop: the step is too large.
+  void note(const KrylovResult& solve);
   /// The length of r to which a linear solve for the correction of V should go [length/time]: a share of what will be
   /// asked for. That is set by |V| after the correction, of which |V| now and r (an added-mass ratio times it) tell.
-  double linear_target(const VectorXd& V, const VectorXd& residual) const;
+  /// `left`: what no linear solve will remove; to solve further than a share of that would be in vain.
+  double linear_target(const VectorXd& V, const VectorXd& residual, double left = 0) const;
   /// Whether a velocity may be taken for V.
   bool is_same(const VectorXd& velocity, const VectorXd& V) const;
   /// `motion`: of the solid at the last evaluation.

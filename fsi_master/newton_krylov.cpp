@@ -1,6 +1,6 @@
 #include "fsi_master/newton_krylov.hpp"
 
-#include "fsi_master/gmres.hpp"
+#include "fsi_master/recycled_gmres.hpp"
 
 namespace tether {
 
@@ -10,33 +10,43 @@ NewtonKrylov::NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const Coupl
 CouplingResult NewtonKrylov::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   SolidPartner::Iterate solid;
-  VectorXd V = start.velocity, dV = extrapolation_.begin(start), change = dV;
+  VectorXd V = start.velocity, dV = memory_.begin(start), change = dV;
   size_ = V.size();
   if (dV.size() > 0) V += dV.head(size_);
-  while (convergence.may_continue()) {
-    solid = solid_.residual(dV, fluid_.load(start.motion(V)).get()).get();  // (C.4)
-    if (!convergence.is_same(solid.motion.velocity, V)) {  // prescribed motion need not be the predicted one
-      V = solid.motion.velocity;
-      solid = solid_.residual({}, fluid_.load(start.motion(V)).get()).get();
-    }
+  for (double first = 0; convergence.may_continue();) {
+    solid = evaluate(start, dV, V, convergence);
     const VectorXd estimate = solid_.precondition(solid.residual).get();
+    if (convergence.evaluations() == 1) memory_.first_correction_left(estimate.norm() / first);
     if (convergence.reached(V, estimate.head(size_))) break;
-    Correction solved = correction(estimate, convergence.linear_target(V, estimate.head(size_)));
-    convergence.count_krylov(solved.iterations);
-    dV = std::move(solved.dV);
+    const bool is_first = convergence.evaluations() == 1;
+    if (is_first) first = estimate.norm();
+    dV = correction(estimate, convergence.linear_target(V, estimate.head(size_), is_first ? memory_.left_of(first) : 0),
+                    convergence);
     V += dV.head(size_);
     change = change.size() > 0 ? change + dV : dV;
   }
-  if (convergence.is_reached()) extrapolation_.end(std::move(change));
+  if (convergence.is_reached()) memory_.end(std::move(change));
   return std::move(convergence).result(std::move(solid.motion));
 }
 
 std::vector<double> NewtonKrylov::memory() const {
-  return extrapolation_.packed();
+  return memory_.packed();
 }
 
 void NewtonKrylov::set_memory(const std::vector<double>& values) {
-  extrapolation_.unpack(values.data(), values.data() + values.size());
+  memory_.unpack(values);
+}
+
+/// The residual after `dV`, at V (C.4). Prescribed motion need not be the predicted one: then V becomes what it is. The
+/// residual is linear in the load.
+SolidPartner::Iterate NewtonKrylov::evaluate(const StepStart& start, const VectorXd& dV, VectorXd& V,
+                                             const Convergence& convergence) {
+  const VectorXd load = fluid_.load(start.motion(V)).get();
+  SolidPartner::Iterate solid = solid_.residual(dV, load).get();
+  if (convergence.is_same(solid.motion.velocity, V)) return solid;
+  V = solid.motion.velocity;
+  solid.residual.head(size_) += fluid_.load(start.motion(V)).get() - load;
+  return solid;
 }
 
 /// (J + R' A R) dV
@@ -50,11 +60,11 @@ VectorXd NewtonKrylov::tangent_times(const VectorXd& dV) {
 
 /// GMRES on M (J + R' A R) dV = M r until |M r| is below `target`: nearly symmetric, but not quite, as the pressure
 /// follows the wall. Products at constrained unknowns leave numbers that M turns to zero.
-NewtonKrylov::Correction NewtonKrylov::correction(const VectorXd& estimate, double target) {
-  Correction solution{VectorXd::Zero(estimate.size())};
+VectorXd NewtonKrylov::correction(const VectorXd& estimate, double target, Convergence& convergence) {
   const auto preconditioned = [this](const VectorXd& dV) { return solid_.precondition(tangent_times(dV)).get(); };
-  solution.iterations = gmres(preconditioned, estimate, solution.dV, target, most_krylov_iterations).iterations;
-  return solution;
+  VectorXd dV = VectorXd::Zero(estimate.size());
+  convergence.note(recycled_gmres(preconditioned, estimate, dV, target, most_krylov_iterations, memory_.directions()));
+  return dV;
 }
 
 }  // namespace tether

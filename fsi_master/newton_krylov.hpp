@@ -1,12 +1,13 @@
 #pragma once
 
 #include "fsi_master/convergence.hpp"
-#include "fsi_master/extrapolation.hpp"
+#include "fsi_master/newton_memory.hpp"
 
 namespace tether {
 
 /// Newton on all unknowns of the solid with the fluid eliminated, for a solid that announces operators:
-///   r(V) = R' F(R V) + r_solid(V),  (J + R' A R) dV = r,  solved by GMRES, preconditioned by the solid's kept factor.
+///   r(V) = R' F(R V) + r_solid(V),  (J + R' A R) dV = r,  solved by GMRES, preconditioned by the solid's kept factor
+/// and what earlier corrections have taught (C.9).
 /// R picks the interface velocities, the first unknowns. One evaluation: one projection solve, one solid residual.
 class NewtonKrylov : public Coupling {
  public:
@@ -15,21 +16,19 @@ class NewtonKrylov : public Coupling {
   CouplingResult solve_step(const StepStart& start) override;
   std::vector<double> memory() const override;
   void set_memory(const std::vector<double>& values) override;
-  void follow(RunGuide* guide) override { extrapolation_.follow(guide); }
+  void follow(RunGuide* guide) override { memory_.follow(guide); }
 
  private:
-  struct Correction {
-    VectorXd dV;
-    int iterations = 0;
-  };
-  Correction correction(const VectorXd& estimate, double target);
+  SolidPartner::Iterate evaluate(const StepStart& start, const VectorXd& dV, VectorXd& V,
+                                 const Convergence& convergence);
+  VectorXd correction(const VectorXd& estimate, double target, Convergence& convergence);
   VectorXd tangent_times(const VectorXd& dV);
 
   FluidPartner& fluid_;
   SolidPartner& solid_;
   CouplingOptions options_;
-  Extrapolation extrapolation_;  ///< of all unknowns of the solid
-  Eigen::Index size_ = 0;        ///< of V on the interface
+  NewtonMemory memory_;    ///< of all unknowns of the solid
+  Eigen::Index size_ = 0;  ///< of V on the interface
 };
 
 }  // namespace tether

@@ -1,6 +1,6 @@
 #include "fsi_master/newton_tangents.hpp"
 
-#include "fsi_master/gmres.hpp"
+#include "fsi_master/recycled_gmres.hpp"
 
 namespace tether {
 
@@ -11,7 +11,7 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd V = start.velocity;
-  if (const VectorXd change = extrapolation_.begin(start); change.size() > 0) V += change;
+  if (const VectorXd change = memory_.begin(start); change.size() > 0) V += change;
   while (convergence.may_continue()) {
     solid = solid_.motion(fluid_.load(start.motion(V)).get()).get();  // (C.2)
     const VectorXd residual = solid.velocity - V;
@@ -19,19 +19,19 @@ CouplingResult NewtonTangents::solve_step(const StepStart& start) {
     const auto apply = [this](const VectorXd& dV) { return tangent_times(dV); };
     VectorXd dV = VectorXd::Zero(V.size());
     const double target = convergence.linear_target(V, residual);
-    convergence.count_krylov(gmres(apply, residual, dV, target, most_krylov_iterations).iterations);
+    convergence.note(recycled_gmres(apply, residual, dV, target, most_krylov_iterations, memory_.directions()));
     V += dV;
   }
-  if (convergence.is_reached()) extrapolation_.end(V - start.velocity);
+  if (convergence.is_reached()) memory_.end(V - start.velocity);
   return std::move(convergence).result(std::move(solid));
 }
 
 std::vector<double> NewtonTangents::memory() const {
-  return extrapolation_.packed();
+  return memory_.packed();
 }
 
 void NewtonTangents::set_memory(const std::vector<double>& values) {
-  extrapolation_.unpack(values.data(), values.data() + values.size());
+  memory_.unpack(values);
 }
 
 /// (1 - dS dF) dV

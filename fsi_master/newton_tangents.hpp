@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fsi_master/convergence.hpp"
-#include "fsi_master/extrapolation.hpp"
+#include "fsi_master/newton_memory.hpp"
 
 namespace tether {
 
@@ -15,7 +15,7 @@ class NewtonTangents : public Coupling {
   CouplingResult solve_step(const StepStart& start) override;
   std::vector<double> memory() const override;
   void set_memory(const std::vector<double>& values) override;
-  void follow(RunGuide* guide) override { extrapolation_.follow(guide); }
+  void follow(RunGuide* guide) override { memory_.follow(guide); }
 
  private:
   VectorXd tangent_times(const VectorXd& dV);
@@ -23,7 +23,7 @@ class NewtonTangents : public Coupling {
   FluidPartner& fluid_;
   SolidPartner& solid_;
   CouplingOptions options_;
-  Extrapolation extrapolation_;
+  NewtonMemory memory_;
 };
 
 }  // namespace tether

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "common/base/error.hpp"
 #include "solid/mark.hpp"
@@ -9,9 +11,10 @@
 namespace tether {
 namespace {
 
-/// So many more solves for a correction than when the factor was new, and it has served its time (a new one costs as
-/// much as 25 solves).
-constexpr int calls_lost_to_age = 6;
+/// So many solves more than a young factor would have needed, and it has served its time: a new one costs as much as
+/// they do, with the products between them.
+constexpr double calls_for_a_factor = 15;
+constexpr double young = 5;                    ///< steps
 constexpr double newton_tolerance = 1e-9;      ///< of the correction, relative to the iterate
 constexpr double rounding = 1e-14;             ///< smallest change of position that the forces can tell, over the size
 constexpr double correction_tolerance = 1e-4;  ///< of each correction's conjugate gradients: Newton repeats them anyway
@@ -40,7 +43,8 @@ void SolidSolver::begin_step(double time, double dt) {
   place_driven();
   drift_.setZero();
   evaluations_ = 0;
-  calls_ = most_calls_ = 0;
+  calls_ = calls_for_last_ = 0;
+  first_estimate_ = last_estimate_ = 0;
   tangent_serves_ = false;
   model_.place_supports(displacement_);
   renew_factor_if_stale();
@@ -71,7 +75,7 @@ VectorXd SolidSolver::residual(const VectorXd& correction, const Points& load) {
 }
 
 VectorXd SolidSolver::out_of_balance(const Points& load, bool renew_tangent) {
-  calls_ = 0;
+  estimates_ = true;
   VectorXd result =
       -model_.step_forces(drifted_start(), velocity_, iterate_, time_, dt_, renew_tangent ? &tangent_ : nullptr);
   tangent_serves_ = renew_tangent;
@@ -85,10 +89,17 @@ VectorXd SolidSolver::product(const VectorXd& direction) {
 }
 
 VectorXd SolidSolver::precondition(const VectorXd& residual) {
-  most_calls_ = std::max(most_calls_, ++calls_);
   VectorXd rhs = residual;
   for (int unknown : model_.clamped_unknowns()) rhs[unknown] = 0;
-  return factor_.solve(rhs);
+  VectorXd solution = factor_.solve(rhs);
+  if (std::exchange(estimates_, false)) {
+    last_estimate_ = solution.norm();
+    if (calls_ == 0) first_estimate_ = last_estimate_;
+    calls_for_last_ = calls_;
+  } else {
+    ++calls_;
+  }
+  return solution;
 }
 
 InterfaceMotion SolidSolver::evaluate(const Points& load) {
@@ -144,8 +155,8 @@ void SolidSolver::accept() {
   displacement_ += dt_ * (iterate_ + drift_);
   velocity_ = (iterate_ - (1 - theta) * velocity_) / theta;
   mean_velocity_ = iterate_;
-  if (origin_.first_calls == 0) origin_.first_calls = most_calls_;
-  origin_.last_calls = most_calls_;
+  if (last_estimate_ > 0 && last_estimate_ < first_estimate_)
+    origin_.count(calls_for_last_, std::log10(first_estimate_ / last_estimate_));
   time_ += dt_;
 }
 
@@ -177,8 +188,8 @@ void SolidSolver::assemble_tangent() {
 }
 
 void SolidSolver::renew_factor_if_stale() {
-  if (origin_.dt == dt_ && origin_.last_calls <= origin_.first_calls + calls_lost_to_age) return;
-  make_factor({displacement_, dt_, model_.parameters().values(), 0, 0});
+  if (origin_.dt == dt_ && origin_.lost < calls_for_a_factor) return;
+  make_factor({displacement_, dt_, model_.parameters().values()});
 }
 
 /// Factor of the tangent of a step that starts and stays at origin.displacement (S.11).
@@ -199,6 +210,16 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
   origin_ = origin;
 }
 
+/// What a step cost with this factor: its age shows in how little a call removes, not in how many there were. (S.11)
+void SolidSolver::FactorOrigin::count(int step_calls, double step_decades) {
+  if (++steps <= young) {
+    calls += step_calls;
+    decades += step_decades;
+  } else {
+    lost = std::max(0.0, lost + step_calls - calls / decades * step_decades);
+  }
+}
+
 bool SolidSolver::FactorOrigin::makes_same_factor_as(const FactorOrigin& other) const {
   return dt == other.dt && displacement == other.displacement && parameters == other.parameters;
 }
@@ -208,13 +229,13 @@ double SolidSolver::FactorOrigin::mark() const {
 }
 
 Eigen::Index SolidSolver::state_size() const {
-  return 4 * displacement_.size() + 4 + static_cast<Eigen::Index>(origin_.parameters.size());
+  return 4 * displacement_.size() + 6 + static_cast<Eigen::Index>(origin_.parameters.size());
 }
 
 VectorXd SolidSolver::state() const {
   VectorXd state(state_size());
   state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), origin_.displacement.reshaped(),
-      origin_.dt, origin_.first_calls, origin_.last_calls, origin_.mark(),
+      origin_.dt, origin_.steps, origin_.calls, origin_.decades, origin_.lost, origin_.mark(),
       Eigen::Map<const VectorXd>(origin_.parameters.data(), static_cast<Eigen::Index>(origin_.parameters.size()));
   return state;
 }
@@ -230,10 +251,12 @@ void SolidSolver::set_state(const VectorXd& state) {
   FactorOrigin origin;
   origin.displacement = Eigen::Map<const Points>(state.data() + 3 * n, 3, displacement_.cols());
   origin.dt = state[4 * n];
-  origin.first_calls = state[4 * n + 1];
-  origin.last_calls = state[4 * n + 2];
-  origin.parameters.assign(state.data() + 4 * n + 4, state.data() + state.size());
-  if (origin.mark() == state[4 * n + 3]) restore_factor(origin);
+  origin.steps = state[4 * n + 1];
+  origin.calls = state[4 * n + 2];
+  origin.decades = state[4 * n + 3];
+  origin.lost = state[4 * n + 4];
+  origin.parameters.assign(state.data() + 4 * n + 6, state.data() + state.size());
+  if (origin.mark() == state[4 * n + 5]) restore_factor(origin);
 }
 
 /// The factor of that origin, made if it is not at hand; none if there was none.

@@ -66,8 +66,10 @@ class SolidSolver {
     Points displacement;
     double dt = 0;  ///< 0: there is no factor yet
     std::vector<double> parameters;
-    double first_calls = 0,
-           last_calls = 0;  ///< of `precondition` for one correction, in the factor's first and latest step
+    double steps = 0;               ///< with corrections, since it is there
+    double calls = 0, decades = 0;  ///< of `precondition` in the first of them, and the powers of ten they removed
+    double lost = 0;                ///< calls more than those needed for as much, since
+    void count(int calls, double decades);
     bool makes_same_factor_as(const FactorOrigin& other) const;
     double mark() const;  ///< differs for any other displacement, dt or parameters
   };
@@ -93,7 +95,10 @@ class SolidSolver {
   bool tangent_serves_ = false;
   Cholesky factor_;
   FactorOrigin origin_;
-  int evaluations_ = 0, calls_ = 0, most_calls_ = 0;
+  int evaluations_ = 0;
+  int calls_ = 0, calls_for_last_ = 0;  ///< of `precondition` for corrections: so far, and up to the last estimate
+  double first_estimate_ = 0, last_estimate_ = 0;  ///< |M r| at the step's first and latest iterate
+  bool estimates_ = false;                         ///< the next call of `precondition` is one
 };
 
 }  // namespace tether

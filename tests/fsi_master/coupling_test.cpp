@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "fsi_master/convergence.hpp"
 #include "fsi_master/extrapolation.hpp"
+#include "fsi_master/newton_memory.hpp"
 #include "tests/fsi_master/fakes.hpp"
 
 namespace tether {
@@ -88,6 +90,50 @@ TEST(NewtonTangents, TakeAsManyEvaluationsAsOperators) {
   const Steps steps = run({.ratio = 10}, Method::tangents, 60);
   EXPECT_EQ(steps.evaluations(), 2.0);
   EXPECT_LE(steps.krylov(), 10.0);
+}
+
+TEST(NewtonMemory, IsOfStepsOfOneSize) {
+  NewtonMemory memory;
+  StepStart start;
+  start.dt = 0.1;
+  memory.begin(start);
+  memory.directions().note(VectorXd::Unit(4, 0), 3 * VectorXd::Unit(4, 0));
+  memory.directions().learn();
+  memory.first_correction_left(1e-3);
+  memory.begin(start);
+  EXPECT_EQ(memory.directions().directions(), 1);
+  EXPECT_DOUBLE_EQ(memory.left_of(2), 2e-3);
+  NewtonMemory other;
+  other.unpack(memory.packed());
+  EXPECT_EQ(other.packed(), memory.packed());
+  start.dt = 0.05;
+  memory.begin(start);
+  EXPECT_EQ(memory.directions().directions(), 0);
+  EXPECT_EQ(memory.left_of(2), 0);
+}
+
+TEST(Convergence, ALinearSolveThatDidHardlyAnythingEndsTheLoop) {
+  const CouplingOptions options;
+  const StepStart start{0, 0, dt, VectorXd::Zero(3), VectorXd::Zero(3)};
+  Convergence slow(options, start), useless(options, start);
+  slow.note({false, 100, 0.05});  // not what was asked for, but a step forward
+  EXPECT_TRUE(slow.may_continue());
+  useless.note({false, 100, 0.5});
+  EXPECT_FALSE(useless.may_continue());
+  const CouplingResult result = std::move(useless).result({});
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.krylov_iterations, 100);
+  EXPECT_EQ(result.failure, "the linear equations of a correction kept 0.5 of their residual in 100 iterations");
+}
+
+/// No linear solve goes further than a share of what the correction leaves anyway.
+TEST(Convergence, ALinearSolveGoesNoFurtherThanItIsOfUse) {
+  const CouplingOptions options;
+  const Convergence convergence(options, {0, 0, dt, VectorXd::Zero(3), VectorXd::Zero(3)});
+  const VectorXd V = VectorXd::Constant(3, 10), r = VectorXd::Constant(3, 1);
+  EXPECT_DOUBLE_EQ(convergence.linear_target(V, r), 0.3e-6 * V.norm());
+  EXPECT_DOUBLE_EQ(convergence.linear_target(V, r, 1e-7 * V.norm()), 0.3e-6 * V.norm());
+  EXPECT_DOUBLE_EQ(convergence.linear_target(V, r, 1e-3), 0.3e-3);
 }
 
 TEST(IqnIls, ReusedStepsHalveTheEvaluations) {

@@ -1,5 +1,5 @@
-/// GMRES on matrices whose spectra are known.
-#include "fsi_master/gmres.hpp"
+/// GMRES on matrices whose spectra are known, alone and in sequences.
+#include "fsi_master/recycled_gmres.hpp"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +95,58 @@ TEST(Gmres, SaysWhenItDoesNotConverge) {
   EXPECT_EQ(result.iterations, 9);
   EXPECT_NEAR(result.residual, 1, 1e-14);
   EXPECT_TRUE(solve(shift, VectorXd::Unit(10, 0), x, 1e-12, 10).converged);
+}
+
+/// A sequence of matrices with six outlying eigenvalues whose directions turn a little from one to the next.
+struct Sequence {
+  static constexpr int size = 50;
+  MatrixXd fixed = random_matrix(size), turning = MatrixXd::Random(size, 6), basis = MatrixXd::Random(size, 6);
+  MatrixXd at(int k) const {
+    const MatrixXd Q = (basis + 0.01 * k * turning).householderQr().householderQ() * MatrixXd::Identity(size, 6);
+    return MatrixXd::Identity(size, size) + 5e-3 * fixed +
+           Q * VectorXd::LinSpaced(6, 30, 4).asDiagonal() * Q.transpose();
+  }
+  VectorXd right_hand_side(int k) const { return fixed.col(k) + VectorXd::Ones(size); }
+};
+
+TEST(RecycledGmres, EndsOnTheSameSolutionInFewerIterations) {
+  const Sequence sequence;
+  Recycling known;
+  int alone = 0, recycled = 0;
+  for (int k = 0; k < 10; ++k) {
+    const MatrixXd A = sequence.at(k);
+    const VectorXd b = sequence.right_hand_side(k);
+    const double target = 1e-5 * b.norm();
+    VectorXd x, y = VectorXd::Zero(b.size());
+    const KrylovResult one = solve(A, b, x, target, 50);
+    const KrylovResult other =
+        recycled_gmres([&A](const VectorXd& v) -> VectorXd { return A * v; }, b, y, target, 50, known);
+    EXPECT_TRUE(other.converged);
+    EXPECT_LE((b - A * y).norm(), 1.001 * target) << k;
+    EXPECT_NEAR((b - A * y).norm(), other.residual * b.norm(), 1e-3 * target) << "what it reports";
+    EXPECT_LT((x - y).norm(), 2e-5 * b.norm());
+    if (k == 0) {
+      EXPECT_EQ(one.iterations, other.iterations) << "nothing is known yet";
+      continue;
+    }
+    alone += one.iterations;
+    recycled += other.iterations;
+  }
+  EXPECT_LE(3 * recycled, 2 * alone) << recycled << " instead of " << alone;
+}
+
+TEST(RecycledGmres, WithoutResidualDoesNothingAndForgetsNothing) {
+  const Sequence sequence;
+  Recycling known;
+  VectorXd x = VectorXd::Zero(sequence.size);
+  const auto apply = [&](const VectorXd& v) -> VectorXd { return sequence.at(0) * v; };
+  recycled_gmres(apply, sequence.right_hand_side(0), x, 1e-3, 50, known);
+  const int directions = known.directions();
+  const VectorXd before = x;
+  EXPECT_GT(directions, 0);
+  EXPECT_EQ(recycled_gmres(apply, VectorXd::Zero(sequence.size), x, 1e-3, 50, known).iterations, 0);
+  EXPECT_EQ(x, before);
+  EXPECT_EQ(known.directions(), directions);
 }
 
 }  // namespace gmres_test
