@@ -70,8 +70,7 @@ void table() {
   }
 }
 
-void measure_in(const Truth& truth, const char* what, const Chest& chest, const LumenImageCase& how,
-                double slope = 0) {
+void measure_in(const Truth& truth, const char* what, const Chest& chest, const LumenImageCase& how, double slope = 0) {
   const Scan scan{.voxel = 0.15, .noise = 25};
   ImageVolume image = scan_of(truth.closed, scan, chest);
   for (std::size_t n = 0; n < image.values.size(); ++n)
@@ -101,7 +100,8 @@ void chest_table() {
   }
   measure_in(truth, "ventricle", {.ventricle = true}, alone);
   measure_in(truth, "ventricle, a stop at the valve", {.ventricle = true}, stopped);
-  const Chest all{.vein = 0.75, .artery = 0.75, .lungs = true, .spine = true, .ventricle = true, .calcifications = spots};
+  const Chest all{
+      .vein = 0.75, .artery = 0.75, .lungs = true, .spine = true, .ventricle = true, .calcifications = spots};
   measure_in(truth, "all of it", all, alone);
   measure_in(truth, "all of it, named and stopped", all, told_and_stopped);
 }

@@ -86,7 +86,9 @@ TEST_P(WrongStudy, IsToldInOneMessageWithItsLine) {
 
 const Wrong wrong[] = {
     {"empty_label_map", "file: empty.nrrd, labels: [1]", {"study.yaml:2: image.labels", "empty.nrrd is empty"}},
-    {"label_that_is_not_there", "file: labels.nii.gz, labels: [4]", {"study.yaml:2: image.labels: 4", "which has 3, 7"}},
+    {"label_that_is_not_there",
+     "file: labels.nii.gz, labels: [4]",
+     {"study.yaml:2: image.labels: 4", "which has 3, 7"}},
     {"grey_values_as_labels", "file: grey.mha, labels: [1]", {"study.yaml:2: image.labels", "is no label map"}},
     {"threshold_above_all",
      "file: grey.mha, threshold: {above: 900}",
@@ -116,7 +118,8 @@ const Wrong wrong[] = {
      "file: grey.mha, level_set: {}, seeds: {a: [4, 0.3, 0], b: [0, 0.3, 0]}",
      {"study.yaml:2: image.seeds", "50 at one, 350 at another"}},
     {"seed_in_a_stop",
-     "file: grey.mha, threshold: {above: 200}, seeds: {a: [2, 3.46, 0]}, stops: {s: {point: [2, 3.5, 0], radius: 3 mm}}",
+     "file: grey.mha, threshold: {above: 200}, seeds: {a: [2, 3.46, 0]}, stops: {s: {point: [2, 3.5, 0], radius: 3 "
+     "mm}}",
      {"study.yaml:2: image.seeds.a", "outside the lumen"}},
     {"neighbour_outside_the_image",
      "file: grey.mha, level_set: {}, seeds: {a: [2, 3.46, 0]}, neighbours: {vein: [0, 0, 9]}",
@@ -199,7 +202,8 @@ TEST(BadImage, DamagedVoxelsAreRefused) {
     bytes.seekg(middle);
     const auto there = static_cast<char>(bytes.get() ^ 0x55);
     bytes.seekp(middle);
-    bytes.put(there).close();
+    bytes.put(there);
+    bytes.close();
     const std::string message = folder.refusal(std::string("file: ") + file + ", threshold: {above: 200}");
     expect_said(message, {file});
     EXPECT_EQ(message.find("openings"), std::string::npos) << message;

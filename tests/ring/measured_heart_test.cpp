@@ -53,6 +53,16 @@ LabelledSurface arch() {
   return surface;
 }
 
+/// The first centimetres of it, between two flat caps; that of the root is 1.
+LabelledSurface stub() {
+  const LabelledSurface whole = arch();
+  RawSurface open{whole.points, whole.triangles, whole.label};
+  open_labels(open, {1});
+  cut_off(open, {Vec3(14.6, 15.2, 31), Vec3::UnitZ()});
+  for (const Rim& rim : rims_of(open)) fill(open, rim, (rim.plane.origin - root).norm() < 1 ? 1 : 2);
+  return {open.points, open.triangles, open.face_id, {"root", "cut"}};
+}
+
 /// All within 2 cm of the root goes with it, nothing beyond 8 cm.
 Points pulled(Points points, const AffineDisplacement& heart) {
   for (auto x : points.colwise()) {
@@ -72,7 +82,7 @@ class MeasuredHeart : public ::testing::Test {
       const double time = period * i / frames;
       const std::string file = fmt::format("frame_{}.vtp", i);
       LabelledSurface now = surface;
-      if (anew) now = remeshed(surface, {.most = 0.25 + 0.01 * i}, {});
+      if (anew) now = remeshed(surface, {.most = 0.2 + 0.01 * i}, {});
       write_vtp(folder_ / file, pulled(now.points, heart(time)), now.triangles, now.label);
       table_ << fmt::format("{},{:.9g}\n", file, time);
       const Vec3 ostium = root + Vec3(1.5, -0.5, 0.5), there = ostium + heart(time).at(ostium);
@@ -104,6 +114,7 @@ class MeasuredHeart : public ::testing::Test {
         const double time = period * i / frames;
         worst = std::max(worst, (read(time).at(corner) - heart(time).at(corner)).norm());
       }
+    std::cout << fmt::format("{} harmonics: off by {:.2g} cm at most\n", harmonics, worst);
     return worst;
   }
 
@@ -136,7 +147,7 @@ TEST_F(MeasuredHeart, WithoutALandmarkTheTurnAboutTheAxisIsWhatIsLost) {
 }
 
 TEST_F(MeasuredHeart, DoesNotDependOnTheFramesTriangles) {
-  make(remeshed(arch(), {.most = 0.15}, {}), true);
+  make(stub(), true);
   EXPECT_LT(off(tracked(true), 0), 0.01) << "cm: chords of other corners of the rim";
 }
 

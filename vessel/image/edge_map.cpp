@@ -90,8 +90,8 @@ std::vector<char> flooded(const ImageVolume& image, const ImageVolume& gradient,
   const std::array<std::size_t, 3> stride{1, image.at(0, 1, 0), image.at(0, 0, 1)};
   for (const std::size_t seed : seeds) inside[seed] = 1, border.push_back(seed);
   const auto enter = [&](std::size_t n) {
-    if (inside[n] || barred[n] || gradient.values[n] > wall.edge / 2 || image.values[n] < wall.darkest - wall.contrast / 2 ||
-        image.values[n] > wall.brightest + wall.contrast / 2)
+    if (inside[n] || barred[n] || gradient.values[n] > wall.edge / 2 ||
+        image.values[n] < wall.darkest - wall.contrast / 2 || image.values[n] > wall.brightest + wall.contrast / 2)
       return;
     inside[n] = 1, border.push_back(n);
   };

@@ -67,8 +67,7 @@ std::vector<Segment> segments_of(const itk::ImageIOBase& io) {
   std::vector<Segment> segments;
   for (std::string id; !(id = entry(segments.size(), "ID")).empty();) {
     const std::string name = entry(segments.size(), "Name");
-    segments.push_back({name.empty() ? id : name,
-                        static_cast<unsigned>(number(entry(segments.size(), "Layer"), 0)),
+    segments.push_back({name.empty() ? id : name, static_cast<unsigned>(number(entry(segments.size(), "Layer"), 0)),
                         static_cast<float>(number(entry(segments.size(), "LabelValue"), 1))});
   }
   return segments;
@@ -78,6 +77,14 @@ std::string listed(const std::vector<Segment>& segments) {
   std::string text;
   for (const Segment& segment : segments) text += (text.empty() ? "" : ", ") + segment.name;
   return text;
+}
+
+/// Throws InputError for the one space that ITK 5.2 reads mirrored: x turned instead of y.
+void check_space(const std::string& name, const itk::ImageIOBase& io) {
+  std::string space;
+  itk::ExposeMetaData(io.GetMetaDataDictionary(), "NRRD_space", space);
+  if (space == "left-anterior-superior")
+    throw input_error("{}: its space is {}, which would be read mirrored: save it as LPS or RAS", name, space);
 }
 
 /// Throws InputError unless the header is that of a volume.
@@ -135,8 +142,7 @@ std::vector<Segment> asked_of(const std::vector<Segment>& segments, const std::v
                       names.front(), file);
   std::vector<Segment> asked;
   for (const std::string& name : names) {
-    const auto found =
-        std::find_if(segments.begin(), segments.end(), [&](const Segment& s) { return s.name == name; });
+    const auto found = std::find_if(segments.begin(), segments.end(), [&](const Segment& s) { return s.name == name; });
     if (found == segments.end())
       throw input_error("{}: {}: is not a segment of {}, which has {}", field, name, file, listed(segments));
     asked.push_back(*found);
@@ -163,6 +169,7 @@ ImageVolume guarded(const fs::path& file, Read read) {
     if (!io->CanReadFile(name.c_str())) throw input_error("{}: is not an image of the kind that its ending says", name);
     io->ReadImageInformation();
     check_volume(name, *io);
+    check_space(name, *io);
     check_length(file, static_cast<std::uint64_t>(io->GetImageSizeInBytes()));
     return read(*io);
   } catch (const itk::ExceptionObject& error) {

@@ -132,8 +132,7 @@ LumenOfImage lumen_of(const ImageVolume& image, const LumenImageCase& how) {
   if (inside == 0) throw input_error("{}: nothing of {} is lumen once it is smoothed", how.at("image"), image.name);
   set_widths(summary, widths_of(field, seeds));
   result.surface = zero_surface(field);
-  if (result.surface.triangles.empty())
-    throw input_error("{}: all of {} is lumen", how.at("image"), image.name);
+  if (result.surface.triangles.empty()) throw input_error("{}: all of {} is lumen", how.at("image"), image.name);
   return result;
 }
 
@@ -160,9 +159,9 @@ std::string text_of(const ImageSummary& s) {
       s.lumen_volume);
   text += fmt::format("  widest at {}, radius {:.3g} cm\n", text_of_place(s.widest_place), s.widest_radius);
   if (s.iterations > 0)
-    text += fmt::format("  the front {} {} iterations, at a change of {:.3g} per cm\n",
-                        s.stood_still ? "stood still after" : "look at it: did not stand still in", s.iterations,
-                        s.edge);
+    text +=
+        fmt::format("  the front {} {} iterations, at a change of {:.3g} per cm\n",
+                    s.stood_still ? "stood still after" : "look at it: did not stand still in", s.iterations, s.edge);
   if (const std::string leak = leak_of(s); !leak.empty()) text += "  look at it: " + leak + "\n";
   if (s.parts_dropped > 0)
     text +=

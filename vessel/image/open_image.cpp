@@ -91,7 +91,8 @@ void mark(ImageVolume& image, const LumenImageCase& how) {
 ImageVolume open_image(const LumenImageCase& how) {
   const double cm = in_cm(how.unit);
   const bool by_value = std::all_of(how.labels.begin(), how.labels.end(), is_number);
-  ImageVolume image = by_value ? read_image(how.file, cm) : read_segments(how.file, cm, how.labels, how.at("image.labels"));
+  ImageVolume image =
+      by_value ? read_image(how.file, cm) : read_segments(how.file, cm, how.labels, how.at("image.labels"));
   if (how.space == "ras") turn_about_z(image);
   if (how.crop) image = cropped(image, *how.crop, how.at("image.crop"));
   if (by_value && !how.labels.empty()) mark(image, how);
