@@ -139,7 +139,9 @@ const Wrong wrong[] = {
      "file: empty.nrrd, level_set: {}, seeds: {a: [4, 0.1, 0]}",
      {"study.yaml:2: image.level_set", "does not change around the seeds"}},
     {"threshold_of_nothing", "file: grey.mha, threshold: {}", {"image.threshold.above: or below must be given"}},
-    {"metres_for_millimetres", "file: grey.mha, threshold: {above: 200}, unit: m", {"cm wide in m", "did you mean"}},
+    {"metres_for_millimetres",
+     "file: grey.mha, threshold: {above: 200}, unit: m",
+     {"which no vessel is", "or image.unit is wrong"}},
     {"no_image", "file: study.yaml, threshold: {above: 200}", {"study.yaml: an image is .mha"}},
 };
 INSTANTIATE_TEST_SUITE_P(BadImage, WrongStudy, ::testing::ValuesIn(wrong),

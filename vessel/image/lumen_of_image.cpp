@@ -139,7 +139,7 @@ LumenOfImage lumen_of(const ImageVolume& image, const LumenImageCase& how) {
 void check_width(const ImageSummary& summary, const LumenImageCase& how) {
   constexpr double most_radius = 6;  // [cm]: a giant aneurysm
   if (how.any_size || summary.widest_radius <= most_radius) return;
-  throw input_error("{}: is {:.3g} cm wide at {}, which no vessel is: the lumen leaks (or the unit is wrong); {}{}",
+  throw input_error("{}: is {:.3g} cm wide at {}, which no vessel is: the lumen leaks, or image.unit is wrong; {}{}",
                     how.at("image"), 2 * summary.widest_radius, text_of_place(summary.widest_place),
                     mended_by(summary.method), "; image.crop bounds what is looked at");
 }
@@ -159,9 +159,9 @@ std::string text_of(const ImageSummary& s) {
       s.lumen_volume);
   text += fmt::format("  widest at {}, radius {:.3g} cm\n", text_of_place(s.widest_place), s.widest_radius);
   if (s.iterations > 0)
-    text +=
-        fmt::format("  the front {} {} iterations, at a change of {:.3g} per cm\n",
-                    s.stood_still ? "stood still after" : "look at it: did not stand still in", s.iterations, s.edge);
+    text += fmt::format("  {} {} iterations, at a change of {:.3g} per cm\n",
+                        s.stood_still ? "the front stood still after" : "look at it: the front did not stand still in",
+                        s.iterations, s.edge);
   if (const std::string leak = leak_of(s); !leak.empty()) text += "  look at it: " + leak + "\n";
   if (s.parts_dropped > 0)
     text +=
