@@ -13,6 +13,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <fstream>
 
 #include "common/base/error.hpp"
 #include "vessel/image/file_length.hpp"
@@ -80,11 +81,13 @@ std::string listed(const std::vector<Segment>& segments) {
 }
 
 /// Throws InputError for the one space that ITK 5.2 reads mirrored: x turned instead of y.
-void check_space(const std::string& name, const itk::ImageIOBase& io) {
-  std::string space;
-  itk::ExposeMetaData(io.GetMetaDataDictionary(), "NRRD_space", space);
-  if (space == "left-anterior-superior")
-    throw input_error("{}: its space is {}, which would be read mirrored: save it as LPS or RAS", name, space);
+void check_space(const fs::path& file) {
+  if (!ends_with(file, {".nrrd", ".nhdr"})) return;
+  std::ifstream in(file, std::ios::binary);
+  for (std::string line; std::getline(in, line) && !line.empty() && line != "\r";)
+    if (line.starts_with("space: left-anterior-superior") || line.starts_with("space: LAS"))
+      throw input_error("{}: its space is left-anterior-superior, which would be read mirrored: save it as LPS or RAS",
+                        file.string());
 }
 
 /// Throws InputError unless the header is that of a volume.
@@ -169,7 +172,7 @@ ImageVolume guarded(const fs::path& file, Read read) {
     if (!io->CanReadFile(name.c_str())) throw input_error("{}: is not an image of the kind that its ending says", name);
     io->ReadImageInformation();
     check_volume(name, *io);
-    check_space(name, *io);
+    check_space(file);
     check_length(file, static_cast<std::uint64_t>(io->GetImageSizeInBytes()));
     return read(*io);
   } catch (const itk::ExceptionObject& error) {
