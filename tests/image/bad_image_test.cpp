@@ -85,9 +85,11 @@ TEST_P(WrongStudy, IsToldInOneMessageWithItsLine) {
 }
 
 const Wrong wrong[] = {
-    {"empty_label_map", "file: empty.nrrd, label: 1", {"study.yaml:2: image.label", "empty.nrrd is empty"}},
-    {"label_that_is_not_there", "file: labels.nii.gz, label: 4", {"study.yaml:2: image.label: 4", "which has 3, 7"}},
-    {"grey_values_as_labels", "file: grey.mha, label: 1", {"study.yaml:2: image.label", "is no label map"}},
+    {"empty_label_map", "file: empty.nrrd, labels: [1]", {"study.yaml:2: image.labels", "empty.nrrd is empty"}},
+    {"label_that_is_not_there",
+     "file: labels.nii.gz, labels: [4]",
+     {"study.yaml:2: image.labels: 4", "which has 3, 7"}},
+    {"grey_values_as_labels", "file: grey.mha, labels: [1]", {"study.yaml:2: image.labels", "is no label map"}},
     {"threshold_above_all",
      "file: grey.mha, threshold: {above: 900}",
      {"study.yaml:2: image.threshold.above: 900: nothing", "from 50 to 350"}},
@@ -104,13 +106,42 @@ const Wrong wrong[] = {
      "file: grey.mha, threshold: {above: 200}, seeds: {a: [0, 0, 0]}",
      {"study.yaml:2: image.seeds.a", "outside the lumen", "value 50"}},
     {"no_method", "file: grey.mha", {"study.yaml:2: image", "or threshold or level_set must be given"}},
-    {"two_methods", "file: grey.mha, label: 1, threshold: {above: 3}", {"study.yaml:2: image", "one of them"}},
+    {"two_methods", "file: grey.mha, labels: [1], threshold: {above: 3}", {"study.yaml:2: image", "one of the others"}},
+    {"inverted_threshold",
+     "file: grey.mha, threshold: {above: 300, below: 100}",
+     {"study.yaml:2: image.threshold.above", "must be less than below"}},
+    {"seed_in_ras",
+     "file: grey.mha, threshold: {above: 200}, seeds: {a: [-3, -3, 0]}",
+     {"study.yaml:2: image.seeds.a", "image.space: ras"}},
+    {"seed_in_mm", "file: grey.mha, threshold: {above: 200}, seeds: {a: [40, 0, 0]}", {"is it in mm?"}},
+    {"seeds_in_lumen_and_tissue",
+     "file: grey.mha, level_set: {}, seeds: {a: [4, 0.3, 0], b: [0, 0.3, 0]}",
+     {"study.yaml:2: image.seeds", "50 at one, 350 at another"}},
+    {"seed_in_a_stop",
+     "file: grey.mha, threshold: {above: 200}, seeds: {a: [2, 3.46, 0]}, stops: {s: {point: [2, 3.5, 0], radius: 3 "
+     "mm}}",
+     {"study.yaml:2: image.seeds.a", "outside the lumen"}},
+    {"neighbour_outside_the_image",
+     "file: grey.mha, level_set: {}, seeds: {a: [2, 3.46, 0]}, neighbours: {vein: [0, 0, 9]}",
+     {"study.yaml:2: image.neighbours.vein", "lies outside"}},
+    {"neighbours_of_a_threshold",
+     "file: grey.mha, threshold: {above: 200}, neighbours: {vein: [0, 0, 0]}",
+     {"image.neighbours: are for a level_set"}},
+    {"crop_beside_the_image",
+     "file: grey.mha, threshold: {above: 200}, crop: {low: [20, 0, 0], high: [30, 5, 1]}",
+     {"study.yaml:2: image.crop", "reaches from (-2.075, -0.075, -1.575)"}},
+    {"crop_upside_down",
+     "file: grey.mha, threshold: {above: 200}, crop: {low: [3, 0, 0], high: [1, 5, 1]}",
+     {"image.crop.low: must be below high"}},
+    {"no_file", "file: lost.mha, threshold: {above: 200}", {"study.yaml:2: image.file"}},
     {"level_set_without_seeds", "file: grey.mha, level_set: {}", {"image.seeds: must be given with a level_set"}},
     {"level_set_in_an_even_image",
      "file: empty.nrrd, level_set: {}, seeds: {a: [4, 0.1, 0]}",
      {"study.yaml:2: image.level_set", "does not change around the seeds"}},
     {"threshold_of_nothing", "file: grey.mha, threshold: {}", {"image.threshold.above: or below must be given"}},
-    {"metres_for_millimetres", "file: grey.mha, threshold: {above: 200}, unit: m", {"cm wide in m", "did you mean"}},
+    {"metres_for_millimetres",
+     "file: grey.mha, threshold: {above: 200}, unit: m",
+     {"which no vessel is", "or image.unit is wrong"}},
     {"no_image", "file: study.yaml, threshold: {above: 200}", {"study.yaml: an image is .mha"}},
 };
 INSTANTIATE_TEST_SUITE_P(BadImage, WrongStudy, ::testing::ValuesIn(wrong),
@@ -136,6 +167,16 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
   folder.text("sheared.mha",
               "NDims = 3\nDimSize = 3 3 3\nTransformMatrix = 1 0 0 0 1 0.3 0 0 1\nElementType = MET_UCHAR\n", bytes);
   expect_said(refusal("sheared.mha"), {"sheared.mha: the header's axes are not at right angles"});
+  folder.text("no_size.mha", "NDims = 3\nDimSize = 3 3 3\nElementSpacing = 1 1 0\nElementType = MET_UCHAR\n", bytes);
+  expect_said(refusal("no_size.mha"), {"no_size.mha: ", "spacing"});
+  std::ofstream(folder.path / "alone.mhd")
+      << "ObjectType = Image\nNDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementDataFile = alone.raw\n";
+  expect_said(refusal("alone.mhd"), {"alone.mhd: names the file alone.raw, which is not there"});
+  std::ofstream(folder.path / "alone.nhdr")
+      << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 3\nencoding: raw\ndata file: alone.raw\n";
+  expect_said(refusal("alone.nhdr"), {"alone.nhdr: ", "alone.raw"});
+  std::ofstream(folder.path / "slice.dcm") << "DICM";
+  expect_said(refusal("slice.dcm"), {"slice.dcm: an image is .mha", "a DICOM series becomes one by"});
   std::ofstream(folder.path / "words.nrrd") << "no image at all";
   expect_said(refusal("words.nrrd"), {"words.nrrd: is not an image"});
 }
@@ -149,6 +190,24 @@ TEST(BadImage, ATruncatedFileIsRefused) {
     const std::string message = folder.refusal(std::string("file: ") + file + ", threshold: {above: 200}");
     expect_said(message, {file});
     EXPECT_NE(message, "was not refused") << file;
+    EXPECT_EQ(message.find("openings"), std::string::npos) << message;
+  }
+}
+
+/// One byte in the middle of the compressed voxels is another.
+TEST(BadImage, DamagedVoxelsAreRefused) {
+  const Folder folder("damaged");
+  for (const char* file : {"hurt.mha", "hurt.nrrd", "hurt.nii.gz"}) {
+    write_image(folder.path / file, tube_image());
+    std::fstream bytes(folder.path / file, std::ios::binary | std::ios::in | std::ios::out);
+    const auto middle = static_cast<std::streamoff>(fs::file_size(folder.path / file) / 2);
+    bytes.seekg(middle);
+    const auto there = static_cast<char>(bytes.get() ^ 0x55);
+    bytes.seekp(middle);
+    bytes.put(there);
+    bytes.close();
+    const std::string message = folder.refusal(std::string("file: ") + file + ", threshold: {above: 200}");
+    expect_said(message, {file});
     EXPECT_EQ(message.find("openings"), std::string::npos) << message;
   }
 }
@@ -188,6 +247,33 @@ TEST(OddImage, MixedSpacingWorksAndIsNoted) {
   const BuiltSurface built = build_surface(folder.study("file: tube.mha, threshold: {above: 200}"));
   EXPECT_NEAR(built.summary.surface.volume, tube_volume(), 0.03 * tube_volume());
   expect_said(text_of(built.summary), {"a voxel is 3.8 times as long as wide"});
+}
+
+/// A room beside the tube, joined with it by a gap of three voxels.
+ImageVolume with_room(double grey = 350) {
+  ImageVolume image = tube_image();
+  for (std::size_t n = 0; n < image.values.size(); ++n) {
+    const Vec3 x = image.place(n);
+    const bool gap = std::hypot(x[0] - x[1], x[2]) < 0.3 && x[0] > 1.2 && x[0] < 2.4;
+    if ((x - Vec3(1, 1, 0)).norm() < 0.9 || gap) image.values[n] = std::max(image.values[n], static_cast<float>(grey));
+  }
+  return image;
+}
+
+TEST(OddImage, ALeakIsToldWithItsPlaceAndMendedByAStop) {
+  const Folder folder("leak");
+  write_image(folder.path / "tube.mha", with_room());
+  for (const std::string method : {"threshold: {above: 200}"}) {
+    const std::string image = "file: tube.mha, seeds: {middle: [2, 3.46, 0]}, " + method;
+    const BuiltSurface leaking = build_surface(folder.study(image));
+    ASSERT_GT(leaking.summary.image->room_radius, 0.7) << method;
+    EXPECT_LT((leaking.summary.image->door_place - Vec3(1.9, 1.9, 0)).norm(), 0.5) << method;
+    expect_said(text_of(leaking.summary), {"look at it: behind a door of radius 0.", "image.stops"});
+    const BuiltSurface stopped =
+        build_surface(folder.study(image + ", stops: {gap: {point: [1.84, 1.84, 0], radius: 3.6 mm}}"));
+    EXPECT_EQ(stopped.summary.image->room_radius, 0) << method;
+    EXPECT_NEAR(stopped.summary.surface.volume, tube_volume(), 0.02 * tube_volume()) << method;
+  }
 }
 
 TEST(OddImage, WhatDoesNotHangTogetherWithASeedIsLeftOut) {

@@ -13,7 +13,7 @@ using namespace testing;
 
 LumenImageCase by(ImageMethod method) {
   LumenImageCase how;
-  if (method == ImageMethod::label) how.label = 1;
+  if (method == ImageMethod::label) how.labels = {"1"};
   if (method == ImageMethod::threshold) how.threshold = ThresholdCase{200, {}};
   if (method == ImageMethod::level_set) how.level_set.emplace();
   return how;

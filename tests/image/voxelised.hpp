@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 
 #include "twin/random.hpp"
 #include "twin/voxels.hpp"
@@ -40,13 +41,29 @@ inline void blur_axis(VoxelImage& image, std::size_t axis, double deviation) {
   }
 }
 
+/// Grey values around a lumen by place and distance from its wall [cm].
+using Surroundings = std::function<double(const Vec3& place, double distance)>;
+
+/// What voxels show that are not all lumen, where that is not even tissue.
+inline void surround(VoxelImage& grey, const TriangleSurface& closed, const Scan& scan, const Surroundings& around) {
+  const ImageVolume image{"", grey.count, grey.origin, grey.spacing, Mat3::Identity(), {}};
+  Points places(3, static_cast<Eigen::Index>(grey.values.size()));
+  for (Eigen::Index n = 0; n < places.cols(); ++n) places.col(n) = image.place(static_cast<std::size_t>(n));
+  const std::vector<Closest> wall = SignedSurface(closed).closest(places);
+  for (std::size_t n = 0; n < grey.values.size(); ++n) {
+    const double value = around(places.col(static_cast<Eigen::Index>(n)), std::max(0.0, -wall[n].distance));
+    grey.values[n] += static_cast<float>((1 - grey.values[n]) * (value - scan.tissue) / (scan.lumen - scan.tissue));
+  }
+}
+
 /// The image of a closed lumen, by the share of each voxel that lies within it (T.3), on a grid whose place is drawn
 /// from the seed.
-inline ImageVolume scan_of(TriangleSurface closed, const Scan& scan) {
+inline ImageVolume scan_of(TriangleSurface closed, const Scan& scan, const Surroundings& around = {}) {
   closed.points = scan.axes.transpose() * closed.points;
   Random random(scan.seed, 0);
   const Vec3 spacing = scan.voxel * scan.shape, part(random.uniform(), random.uniform(), random.uniform());
   VoxelImage grey = coverage(closed, spacing, part.cwiseProduct(spacing), scan.rim);
+  if (around) surround(grey, closed, scan, around);
   if (scan.blur > 0)
     for (std::size_t axis = 0; axis < 3; ++axis) blur_axis(grey, axis, scan.blur);
   ImageVolume image{"scan", grey.count, scan.axes * grey.origin, grey.spacing, scan.axes, std::move(grey.values)};

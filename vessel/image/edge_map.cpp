@@ -6,11 +6,11 @@
 namespace tether {
 namespace {
 
-double median(std::vector<double> values) {
+double lower_quartile(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+  std::nth_element(values.begin(), quarter, values.end());
+  return *quarter;
 }
 
 /// A ray's values at places half a voxel apart, as far as the widest vessel's wall or the image's end.
@@ -74,18 +74,24 @@ WallSeen wall_around(const ImageVolume& image, const ImageVolume& gradient, cons
             see_wall(ray_from(image, gradient, seed, Vec3(i, j, k).normalized()), edges, contrasts);
   }
   const auto [darkest, brightest] = std::minmax_element(greys.begin(), greys.end());
-  return {median(edges), median(contrasts), *darkest, *brightest};
+  return {lower_quartile(edges), lower_quartile(contrasts), *darkest, *brightest};
+}
+
+void clamp_values(ImageVolume& image, const WallSeen& wall) {
+  const auto low = static_cast<float>(wall.darkest - 1.5 * wall.contrast),
+             high = static_cast<float>(wall.brightest + 1.5 * wall.contrast);
+  for (float& value : image.values) value = std::clamp(value, low, high);
 }
 
 std::vector<char> flooded(const ImageVolume& image, const ImageVolume& gradient, const WallSeen& wall,
-                          const std::vector<std::size_t>& seeds) {
+                          const std::vector<std::size_t>& seeds, const std::vector<char>& barred) {
   std::vector<char> inside(image.values.size(), 0);
   std::vector<std::size_t> border;
   const std::array<std::size_t, 3> stride{1, image.at(0, 1, 0), image.at(0, 0, 1)};
   for (const std::size_t seed : seeds) inside[seed] = 1, border.push_back(seed);
   const auto enter = [&](std::size_t n) {
-    if (inside[n] || gradient.values[n] > wall.edge / 2 || image.values[n] < wall.darkest - wall.contrast / 2 ||
-        image.values[n] > wall.brightest + wall.contrast / 2)
+    if (inside[n] || barred[n] || gradient.values[n] > wall.edge / 2 ||
+        image.values[n] < wall.darkest - wall.contrast / 2 || image.values[n] > wall.brightest + wall.contrast / 2)
       return;
     inside[n] = 1, border.push_back(n);
   };

@@ -2,6 +2,9 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -43,9 +46,29 @@ void check_meta(const fs::path& file, std::uint64_t bytes) {
     require(voxels, std::stoull(size), there);
 }
 
+using GzipFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
+
+/// What a .nii, compressed or not, takes by its header: values may be scaled to others than it stores. 0: by another
+/// byte order or version of the header.
+std::uint64_t nifti_bytes(const fs::path& file) {
+  constexpr std::size_t header_size = 348, dim_at = 40, bits_at = 72, offset_at = 108;
+  std::array<char, header_size> header{};
+  const GzipFile in(gzopen(file.c_str(), "rb"), gzclose);
+  if (!in || gzread(in.get(), header.data(), header_size) != static_cast<int>(header_size)) return 0;
+  const auto get = [&](std::size_t at, auto value) {
+    std::memcpy(&value, header.data() + at, sizeof(value));
+    return value;
+  };
+  if (get(0, std::int32_t{}) != static_cast<std::int32_t>(header_size)) return 0;
+  std::uint64_t voxels = 1;
+  for (int axis = 1; axis <= std::clamp<int>(get(dim_at, std::int16_t{}), 0, 7); ++axis)
+    voxels *= std::max<std::uint16_t>(1, get(dim_at + 2 * static_cast<std::size_t>(axis), std::uint16_t{}));
+  return voxels * get(bits_at, std::uint16_t{}) / 8 + static_cast<std::uint64_t>(get(offset_at, float{}));
+}
+
 /// Reads it to its end: a compressed file does not say how long it should be.
 void check_gzip(const fs::path& file, std::uint64_t bytes) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  const GzipFile in(gzopen(file.c_str(), "rb"), gzclose);
   std::vector<char> buffer(1 << 20);
   std::uint64_t there = 0;
   int count = 0;
@@ -61,11 +84,10 @@ void check_gzip(const fs::path& file, std::uint64_t bytes) {
 }  // namespace
 
 void check_length(const fs::path& file, std::uint64_t bytes) {
-  constexpr std::uint64_t nifti_header = 352;
   const std::string name = file.filename().string();
   if (name.ends_with(".mha") || name.ends_with(".mhd")) check_meta(file, bytes);
-  if (name.ends_with(".nii")) require(file, bytes + nifti_header, fs::file_size(file));
-  if (name.ends_with(".nii.gz")) check_gzip(file, bytes + nifti_header);
+  if (name.ends_with(".nii")) require(file, nifti_bytes(file), fs::file_size(file));
+  if (name.ends_with(".nii.gz")) check_gzip(file, nifti_bytes(file));
 }
 
 }  // namespace tether

@@ -4,15 +4,23 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/config/fields.hpp"
 
 namespace tether {
 
+/// A box along the patient's axes.
+struct CropCase {
+  Vec3 low = Vec3::Constant(undefined), high = Vec3::Constant(undefined);
+  void declare(Fields& f);
+};
+
 /// Grey values that are lumen.
 struct ThresholdCase {
   std::optional<double> above, below;
   void declare(Fields& f);
+  bool admits(double value) const { return !(above && value < *above) && !(below && value > *below); }
 };
 
 /// How a front grows from seeds to where the grey values change.
@@ -23,14 +31,23 @@ struct LevelSetCase {
   void declare(Fields& f);
 };
 
+/// A ball that is not lumen.
+struct StopCase {
+  Vec3 point = Vec3::Constant(undefined);
+  double radius = undefined;
+  void declare(Fields& f);
+};
+
 /// The file of an image, and what of it is lumen.
 struct LumenImageCase {
   std::filesystem::path file;
-  std::string unit = "mm";
-  int label = 0;  ///< 0: not said
+  std::string unit = "mm", space = "lps";
+  std::optional<CropCase> crop;
+  std::vector<std::string> labels;  ///< values, or names of segments
   std::optional<ThresholdCase> threshold;
   std::optional<LevelSetCase> level_set;
-  Named<Vec3> seeds;
+  Named<Vec3> seeds, neighbours;
+  Named<StopCase> stops;
   std::optional<double> smoothing;
   bool any_size = false;
   void declare(Fields& f);

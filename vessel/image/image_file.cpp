@@ -5,12 +5,15 @@
 #include <itkImage.h>
 #include <itkImageFileReader.h>
 #include <itkImageFileWriter.h>
+#include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
+#include <itkVectorImage.h>
 
 #include <Eigen/LU>
 #include <cmath>
+#include <fstream>
 
 #include "common/base/error.hpp"
 #include "vessel/image/file_length.hpp"
@@ -31,7 +34,10 @@ itk::ImageIOBase::Pointer format_of(const fs::path& file) {
   if (ends_with(file, {".mha", ".mhd"})) return itk::MetaImageIO::New().GetPointer();
   if (ends_with(file, {".nrrd", ".nhdr"})) return itk::NrrdImageIO::New().GetPointer();
   if (ends_with(file, {".nii", ".nii.gz"})) return itk::NiftiImageIO::New().GetPointer();
-  throw input_error("{}: an image is .mha, .mhd, .nrrd, .nhdr, .nii or .nii.gz", file.string());
+  throw input_error("{}: an image is .mha, .mhd, .nrrd, .nhdr, .nii or .nii.gz{}", file.string(),
+                    fs::is_directory(file) || ends_with(file, {".dcm", ".ima"})
+                        ? "; a DICOM series becomes one by 3D Slicer or dcm2niix"
+                        : "");
 }
 
 /// What ITK says of a failure, without its own sources' names.
@@ -43,8 +49,49 @@ std::string reason(const itk::ExceptionObject& error) {
   return text;
 }
 
-/// Throws InputError unless the header is that of a volume with one value a voxel.
-void check_header(const std::string& name, const itk::ImageIOBase& io) {
+/// A segment of a .seg.nrrd, as 3D Slicer writes them: those that overlap lie in different layers.
+struct Segment {
+  std::string name;
+  unsigned layer = 0;
+  float value = 1;
+};
+
+std::vector<Segment> segments_of(const itk::ImageIOBase& io) {
+  const auto entry = [&](std::size_t number, const char* key) {
+    std::string text;
+    itk::ExposeMetaData(io.GetMetaDataDictionary(), fmt::format("Segment{}_{}", number, key), text);
+    return text;
+  };
+  const auto number = [](const std::string& text, unsigned long otherwise) {
+    return text.empty() || !std::isdigit(static_cast<unsigned char>(text[0])) ? otherwise : std::stoul(text);
+  };
+  std::vector<Segment> segments;
+  for (std::string id; !(id = entry(segments.size(), "ID")).empty();) {
+    const std::string name = entry(segments.size(), "Name");
+    segments.push_back({name.empty() ? id : name, static_cast<unsigned>(number(entry(segments.size(), "Layer"), 0)),
+                        static_cast<float>(number(entry(segments.size(), "LabelValue"), 1))});
+  }
+  return segments;
+}
+
+std::string listed(const std::vector<Segment>& segments) {
+  std::string text;
+  for (const Segment& segment : segments) text += (text.empty() ? "" : ", ") + segment.name;
+  return text;
+}
+
+/// Throws InputError for the one space that ITK 5.2 reads mirrored: x turned instead of y.
+void check_space(const fs::path& file) {
+  if (!ends_with(file, {".nrrd", ".nhdr"})) return;
+  std::ifstream in(file, std::ios::binary);
+  for (std::string line; std::getline(in, line) && !line.empty() && line != "\r";)
+    if (line.starts_with("space: left-anterior-superior") || line.starts_with("space: LAS"))
+      throw input_error("{}: its space is left-anterior-superior, which would be read mirrored: save it as LPS or RAS",
+                        file.string());
+}
+
+/// Throws InputError unless the header is that of a volume.
+void check_volume(const std::string& name, const itk::ImageIOBase& io) {
   const auto size = [&](unsigned axis) { return axis < io.GetNumberOfDimensions() ? io.GetDimensions(axis) : 1; };
   if (io.GetNumberOfDimensions() < 3 || size(0) < 2 || size(1) < 2 || size(2) < 2)
     throw input_error("{}: is not a volume: {} x {} x {} voxels", name, size(0), size(1), size(2));
@@ -52,13 +99,19 @@ void check_header(const std::string& name, const itk::ImageIOBase& io) {
     if (size(axis) > 1)
       throw input_error("{}: has {} dimensions, {} images in a row: give one of them", name, io.GetNumberOfDimensions(),
                         size(axis));
-  if (io.GetNumberOfComponents() != 1)
-    throw input_error("{}: has {} values a voxel ({}): grey values or labels are wanted, one a voxel", name,
-                      io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
+}
+
+/// Throws InputError unless there is one value a voxel.
+void check_one_value(const std::string& name, const itk::ImageIOBase& io) {
+  if (io.GetNumberOfComponents() == 1) return;
+  if (const std::vector<Segment> segments = segments_of(io); !segments.empty())
+    throw input_error("{}: its segments overlap: say by name which are meant, labels: [{}]", name, listed(segments));
+  throw input_error("{}: has {} values a voxel ({}): grey values or labels are wanted, one a voxel", name,
+                    io.GetNumberOfComponents(), itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType()));
 }
 
 /// The header's geometry, lengths in cm.
-ImageVolume geometry_of(const Grey& from, const std::string& name, double cm) {
+ImageVolume geometry_of(const itk::ImageBase<3>& from, const std::string& name, double cm) {
   ImageVolume image;
   image.name = name;
   const auto size = from.GetLargestPossibleRegion().GetSize();
@@ -84,6 +137,49 @@ void check_finite(const ImageVolume& image) {
                     count, i, j, k);
 }
 
+/// The segments of these names.
+std::vector<Segment> asked_of(const std::vector<Segment>& segments, const std::vector<std::string>& names,
+                              const std::string& file, const std::string& field) {
+  if (segments.empty())
+    throw input_error("{}: {}: {} names no segments as a .seg.nrrd does: give the labels' numbers", field,
+                      names.front(), file);
+  std::vector<Segment> asked;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(segments.begin(), segments.end(), [&](const Segment& s) { return s.name == name; });
+    if (found == segments.end())
+      throw input_error("{}: {}: is not a segment of {}, which has {}", field, name, file, listed(segments));
+    asked.push_back(*found);
+  }
+  return asked;
+}
+
+template <class Image>
+typename Image::Pointer read_as(const fs::path& file, itk::ImageIOBase& io) {
+  const auto reader = itk::ImageFileReader<Image>::New();
+  reader->SetImageIO(&io);
+  reader->SetFileName(file.string());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+/// What `read` makes of a file whose header and length are right; a failure of ITK as an InputError.
+template <class Read>
+ImageVolume guarded(const fs::path& file, Read read) {
+  const auto io = format_of(file);
+  const std::string name = file.string();
+  try {
+    io->SetFileName(name);
+    if (!io->CanReadFile(name.c_str())) throw input_error("{}: is not an image of the kind that its ending says", name);
+    io->ReadImageInformation();
+    check_volume(name, *io);
+    check_space(file);
+    check_length(file, static_cast<std::uint64_t>(io->GetImageSizeInBytes()));
+    return read(*io);
+  } catch (const itk::ExceptionObject& error) {
+    throw input_error("{}: cannot be read: {}", name, reason(error));
+  }
+}
+
 template <class Voxel>
 void write_as(const fs::path& file, const Grey& image) {
   using Out = itk::Image<Voxel, 3>;
@@ -100,26 +196,33 @@ void write_as(const fs::path& file, const Grey& image) {
 }  // namespace
 
 ImageVolume read_image(const fs::path& file, double cm) {
-  const auto io = format_of(file);
-  const std::string name = file.string();
-  try {
-    io->SetFileName(name);
-    if (!io->CanReadFile(name.c_str())) throw input_error("{}: is not an image of the kind that its ending says", name);
-    io->ReadImageInformation();
-    check_header(name, *io);
-    check_length(file, static_cast<std::uint64_t>(io->GetImageSizeInBytes()));
-    const auto reader = itk::ImageFileReader<Grey>::New();
-    reader->SetImageIO(io);
-    reader->SetFileName(name);
-    reader->Update();
-    ImageVolume image = geometry_of(*reader->GetOutput(), name, cm);
-    const float* first = reader->GetOutput()->GetBufferPointer();
-    image.values.assign(first, first + reader->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels());
+  return guarded(file, [&](itk::ImageIOBase& io) {
+    check_one_value(file.string(), io);
+    const auto grey = read_as<Grey>(file, io);
+    ImageVolume image = geometry_of(*grey, file.string(), cm);
+    const float* first = grey->GetBufferPointer();
+    image.values.assign(first, first + grey->GetLargestPossibleRegion().GetNumberOfPixels());
     check_finite(image);
     return image;
-  } catch (const itk::ExceptionObject& error) {
-    throw input_error("{}: cannot be read: {}", name, reason(error));
-  }
+  });
+}
+
+ImageVolume read_segments(const fs::path& file, double cm, const std::vector<std::string>& names,
+                          const std::string& field) {
+  return guarded(file, [&](itk::ImageIOBase& io) {
+    const std::vector<Segment> asked = asked_of(segments_of(io), names, file.string(), field);
+    const auto layers = read_as<itk::VectorImage<float, 3>>(file, io);
+    ImageVolume image = geometry_of(*layers, file.string(), cm);
+    const float* voxel = layers->GetBufferPointer();
+    const unsigned count = layers->GetNumberOfComponentsPerPixel();
+    image.values.resize(layers->GetLargestPossibleRegion().GetNumberOfPixels());
+    for (float& value : image.values) {
+      value = std::any_of(asked.begin(), asked.end(),
+                          [&](const Segment& s) { return s.layer < count && voxel[s.layer] == s.value; });
+      voxel += count;
+    }
+    return image;
+  });
 }
 
 void write_image(const fs::path& file, const ImageVolume& image, bool whole) {

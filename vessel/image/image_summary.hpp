@@ -19,8 +19,9 @@ struct ImageSummary {
   Vec3 voxels = Vec3::Zero(), voxel = Vec3::Zero();
   double least = 0, greatest = 0, anisotropy = 1, lumen_volume = 0;
   int parts_dropped = 0, iterations = 0;
-  double parts_volume = 0, edge = 0;
-  Vec3 part_place = Vec3::Zero();
+  bool stood_still = true;
+  double parts_volume = 0, edge = 0, widest_radius = 0, door_radius = 0, room_radius = 0;
+  Vec3 part_place = Vec3::Zero(), widest_place = Vec3::Zero(), door_place = Vec3::Zero(), room_place = Vec3::Zero();
 
   static void fields(auto& self, auto&& field) {
     field("method", self.method, "by which the lumen was told");
@@ -33,10 +34,21 @@ struct ImageSummary {
     field("parts_dropped", self.parts_dropped, "that are like the lumen, but do not hang together with it");
     field("parts_volume", self.parts_volume, "of all of these [cm3]");
     field("part_place", self.part_place, "a place in the largest of them [cm]");
+    field("widest_radius", self.widest_radius, "of the largest sphere in the lumen [cm]");
+    field("widest_place", self.widest_place, "its middle [cm]");
+    field("room_radius", self.room_radius,
+          "of the largest sphere in a part that is reached through a door at most half as wide; 0: there is none [cm]");
+    field("room_place", self.room_place, "its middle [cm]");
+    field("door_radius", self.door_radius, "of that door [cm]");
+    field("door_place", self.door_place, "[cm]");
     field("iterations", self.iterations, "of the front; 0 without a level set");
+    field("stood_still", self.stood_still, "whether the front did so before the iterations were used up");
     field("edge", self.edge, "change of grey values per cm at which the front stops; 0 without a level set");
   }
 };
+
+/// Where the lumen may have leaked, and what mends that; empty: nothing looks like it.
+std::string leak_of(const ImageSummary& summary);
 
 /// What a person is told of it.
 std::string text_of(const ImageSummary& summary);

@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "vessel/image/basins.hpp"
 #include "vessel/image/edge_map.hpp"
 #include "vessel/image/smooth_field.hpp"
+#include "vessel/image/stops.hpp"
 
 namespace tether {
 namespace {
@@ -121,24 +123,34 @@ Front::Pointer moved(Grey* start, Grey* evenness, double outward, double step, c
   return front;
 }
 
+/// What moves a front: where it begins, where it may not go, and how far from a wall's each place's change is.
+struct Ground {
+  std::vector<char> inside, barred;
+  ImageVolume steepness;  ///< 1 at the wall's edge
+  double edge = 0;        ///< [per cm]
+};
+
 struct Settled {
   bool reaches_side = false;  ///< of the box
   LevelSet found;
 };
 
 /// The front in a box: grown with a push outward until it stands still, then settled without, by small steps.
-Settled settled_in(const Box& box, const ImageVolume& image, const ImageVolume& gradient,
-                   const std::vector<char>& inside, double edge, const LevelSetCase& how) {
+Settled settled_in(const Box& box, const Ground& ground, const LevelSetCase& how) {
+  const ImageVolume& image = ground.steepness;
   const auto start = empty_image(box, image.spacing), evenness = empty_image(box, image.spacing);
   for_each(box, image, [&](const BoxVoxel& voxel) {
-    const double steepness = 2 * gradient.values[voxel.of_image] / edge;
-    start->GetBufferPointer()[voxel.number] = inside[voxel.of_image] ? -0.5F : 0.5F;
-    evenness->GetBufferPointer()[voxel.number] = static_cast<float>(1 / (1 + steepness * steepness));  // (M.21)
+    const double steepness = 2 * image.values[voxel.of_image];
+    start->GetBufferPointer()[voxel.number] = ground.inside[voxel.of_image] ? -0.5F : 0.5F;
+    evenness->GetBufferPointer()[voxel.number] =
+        ground.barred[voxel.of_image] ? 0 : static_cast<float>(1 / (1 + steepness * steepness));  // (M.21)
   });
   const auto grown = moved(start, evenness, 1, 1.0 / 6, how);
   const auto front = moved(grown->GetOutput(), evenness, 0, 0.08, how);
-  Settled result{false, {image, 0, edge}};
-  result.found.iterations = static_cast<int>(grown->GetElapsedIterations() + front->GetElapsedIterations());
+  Settled result{false, {image, 0, true, ground.edge}};
+  const auto steps = static_cast<int>(grown->GetElapsedIterations());
+  result.found.iterations = steps + static_cast<int>(front->GetElapsedIterations());
+  result.found.stood_still = steps < how.iterations;
   std::vector<float>& field = result.found.field.values;
   std::fill(field.begin(), field.end(), -1.0F);
   const float* height = front->GetOutput()->GetBufferPointer();
@@ -149,19 +161,75 @@ Settled settled_in(const Box& box, const ImageVolume& image, const ImageVolume& 
   return result;
 }
 
-}  // namespace
-
-LevelSet level_set(const ImageVolume& image, const LumenImageCase& how, const std::vector<std::size_t>& seeds) {
-  ImageVolume smooth = image;
-  smooth_field(smooth, how.smoothing.value_or(1));
-  const ImageVolume gradient = gradient_magnitude(smooth);
-  WallSeen wall = wall_around(smooth, gradient, seeds);
-  if (how.level_set->edge) wall.edge = *how.level_set->edge;
+/// The wall about the seeds. Throws InputError if there is none, or the seeds are not of one kind.
+WallSeen wall_of(const ImageVolume& smooth, const LumenImageCase& how, const std::vector<std::size_t>& seeds) {
+  const WallSeen wall = wall_around(smooth, gradient_magnitude(smooth), seeds);
   if (!(wall.edge > 0) || !(wall.contrast > 0))
     throw input_error("{}: the image does not change around the seeds", how.at("image.level_set"));
-  const std::vector<char> inside = flooded(smooth, gradient, wall, seeds);
+  constexpr double most_apart = 0.8;  // of the contrast: seeds in lumen and tissue are 1 apart
+  if (wall.brightest - wall.darkest > most_apart * wall.contrast)
+    throw input_error(
+        "{}: lie in different things: {:.4g} at one, {:.4g} at another, while the wall's contrast about them is {:.4g}",
+        how.at("image.seeds"), wall.darkest, wall.brightest, wall.contrast);
+  return wall;
+}
+
+/// 1 in what the front may not enter.
+std::vector<char> barred_in(const ImageVolume& smooth, const LumenImageCase& how) {
+  std::vector<char> barred(smooth.values.size(), 0);
+  if (how.threshold)
+    for (std::size_t n = 0; n < barred.size(); ++n) barred[n] = !how.threshold->admits(smooth.values[n]);
+  for_stops(smooth, how.stops, [&](std::size_t n, double outside) { barred[n] = barred[n] || outside < 0; });
+  return barred;
+}
+
+/// The border of a basin becomes an edge as steep as the wall's, what is within is barred.
+void bar_basin(Ground& ground, ImageVolume basin) {
+  for (std::size_t n = 0; n < basin.values.size(); ++n)
+    if (basin.values[n] > 0) ground.inside[n] = 0;
+  smooth_field(basin, 1);
+  const ImageVolume border = gradient_magnitude(basin);
+  const float most = *std::max_element(border.values.begin(), border.values.end());
+  for (std::size_t n = 0; n < basin.values.size(); ++n) {
+    ground.steepness.values[n] = std::hypot(ground.steepness.values[n], border.values[n] / most);
+    ground.barred[n] = ground.barred[n] || basin.values[n] > 0.95F;
+  }
+}
+
+Ground ground_of(const ImageVolume& image, const LumenImageCase& how, const std::vector<std::size_t>& seeds,
+                 const std::vector<std::size_t>& neighbours) {
+  const double deviation = how.smoothing.value_or(1);
+  ImageVolume smooth = image;
+  smooth_field(smooth, deviation);
+  const WallSeen wall = wall_of(smooth, how, seeds);
+  Ground ground;
+  ground.barred = barred_in(smooth, how);
+  smooth.values = image.values;
+  clamp_values(smooth, wall);
+  smooth_field(smooth, deviation);
+  ground.steepness = gradient_magnitude(smooth);
+  ground.edge = how.level_set->edge.value_or(wall_around(smooth, ground.steepness, seeds).edge);
+  std::vector<char> kept_out = ground.barred;
+  ImageVolume basin;
+  if (!neighbours.empty()) {
+    basin = neighbours_basin(ground.steepness, seeds, neighbours);
+    for (std::size_t n = 0; n < kept_out.size(); ++n) kept_out[n] = kept_out[n] || basin.values[n] > 0;
+  }
+  WallSeen sought = wall;
+  sought.edge = ground.edge;
+  ground.inside = flooded(smooth, ground.steepness, sought, seeds, kept_out);
+  for (float& value : ground.steepness.values) value /= static_cast<float>(ground.edge);
+  if (!neighbours.empty()) bar_basin(ground, std::move(basin));
+  return ground;
+}
+
+}  // namespace
+
+LevelSet level_set(const ImageVolume& image, const LumenImageCase& how, const std::vector<std::size_t>& seeds,
+                   const std::vector<std::size_t>& neighbours) {
+  const Ground ground = ground_of(image, how, seeds, neighbours);
   for (int margin = 16;; margin *= 4) {
-    Settled settled = settled_in(box_around(image, inside, margin), image, gradient, inside, wall.edge, *how.level_set);
+    Settled settled = settled_in(box_around(image, ground.inside, margin), ground, *how.level_set);
     if (!settled.reaches_side) return std::move(settled.found);
   }
 }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "vessel/image/level_set.hpp"
+#include "vessel/image/neck.hpp"
 #include "vessel/image/pieces.hpp"
 #include "vessel/image/smooth_field.hpp"
+#include "vessel/image/stops.hpp"
 #include "vessel/image/zero_surface.hpp"
 
 namespace tether {
@@ -17,36 +18,11 @@ namespace {
 constexpr double smoothing_of_labels = 1, smoothing_of_grey = 0.7;  // [voxels]
 constexpr double noted_anisotropy = 3;  // slices thicker than that hide how a vessel of some voxels' width goes on
 
-std::string listed_labels(const ImageVolume& image) {
-  constexpr std::size_t most_told = 20;
-  std::set<float> labels;
-  for (const float value : image.values)
-    if (value != 0 && labels.size() <= most_told) labels.insert(value);
-  std::string text;
-  for (const float label : labels)
-    text += labels.size() > most_told && label == *labels.rbegin()
-                ? ", ..."
-                : fmt::format("{}{:g}", text.empty() ? "" : ", ", label);
-  return text;
-}
-
 /// 1/2 in the lumen, -1/2 outside.
-ImageVolume label_field(const ImageVolume& image, const LumenImageCase& how) {
+ImageVolume label_field(const ImageVolume& image) {
   ImageVolume field = image;
-  bool any = false;
-  for (float& value : field.values) {
-    if (value != std::round(value))
-      throw input_error("{}: {}: {} is no label map: it has the value {:g}", how.at("image.label"), how.label,
-                        image.name, value);
-    const bool inside = value == static_cast<float>(how.label);
-    any = any || inside;
-    value = inside ? 0.5F : -0.5F;
-  }
-  if (any) return field;
-  const std::string there = listed_labels(image);
-  throw input_error("{}: {}: {}", how.at("image.label"), how.label,
-                    there.empty() ? image.name + " is empty: all of it is 0"
-                                  : fmt::format("is not in {}, which has {}", image.name, there));
+  for (float& value : field.values) value -= 0.5F;
+  return field;
 }
 
 /// How far a grey value is inside the limits.
@@ -71,12 +47,24 @@ ImageVolume threshold_field(const ImageVolume& image, const LumenImageCase& how,
   return field;
 }
 
-std::vector<std::size_t> seeds_in(const ImageVolume& image, const LumenImageCase& how) {
+/// What a place outside the image may have been meant as.
+std::string meant(const ImageVolume& image, const Vec3& place) {
+  const Vec3 turned(-place[0], -place[1], place[2]);
+  if (image.holds(turned)) return "; with x and y of the other sign it lies inside: is it RAS? Then image.space: ras";
+  if (image.holds(place / 10)) return "; a tenth of it lies inside: is it in mm? Then [1 mm, 2 mm, 3 mm]";
+  if (image.holds(turned / 10))
+    return "; in mm and with x and y of the other sign it lies inside: [1 mm, 2 mm, 3 mm] and image.space: ras";
+  return "";
+}
+
+/// The voxels of places that a section of the study names.
+std::vector<std::size_t> voxels_at(const ImageVolume& image, const Named<Vec3>& places, const LumenImageCase& how,
+                                   const std::string& section) {
   std::vector<std::size_t> voxels;
-  for (const auto& [name, place] : how.seeds) {
+  for (const auto& [name, place] : places) {
     if (!image.holds(place))
-      throw input_error("{}: {} lies outside {}, which reaches from {}", how.at("image.seeds." + name),
-                        text_of_place(place), image.name, image.extent());
+      throw input_error("{}: {} lies outside {}, which reaches from {}{}", how.at(section + "." + name),
+                        text_of_place(place), image.name, image.extent(), meant(image, place));
     voxels.push_back(image.nearest(place));
   }
   return voxels;
@@ -93,7 +81,7 @@ void check_seeds(const ImageVolume& image, const ImageVolume& field, const Lumen
 
 ImageSummary summary_of(const ImageVolume& image, const LumenImageCase& how) {
   ImageSummary summary;
-  summary.method = how.threshold ? ImageMethod::threshold : how.level_set ? ImageMethod::level_set : ImageMethod::label;
+  summary.method = how.level_set ? ImageMethod::level_set : how.threshold ? ImageMethod::threshold : ImageMethod::label;
   summary.voxels = Vec3(image.count[0], image.count[1], image.count[2]);
   summary.voxel = image.spacing;
   summary.anisotropy = image.anisotropy();
@@ -102,31 +90,66 @@ ImageSummary summary_of(const ImageVolume& image, const LumenImageCase& how) {
   return summary;
 }
 
+void set_widths(ImageSummary& summary, const Widths& widths) {
+  summary.widest_radius = widths.widest.radius, summary.widest_place = widths.widest.place;
+  if (!widths.neck) return;
+  summary.room_radius = widths.neck->room.radius, summary.room_place = widths.neck->room.place;
+  summary.door_radius = widths.neck->door.radius, summary.door_place = widths.neck->door.place;
+}
+
+/// What a person can do against a leak.
+const char* mended_by(ImageMethod method) {
+  return method == ImageMethod::label ? "mend the label map, or put a ball of image.stops there"
+         : method == ImageMethod::threshold
+             ? "put a ball of image.stops there, raise the threshold, or take a level_set"
+             : "put a ball of image.stops there, name the room among image.neighbours, or bound the values by a "
+               "threshold";
+}
+
 }  // namespace
 
 LumenOfImage lumen_of(const ImageVolume& image, const LumenImageCase& how) {
   LumenOfImage result{{}, summary_of(image, how)};
   ImageSummary& summary = result.summary;
-  const std::vector<std::size_t> seeds = seeds_in(image, how);
+  const std::vector<std::size_t> seeds = voxels_at(image, how.seeds, how, "image.seeds");
   ImageVolume field;
-  if (how.threshold) {
+  if (how.level_set) {
+    LevelSet front = level_set(image, how, seeds, voxels_at(image, how.neighbours, how, "image.neighbours"));
+    field = std::move(front.field);
+    summary.iterations = front.iterations, summary.stood_still = front.stood_still, summary.edge = front.edge;
+  } else if (how.threshold) {
     field = threshold_field(image, how, summary);
-  } else if (how.level_set) {
-    LevelSet front = level_set(image, how, seeds);
-    field = std::move(front.field), summary.iterations = front.iterations, summary.edge = front.edge;
   } else {
-    field = label_field(image, how);
+    field = label_field(image);
     smooth_field(field, how.smoothing.value_or(smoothing_of_labels));
   }
+  cut_out(field, how.stops);
   check_seeds(image, field, how, seeds);
   const DroppedPieces dropped = keep_pieces(field, seeds);
   summary.parts_dropped = dropped.count, summary.parts_volume = dropped.volume, summary.part_place = dropped.place;
   const auto inside = std::count_if(field.values.begin(), field.values.end(), [](float value) { return value > 0; });
   summary.lumen_volume = static_cast<double>(inside) * image.spacing.prod();
+  if (inside == 0) throw input_error("{}: nothing of {} is lumen once it is smoothed", how.at("image"), image.name);
+  set_widths(summary, widths_of(field, seeds));
   result.surface = zero_surface(field);
-  if (result.surface.triangles.empty())
-    throw input_error("{}: nothing of {} is lumen once it is smoothed", how.at("image"), image.name);
+  if (result.surface.triangles.empty()) throw input_error("{}: all of {} is lumen", how.at("image"), image.name);
   return result;
+}
+
+void check_width(const ImageSummary& summary, const LumenImageCase& how) {
+  constexpr double most_radius = 6;  // [cm]: a giant aneurysm
+  if (how.any_size || summary.widest_radius <= most_radius) return;
+  throw input_error("{}: is {:.3g} cm wide at {}, which no vessel is: the lumen leaks, or image.unit is wrong; {}{}",
+                    how.at("image"), 2 * summary.widest_radius, text_of_place(summary.widest_place),
+                    mended_by(summary.method), "; image.crop bounds what is looked at");
+}
+
+std::string leak_of(const ImageSummary& s) {
+  if (s.room_radius == 0) return "";
+  return fmt::format(
+      "behind a door of radius {:.2g} cm at {} lies a room of radius {:.2g} cm at {}: if that is not the vessel, the "
+      "lumen leaks there; {}",
+      s.door_radius, text_of_place(s.door_place), s.room_radius, text_of_place(s.room_place), mended_by(s.method));
 }
 
 std::string text_of(const ImageSummary& s) {
@@ -134,9 +157,12 @@ std::string text_of(const ImageSummary& s) {
       "  image: {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} cm, values {:g} to {:g}; lumen by {}, {:.4g} cm3\n",
       s.voxels[0], s.voxels[1], s.voxels[2], s.voxel[0], s.voxel[1], s.voxel[2], s.least, s.greatest, word_of(s.method),
       s.lumen_volume);
+  text += fmt::format("  widest at {}, radius {:.3g} cm\n", text_of_place(s.widest_place), s.widest_radius);
   if (s.iterations > 0)
-    text += fmt::format("  the front stood still after {} iterations, at a change of {:.3g} per cm\n", s.iterations,
-                        s.edge);
+    text += fmt::format("  {} {} iterations, at a change of {:.3g} per cm\n",
+                        s.stood_still ? "the front stood still after" : "look at it: the front did not stand still in",
+                        s.iterations, s.edge);
+  if (const std::string leak = leak_of(s); !leak.empty()) text += "  look at it: " + leak + "\n";
   if (s.parts_dropped > 0)
     text +=
         fmt::format("  left out: {} parts that do not hang together with the lumen, {:.3g} cm3, the largest at {}\n",

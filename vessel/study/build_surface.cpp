@@ -7,8 +7,8 @@
 
 #include "vessel/centreline/curve.hpp"
 #include "vessel/centreline/find_tree.hpp"
-#include "vessel/image/image_file.hpp"
 #include "vessel/image/lumen_of_image.hpp"
+#include "vessel/image/open_image.hpp"
 #include "vessel/study/openings.hpp"
 #include "vessel/study/read_surface.hpp"
 #include "vessel/surface/crossings.hpp"
@@ -22,7 +22,7 @@ namespace {
 /// As it is in the file, or in the image, which is kept.
 RawSurface given_surface(const StudyCase& study, BuiltSurface& built) {
   if (study.surface) return read_surface(*study.surface);
-  built.image = read_image(study.image->file, in_cm(study.image->unit));
+  built.image = open_image(*study.image);
   LumenOfImage lumen = lumen_of(*built.image, *study.image);
   built.summary.image = lumen.summary;
   return std::move(lumen.surface);
@@ -116,16 +116,8 @@ std::vector<BuiltBranch> branches_of(const CentrelineTree& tree) {
   return branches;
 }
 
-}  // namespace
-
-BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen, const ImageSeen& image_seen) {
-  const auto show = [&](const char* step, const RawSurface& surface) {
-    if (seen) seen(step, surface);
-  };
-  BuiltSurface built;
-  Repaired state{given_surface(study, built), {}};
-  show("1_read", state.surface);
-  if (built.image && image_seen) image_seen(*built.image, state.surface);
+/// From the surface as it was given.
+void build(Repaired& state, const StudyCase& study, const StepSeen& show, BuiltSurface& built) {
   repair(state, study.repair);
   show("2_repaired", state.surface);
   std::vector<Vec3> middles = open_ends(state, study);
@@ -152,6 +144,28 @@ BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen, const I
   summary.distance = distance_between(closed, built.surface);
   summary.openings = openings_of(built.surface, rims_at(state.surface, middles), built.image);
   summary.branches = branches_of(built.tree);
+}
+
+}  // namespace
+
+BuiltSurface build_surface(const StudyCase& study, const StepSeen& seen, const ImageSeen& image_seen) {
+  const StepSeen show = [&](const std::string& step, const RawSurface& surface) {
+    if (seen) seen(step, surface);
+  };
+  BuiltSurface built;
+  Repaired state{given_surface(study, built), {}};
+  show("1_read", state.surface);
+  if (built.image && image_seen) image_seen(*built.image, state.surface);
+  if (built.summary.image) check_width(*built.summary.image, *study.image);
+  try {
+    build(state, study, show, built);
+  } catch (const PlacedError& error) {
+    const std::string leak = built.summary.image ? leak_of(*built.summary.image) : "";
+    if (leak.empty()) throw;
+    std::vector<Vec3> places = error.places;
+    places.push_back(built.summary.image->door_place);
+    throw PlacedError(fmt::format("{}; {}", error.what(), leak), places);
+  }
   return built;
 }
 

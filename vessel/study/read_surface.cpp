@@ -10,10 +10,6 @@ constexpr double least_radius = 0.25, most_radius = 6;  // [cm]
 
 }  // namespace
 
-double in_cm(const std::string& unit) {
-  return unit == "mm" ? 0.1 : unit == "m" ? 100 : 1;
-}
-
 RawSurface read_surface(const SurfaceCase& given) {
   const MeshFile file = read_mesh_file(given.file);
   if (file.triangles.empty()) throw input_error("{}: holds no triangle", file.name);

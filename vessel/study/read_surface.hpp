@@ -8,9 +8,6 @@ namespace tether {
 /// The surface of a file in cm, with its labels. Throws InputError if it cannot be read or holds no triangle.
 RawSurface read_surface(const SurfaceCase& given);
 
-/// How many cm the word for a unit of length is.
-double in_cm(const std::string& unit);
-
 /// Throws InputError if an opening is wider or narrower than any vessel's that is modelled, with the unit that would
 /// fit.
 void check_unit(const StudyCase& study, double largest_radius);

@@ -2,6 +2,10 @@
 
 namespace tether {
 
+double in_cm(const std::string& unit) {
+  return unit == "mm" ? 0.1 : unit == "m" ? 100 : 1;
+}
+
 std::string text_of_place(const Vec3& place) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) cm", place[0], place[1], place[2]);
 }

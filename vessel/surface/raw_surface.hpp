@@ -22,6 +22,9 @@ struct PlacedError : InputError {
   std::vector<Vec3> places;  ///< [cm]
 };
 
+/// How many cm the word for a unit of length is: "mm", "cm", "m".
+double in_cm(const std::string& unit);
+
 /// "(1.2, 3.4, 5.6) cm"
 std::string text_of_place(const Vec3& place);
 
