@@ -87,20 +87,35 @@ def motion_of(run):
     return nodes, records["vectors"][later].astype(float), records["time"][later]
 
 
+def moments(frames):
+    """Times of the frames of a beat [s]."""
+    return np.arange(frames) * PERIOD / frames
+
+
+class Moving:
+    """A run's lumen at any place and moment, linear between what was recorded."""
+
+    def __init__(self, run):
+        self.nodes, motion, times = motion_of(run)
+        self.lattice = Lattice(self.nodes)
+        self.times, self.motion = np.concatenate([[0], times]), np.concatenate([np.zeros((1, *motion.shape[1:])), motion])
+
+    def at(self, time, angle, along):
+        """angle, along [n] -> places [n x 3]."""
+        after = min(max(int(np.searchsorted(self.times, time)), 1), len(self.times) - 1)
+        share = (time - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
+        return self.lattice.at(self.nodes + (1 - share) * self.motion[after - 1] + share * self.motion[after], angle, along)
+
+
 def make(run, folder, frames, deviation, length, correlation, seed):
     """Surfaces of a run at `frames` moments of a beat, and times.csv, into a folder."""
-    nodes, motion, times = motion_of(run)
-    generator = np.random.default_rng(seed)
-    lattice = Lattice(nodes)
+    moving, generator = Moving(run), np.random.default_rng(seed)
     angle, along, triangles = triangulation(generator)
     rest = np.c_[RADIUS * np.cos(angle), RADIUS * np.sin(angle), along]
     folder.mkdir(parents=True, exist_ok=True)
     rows = ["file,time [s]"]
-    before, padded = np.concatenate([[0], times]), np.concatenate([np.zeros((1, *motion.shape[1:])), motion])
-    for k, time in enumerate(np.arange(frames) * PERIOD / frames):
-        after = min(max(int(np.searchsorted(before, time)), 1), len(before) - 1)
-        share = (time - before[after - 1]) / (before[after] - before[after - 1])
-        points = lattice.at(nodes + (1 - share) * padded[after - 1] + share * padded[after], angle, along)
+    for k, time in enumerate(moments(frames)):
+        points = moving.at(time, angle, along)
         points += normals(points, triangles) * errors(rest, deviation, length, correlation, generator)[:, None]
         write_ply(folder / f"frame_{k}.ply", points, triangles)
         rows.append(f"frame_{k}.ply,{time:.6f}")
