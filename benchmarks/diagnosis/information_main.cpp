@@ -1,10 +1,10 @@
 /// How much of what data tell of a hidden effect a diagnosis makes use of.
 ///
-///     diagnosis_information CASE.yaml DIR NAME...
+///     diagnosis_information CASE.yaml DIR [NAME...]
 ///
 /// CASE.yaml: data without errors, whose noise is stated as if they had some: what is left of them is what is hidden,
-/// d. Prints lines of what is allowed beside it, in which frames, what, and its z. The runs are those of tether
-/// diagnose, in DIR.
+/// d. Prints lines of what is allowed beside it, in which frames, what, and its z. DIR: of `tether diagnose` of this
+/// model on any data, if there are NAMEs; else one run is made there.
 ///
 ///     nuisances   a uniform offset, a shift and a slope along the vessel of each frame, of any size
 ///     allowed     what a diagnosis allows, and the model off by a tenth of what it may be, or by all of it
@@ -64,38 +64,37 @@ EffectProblem with_all_frames(EffectProblem problem) {
   return problem;
 }
 
-/// The model as it is, and on a coarser one what each number does.
-struct Runs {
-  Runs(const DiagnosedCase& given, const std::filesystem::path& folder)
-      : effects(catalogue_of(given.file, given.diagnosis)) {
-    const auto candidates = folder / "candidates.yaml";
-    write_candidates(candidates, given.file, given.data, effects);
-    base = LivingRuns(quiet(), candidates, folder).make({base_run()}).front();
-    const auto file = write_coarse(candidates, given);
-    CoarseRuns coarse(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
-                      file.stem().string());
-    sensitivities = sensitivities_of(coarse, varied_numbers(coarse.parameters(), given.diagnosis, given.file));
-    sensitivities.is_coarse = true;
-  }
+FinishedMotion base_of(const DiagnosedCase& given, const std::filesystem::path& folder) {
+  const auto candidates = folder / "candidates.yaml";
+  if (!exists(candidates)) write_candidates(candidates, given.file, given.data, {});
+  return LivingRuns(quiet(), candidates, folder).make({base_run()}).front();
+}
 
-  std::vector<PlacedEffect> effects;
-  FinishedMotion base;
-  Sensitivities sensitivities;
-};
+/// What each number does, on the coarser model.
+Sensitivities sensitivities_in(const DiagnosedCase& given, const std::filesystem::path& folder) {
+  const auto file = write_coarse(folder / "candidates.yaml", given);
+  CoarseRuns coarse(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
+                    file.stem().string());
+  Sensitivities all = sensitivities_of(coarse, varied_numbers(coarse.parameters(), given.diagnosis, given.file));
+  all.is_coarse = true;
+  return all;
+}
 
 class Information {
  public:
-  Information(const DiagnosedCase& given, const Runs& runs)
-      : evidence_(given.data, given.lumen, runs.base),
-        as_data_(problem_of(given, evidence_, runs.base, runs.sensitivities, runs.effects)),
-        whitening_(evidence_, as_data_),
-        white_(whitening_(as_data_)),
-        of_one_(whitening_(MatrixXd::Identity(as_data_.residual.size(), as_data_.residual.size()))) {}
+  Information(const DiagnosedCase& given, const FinishedMotion& base)
+      : evidence_(given.data, given.lumen, base),
+        whitening_(evidence_, evidence_.problem()),
+        of_one_(whitening_(MatrixXd::Identity(evidence_.places().cols(), evidence_.places().cols()))) {}
 
-  void tell(const std::vector<std::string>& names) const {
-    tell("nuisances", allowing(white_, whitening_(nuisances_of(evidence_))), names);
-    for (const double size : discrepancies)
-      tell(fmt::format("allowed {}", size), with_discrepancy(white_, size), names);
+  void tell_beside_nuisances() const {
+    tell("nuisances", allowing(whitening_(evidence_.problem()), whitening_(nuisances_of(evidence_))), {});
+  }
+  void tell_beside_allowed(const DiagnosedCase& given, const FinishedMotion& base, const Sensitivities& sensitivities,
+                           const std::vector<std::string>& names) const {
+    const auto effects = catalogue_of(given.file, given.diagnosis);
+    const EffectProblem white = whitening_(problem_of(given, evidence_, base, sensitivities, effects));
+    for (const double size : discrepancies) tell(fmt::format("allowed {}", size), with_discrepancy(white, size), names);
   }
 
  private:
@@ -111,15 +110,15 @@ class Information {
     print(of, "known", std::sqrt(square));
     print(of, "gaussian", square / std::sqrt(gaussian_variance(of_one_(rows, Eigen::all).transpose() * weighted)));
     const Scores scores = scores_of(allowed, problem.changes(rows, Eigen::all), hidden);
-    for (const std::string& name : names) print(of, name, largest_of(name, scores));
+    for (const std::string& name : names) print(of, name, largest_of(name, problem, scores));
   }
   static void print(const std::string& of, const std::string& what, double z) {
     std::cout << fmt::format("{},{},{:.3f}\n", of, what, z);
   }
 
-  double largest_of(const std::string& name, const Scores& scores) const {
+  static double largest_of(const std::string& name, const EffectProblem& problem, const Scores& scores) {
     double largest = 0;
-    for (const Candidate& candidate : white_.candidates)
+    for (const Candidate& candidate : problem.candidates)
       if (candidate.name == name)
         for (const Index own : candidate.amplitudes)
           largest = std::max(largest, std::abs(scores.response(own)) / std::sqrt(scores.information(own, own)));
@@ -143,9 +142,7 @@ class Information {
   }
 
   Evidence evidence_;
-  EffectProblem as_data_;
   Whitening whitening_;
-  EffectProblem white_;
   MatrixXd of_one_;  ///< what each datum does to the numbers that are independent
 };
 
@@ -153,12 +150,16 @@ class Information {
 
 int main(int count, char** words) {
   if (count < 3) {
-    std::cerr << "diagnosis_information CASE.yaml DIR NAME...\n";
+    std::cerr << "diagnosis_information CASE.yaml DIR [NAME...]\n";
     return 2;
   }
   const DiagnosedCase given(words[1]);
   const auto folder = std::filesystem::absolute(words[2]);
   std::filesystem::create_directories(folder);
-  Information(given, Runs(given, folder)).tell({words + 3, words + count});
+  const FinishedMotion base = base_of(given, folder);
+  const Information information(given, base);
+  information.tell_beside_nuisances();
+  if (count > 3)
+    information.tell_beside_allowed(given, base, sensitivities_in(given, folder), {words + 3, words + count});
   return 0;
 }

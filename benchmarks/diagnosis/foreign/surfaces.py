@@ -33,16 +33,16 @@ class Lattice:
         return ((-s + 2 * s**2 - s**3) / 2, (2 - 5 * s**2 + 3 * s**3) / 2, (s + 4 * s**2 - 3 * s**3) / 2, (s**3 - s**2) / 2)
 
 
-def triangulation(generator):
+def triangulation(generator, around=AROUND, rings=ALONG):
     """Angles, places along [n] and triangles of a tube whose nodes are moved at random and whose diagonals change."""
-    angle, along = np.meshgrid((np.arange(AROUND) + 0.5) / AROUND * 2 * np.pi, np.linspace(0, LENGTH, ALONG), indexing="ij")
-    angle = angle + generator.uniform(-0.25, 0.25, angle.shape) * 2 * np.pi / AROUND
+    angle, along = np.meshgrid((np.arange(around) + 0.5) / around * 2 * np.pi, np.linspace(0, LENGTH, rings), indexing="ij")
+    angle = angle + generator.uniform(-0.25, 0.25, angle.shape) * 2 * np.pi / around
     along = along.copy()
-    along[:, 1:-1] += generator.uniform(-0.25, 0.25, (AROUND, ALONG - 2)) * LENGTH / (ALONG - 1)
+    along[:, 1:-1] += generator.uniform(-0.25, 0.25, (around, rings - 2)) * LENGTH / (rings - 1)
     triangles = []
-    for i in range(AROUND):
-        for j in range(ALONG - 1):
-            p, q = i * ALONG + j, (i + 1) % AROUND * ALONG + j
+    for i in range(around):
+        for j in range(rings - 1):
+            p, q = i * rings + j, (i + 1) % around * rings + j
             triangles += [(p, q, q + 1), (p, q + 1, p + 1)] if generator.random() < 0.5 else [(p, q, p + 1), (q, q + 1, p + 1)]
     return angle.ravel() % (2 * np.pi), along.ravel(), np.array(triangles)
 
@@ -107,16 +107,31 @@ class Moving:
         return self.lattice.at(self.nodes + (1 - share) * self.motion[after - 1] + share * self.motion[after], angle, along)
 
 
+def write(folder, frames, triangles):
+    """frames: moments and the nodes at them."""
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = ["file,time [s]"]
+    for k, (time, points) in enumerate(frames):
+        write_ply(folder / f"frame_{k}.ply", points, triangles)
+        rows.append(f"frame_{k}.ply,{time:.6f}")
+    (folder / "times.csv").write_text("\n".join(rows) + "\n")
+
+
 def make(run, folder, frames, deviation, length, correlation, seed):
     """Surfaces of a run at `frames` moments of a beat, and times.csv, into a folder."""
     moving, generator = Moving(run), np.random.default_rng(seed)
     angle, along, triangles = triangulation(generator)
     rest = np.c_[RADIUS * np.cos(angle), RADIUS * np.sin(angle), along]
-    folder.mkdir(parents=True, exist_ok=True)
-    rows = ["file,time [s]"]
-    for k, time in enumerate(moments(frames)):
+
+    def seen(time):
         points = moving.at(time, angle, along)
-        points += normals(points, triangles) * errors(rest, deviation, length, correlation, generator)[:, None]
-        write_ply(folder / f"frame_{k}.ply", points, triangles)
-        rows.append(f"frame_{k}.ply,{time:.6f}")
-    (folder / "times.csv").write_text("\n".join(rows) + "\n")
+        return points + normals(points, triangles) * errors(rest, deviation, length, correlation, generator)[:, None]
+
+    write(folder, [(time, seen(time)) for time in moments(frames)], triangles)
+
+
+def make_without_errors(run, folder, frames):
+    """The same so fine that chords across the triangles are no error either."""
+    moving, finer = Moving(run), 4
+    angle, along, triangles = triangulation(np.random.default_rng(0), finer * AROUND, finer * ALONG)
+    write(folder, [(time, moving.at(time, angle, along)) for time in moments(frames)], triangles)
