@@ -1,6 +1,8 @@
 /// How often what a diagnosis says with a probability is so. After tether diagnose CASE.yaml --output DIR:
 ///
-///     diagnosis_calibration CASE.yaml DIR DRAWS [FAMILY]
+///     diagnosis_calibration CASE.yaml DIR DRAWS [FAMILY [FIRST]]
+///
+/// Draws are numbered from FIRST (0); each is what its number says, whatever was drawn before.
 ///
 /// What is hidden is drawn from what the diagnosis expects beforehand: how many candidates, which, how large; so are
 /// all errors. Families beside "as assumed" draw data in another way than the diagnosis takes them for. Prints a line
@@ -155,13 +157,14 @@ class Calibration {
     const VectorXd made = surrogate_.effect_of(surrogate_.amplitudes({{c, size}}), family_.how);
     const SearchResult result = surrogate_.search(errors + made, {}, family_.how);
     const std::string judged = judgement(result, {c}, Verdict::missing);
-    print("power", size, judged == "right" || judged == "alike");
     print("power judged", fmt::format("{} at {}", name_of(surrogate_.problem.candidates[c]), size), judged);
     std::string objections;
     for (const SearchStep& step : result.path)
       objections +=
           fmt::format("{}{}", objections.empty() ? "" : " ", step.objection ? word_of(*step.objection) : "none");
     print("power objections", fmt::format("{} at {:.2f}", size, result.weighed.nothing), objections);
+    print("power", size, judged == "right" || judged == "alike");
+    std::cout << std::flush;
   }
 
   const Surrogate& surrogate_;
@@ -174,14 +177,15 @@ class Calibration {
 
 int main(int count, char** words) {
   if (count < 4) {
-    std::cerr << "diagnosis_calibration CASE.yaml DIR DRAWS [FAMILY]\n";
+    std::cerr << "diagnosis_calibration CASE.yaml DIR DRAWS [FAMILY [FIRST]]\n";
     return 2;
   }
   const Surrogate surrogate(words[1], words[2]);
   for (const Family& family : families) {
     if (count > 4 && family.name.find(words[4]) == std::string::npos) continue;
     Calibration calibration(surrogate, family);
-    for (int number = 0; number < std::atoi(words[3]); ++number) calibration.run(number);
+    const int first = count > 5 ? std::atoi(words[5]) : 0;
+    for (int number = first; number < first + std::atoi(words[3]); ++number) calibration.run(number);
   }
   return 0;
 }

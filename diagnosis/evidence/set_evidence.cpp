@@ -96,10 +96,11 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
   const Index patterns = problem.pattern_deviation.size();
   MatrixXd errors(columns.rows(), own + patterns);
   errors << problem.allowed(rows, ordinary), problem.patterns(rows, Eigen::seqN(0, patterns));
-  const VectorXd precision = problem.precision(rows) / (assumed.noise * assumed.noise);
-  const auto weight = precision.asDiagonal();
-  const MatrixXd among = errors.transpose() * weight * errors, across = errors.transpose() * weight * columns,
-                 gram = columns.transpose() * weight * columns;
+  const VectorXd root = problem.precision(rows).cwiseSqrt() / assumed.noise;
+  errors = root.asDiagonal() * errors;
+  columns = root.asDiagonal() * columns;
+  const MatrixXd among = errors.transpose() * errors, across = errors.transpose() * columns,
+                 gram = columns.transpose() * columns;
   VectorXd deviations(errors.cols());
   for (Index k = 0; k < own; ++k) {
     const double given = problem.allowed_deviation(ordinary[static_cast<std::size_t>(k)]);

@@ -33,16 +33,16 @@ class Lattice:
         return ((-s + 2 * s**2 - s**3) / 2, (2 - 5 * s**2 + 3 * s**3) / 2, (s + 4 * s**2 - 3 * s**3) / 2, (s**3 - s**2) / 2)
 
 
-def triangulation(generator):
+def triangulation(generator, around=AROUND, rings=ALONG):
     """Angles, places along [n] and triangles of a tube whose nodes are moved at random and whose diagonals change."""
-    angle, along = np.meshgrid((np.arange(AROUND) + 0.5) / AROUND * 2 * np.pi, np.linspace(0, LENGTH, ALONG), indexing="ij")
-    angle = angle + generator.uniform(-0.25, 0.25, angle.shape) * 2 * np.pi / AROUND
+    angle, along = np.meshgrid((np.arange(around) + 0.5) / around * 2 * np.pi, np.linspace(0, LENGTH, rings), indexing="ij")
+    angle = angle + generator.uniform(-0.25, 0.25, angle.shape) * 2 * np.pi / around
     along = along.copy()
-    along[:, 1:-1] += generator.uniform(-0.25, 0.25, (AROUND, ALONG - 2)) * LENGTH / (ALONG - 1)
+    along[:, 1:-1] += generator.uniform(-0.25, 0.25, (around, rings - 2)) * LENGTH / (rings - 1)
     triangles = []
-    for i in range(AROUND):
-        for j in range(ALONG - 1):
-            p, q = i * ALONG + j, (i + 1) % AROUND * ALONG + j
+    for i in range(around):
+        for j in range(rings - 1):
+            p, q = i * rings + j, (i + 1) % around * rings + j
             triangles += [(p, q, q + 1), (p, q + 1, p + 1)] if generator.random() < 0.5 else [(p, q, p + 1), (q, q + 1, p + 1)]
     return angle.ravel() % (2 * np.pi), along.ravel(), np.array(triangles)
 
@@ -87,21 +87,51 @@ def motion_of(run):
     return nodes, records["vectors"][later].astype(float), records["time"][later]
 
 
-def make(run, folder, frames, deviation, length, correlation, seed):
-    """Surfaces of a run at `frames` moments of a beat, and times.csv, into a folder."""
-    nodes, motion, times = motion_of(run)
-    generator = np.random.default_rng(seed)
-    lattice = Lattice(nodes)
-    angle, along, triangles = triangulation(generator)
-    rest = np.c_[RADIUS * np.cos(angle), RADIUS * np.sin(angle), along]
+def moments(frames):
+    """Times of the frames of a beat [s]."""
+    return np.arange(frames) * PERIOD / frames
+
+
+class Moving:
+    """A run's lumen at any place and moment, linear between what was recorded."""
+
+    def __init__(self, run):
+        self.nodes, motion, times = motion_of(run)
+        self.lattice = Lattice(self.nodes)
+        self.times, self.motion = np.concatenate([[0], times]), np.concatenate([np.zeros((1, *motion.shape[1:])), motion])
+
+    def at(self, time, angle, along):
+        """angle, along [n] -> places [n x 3]."""
+        after = min(max(int(np.searchsorted(self.times, time)), 1), len(self.times) - 1)
+        share = (time - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
+        return self.lattice.at(self.nodes + (1 - share) * self.motion[after - 1] + share * self.motion[after], angle, along)
+
+
+def write(folder, frames, triangles):
+    """frames: moments and the nodes at them."""
     folder.mkdir(parents=True, exist_ok=True)
     rows = ["file,time [s]"]
-    before, padded = np.concatenate([[0], times]), np.concatenate([np.zeros((1, *motion.shape[1:])), motion])
-    for k, time in enumerate(np.arange(frames) * PERIOD / frames):
-        after = min(max(int(np.searchsorted(before, time)), 1), len(before) - 1)
-        share = (time - before[after - 1]) / (before[after] - before[after - 1])
-        points = lattice.at(nodes + (1 - share) * padded[after - 1] + share * padded[after], angle, along)
-        points += normals(points, triangles) * errors(rest, deviation, length, correlation, generator)[:, None]
+    for k, (time, points) in enumerate(frames):
         write_ply(folder / f"frame_{k}.ply", points, triangles)
         rows.append(f"frame_{k}.ply,{time:.6f}")
     (folder / "times.csv").write_text("\n".join(rows) + "\n")
+
+
+def make(run, folder, frames, deviation, length, correlation, seed):
+    """Surfaces of a run at `frames` moments of a beat, and times.csv, into a folder."""
+    moving, generator = Moving(run), np.random.default_rng(seed)
+    angle, along, triangles = triangulation(generator)
+    rest = np.c_[RADIUS * np.cos(angle), RADIUS * np.sin(angle), along]
+
+    def seen(time):
+        points = moving.at(time, angle, along)
+        return points + normals(points, triangles) * errors(rest, deviation, length, correlation, generator)[:, None]
+
+    write(folder, [(time, seen(time)) for time in moments(frames)], triangles)
+
+
+def make_without_errors(run, folder, frames):
+    """The same so fine that chords across the triangles are no error either."""
+    moving, finer = Moving(run), 4
+    angle, along, triangles = triangulation(np.random.default_rng(0), finer * AROUND, finer * ALONG)
+    write(folder, [(time, moving.at(time, angle, along)) for time in moments(frames)], triangles)
