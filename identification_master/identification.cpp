@@ -23,10 +23,6 @@ void check_columns(const Measurement& source, const std::vector<std::string>& kn
 /// gives no sensitivity to numbers that have none (at 1 it does), and the coupling's tolerance does not show yet.
 constexpr double nearness = 0.05;
 
-MatrixXd diagonal(const VectorXd& variances) {
-  return variances.asDiagonal();
-}
-
 }  // namespace
 
 DataTotals totals_of(const std::vector<EstimateRecord>& records) {
@@ -48,8 +44,7 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
       parameters_(parameters),
       precision_(precision),
       ensemble_(ensemble),
-      filter_(parameters.prior_mean(),
-              diagonal(parameters.prior_variances() * (plan.corrects ? 1 : nearness * nearness))) {
+      filter_(parameters.prior_mean(), parameters.prior_covariance() * (plan.corrects ? 1 : nearness * nearness)) {
   for (const auto& observable : ensemble.model().observables) moment_.names.push_back(observable.name);
   moment_.points = observations.points();
   for (const Measurement* source : observations.FlowObservations::all()) {
@@ -60,7 +55,7 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
   state_.theta = filter_.particles();
   state_.states = ensemble.initial_state().replicate(1, particles);  // L_x = 0
   state_.memories.resize(static_cast<std::size_t>(particles));
-  state_.records.push_back({plan.start, parameters.prior_mean(), diagonal(parameters.prior_variances())});
+  state_.records.push_back({plan.start, parameters.prior_mean(), parameters.prior_covariance()});
 }
 
 void Identification::restore(IdentificationState state) {
@@ -100,7 +95,7 @@ void Identification::diffuse_and_forget() {
   filter_.diffuse(parameters_.walked(plan_.dt));
   if (plan_.memory_time > 0)
     state_.states *=
-        filter_.forget(std::exp(-plan_.dt / plan_.memory_time), diagonal(parameters_.prior_variances())).transpose();
+        filter_.forget(std::exp(-plan_.dt / plan_.memory_time), parameters_.prior_covariance()).transpose();
 }
 
 bool Identification::is_observed(std::int64_t step) const {

@@ -1,0 +1,101 @@
+"""Figures of direct and observed runs: 7 to 10, 13 and 14. Each makes its runs, draws, and returns what the page says."""
+import csv
+import math
+import shutil
+import subprocess
+
+import lumens
+import plots
+from anatomy import ERROR_REGIONS, vessel
+from distances import moments, over_beat, whole
+from models import BY_HAND, FRAME_APART, IMAGE_PRESSURE, OUTLETS, TRUTH, supports
+from workshop import PROGRAMS
+
+GAINS = (0, 3, 15, 30)
+CLAMPED = [f"solid.rings.{name}_ring" for name in ("ascending", *OUTLETS)]
+
+
+def regions_picture(study, figure):
+    """Figure 7: support regions and those for distances, as tether mesh draws them."""
+    undivided = vessel(study.shop, "undivided", study.size.model, divided=False)
+    for case, name in ((study.model, "support"), (undivided, "error")):
+        folder = study.shop.folder / f"regions_{name}"
+        if not (folder / "mesh/regions.png").exists():
+            subprocess.run([PROGRAMS / "tether", "mesh", case, "--output", folder, "--overwrite"], check=True, capture_output=True)
+        shutil.copy(folder / "mesh/regions.png", figure(f"figure7_{name}"))
+
+
+def apparent(study, figure):
+    """Figure 8, from any compared run."""
+    found = moments(study.direct("none", {}), apparent=True)
+    plots.distances(figure("figure8"), [("apparent motion", found)])
+    return {region: over_beat(found, region) for region in ERROR_REGIONS}
+
+
+def clamped(study, figure):
+    """Figure 9: both ends fixed, and nothing else holds the wall."""
+    fields = {path: {"type": "clamped"} for path in CLAMPED}
+    for path in list(supports(TRUTH)):
+        if path.startswith("solid.support.regions.") and supports(TRUTH)[path]:
+            fields[f"{path}.stiffness"] = fields[f"{path}.damping"] = 0
+    fields |= {"solid.support.regions.small_arteries.stiffness": 0, "solid.support.regions.small_arteries.damping": 0}
+    found = moments(study.direct("clamped", fields))
+    plots.distances(figure("figure9"), [("clamped at its ends, no support", found)])
+    return {region: over_beat(found, region) for region in ERROR_REGIONS}
+
+
+def observed(study, figure):
+    """Figure 10: calibrated by hand, as the paper's, pulled toward the data by four gains, from the right start and a wrong one."""
+    table = {}
+    for start, fields in (("right", {}), ("wrong", study.wrong_start())):
+        rows = []
+        for gain in GAINS:
+            folder = study.direct(f"observed_{gain}_{start}", {"observer.gain": gain, **supports(BY_HAND), **fields})
+            found = moments(folder)
+            rows.append((f"gain {gain} 1/s, {start} start", found))
+            table[start, gain] = (whole(folder, "training"), whole(folder, "held_out"), max(v for m in found for v in m.linf.values()))
+        plots.distances(figure(f"figure10_{start}"), rows)
+    return table
+
+
+def direct_runs(study, figure, identified):
+    """Figure 13. identified: [(name, values by region)]."""
+    models = [("none", "no support", {}), ("by_hand", "by hand", supports(BY_HAND)), *((f"direct_{name}", title, supports(values)) for name, title, values in identified)]
+    rows, table = [], {}
+    for name, title, fields in models:
+        folder = study.direct(name, fields)
+        rows.append((title, moments(folder)))
+        table[title] = (whole(folder, "training"), whole(folder, "held_out"), {region: over_beat(rows[-1][1], region)[0] for region in ERROR_REGIONS})
+    plots.distances(figure("figure13"), rows)
+    return table
+
+
+def series(folder):
+    with open(folder / "timeseries.csv") as lines:
+        heads = next(csv.reader(lines), [])
+        rows = [[float(v) if v else math.nan for v in row] for row in csv.reader(lines) if row and not row[0].startswith("#")]
+    names = [head.split("[")[0].strip() for head in heads]
+    return dict(zip(names, zip(*rows)))
+
+
+def contours_and_openings(study, figure, identified):
+    """Figure 14: outlines at peak systole, and flow and pressure at the outlets. identified: name of a run."""
+    truth, found = series(study.truth_run), series(study.shop.folder / identified)
+    peak = truth["time"][max(range(len(truth["time"])), key=lambda i: truth["fluid.ascending.pressure"][i])]
+    frame = round(peak / FRAME_APART)
+    line = lumens.centreline(study.shop.folder / "plain_mesh/model/centreline.csv", "descending")
+    panels = []
+    for distance in (4, 17, 24):
+        origin, way = lumens.place_along(line, distance)
+        outline = lambda lumen: lumens.cut(*lumen, origin, way, 3.0)
+        panels.append((f"{10 * distance} mm from the root, {frame * FRAME_APART:.2f} s", {
+            "data": outline(lumens.measured(study.data[study.size.seeds[0]].parent, frame)),
+            "by hand": outline(lumens.of_run(study.shop.folder / "by_hand", frame)),
+            "identified": outline(lumens.of_run(study.shop.folder / identified, frame))}))
+    plots.outlines(figure("figure14_outlines"), panels)
+    mmhg = lambda of, name: [IMAGE_PRESSURE + p / 1333.22 for p in of[f"fluid.{name}.pressure"]]
+    curves = [(f"{o.replace('_', ' ')}: flow [ml/s]", {"truth": (truth["time"], truth[f"fluid.{o}.flow"]), "identified": (found["time"], found[f"fluid.{o}.flow"])}) for o in OUTLETS]
+    curves += [(f"{o.replace('_', ' ')}: pressure [mmHg]", {"truth": (truth["time"], mmhg(truth, o)), "identified": (found["time"], mmhg(found, o))}) for o in OUTLETS]
+    plots.curves(figure("figure14_outlets"), curves)
+    total = sum(sum(found[f"fluid.{o}.flow"]) for o in OUTLETS)
+    return {o: (min(mmhg(found, o)), max(mmhg(found, o)), 100 * sum(found[f"fluid.{o}.flow"]) / total) for o in OUTLETS}
