@@ -11,7 +11,6 @@ MM = 10  # in a cm
 @dataclasses.dataclass
 class Moment:
     time: float  # [s]
-    held_out: bool
     l2: dict  # by error region [mm]
     linf: dict
 
@@ -25,20 +24,24 @@ def joined(groups, regions):
     return MM * math.sqrt(sum(g["extent"] * g["l2"] ** 2 for g in parts) / area), MM * max(g["linf"] for g in parts)
 
 
+def source_of(folder, name):
+    return next(s for s in read(folder / "comparison.json")["sources"] if s["name"] == name)
+
+
 def moments(folder, apparent=False):
-    """At each frame. apparent: of the imaged lumen, in place of the run's."""
+    """At each of the ten frames. apparent: of the imaged lumen, in place of the run's."""
     found = []
-    for moment in read(folder / "comparison.json")["sources"][0]["moments"]:
+    for moment in source_of(folder, "twin")["moments"]:
         groups = [{**g["apparent"], "region": g["region"]} if apparent else g for g in moment["groups"]]
         each = {name: joined(groups, parts) for name, parts in ERROR_REGIONS.items()}
-        found.append(Moment(moment["time"], moment["held_out"], {n: v[0] for n, v in each.items()}, {n: v[1] for n, v in each.items()}))
+        found.append(Moment(moment["time"], {n: v[0] for n, v in each.items()}, {n: v[1] for n, v in each.items()}))
     return found
 
 
-def whole(folder, kind, apparent=False):
-    """Root mean square over the lumen and all frames of a kind, "training" or "held_out" [mm]."""
-    group = next(g for g in read(folder / "comparison.json")["sources"][0][kind]["all_frames"] if g["region"] is None)
-    return MM * (group["apparent"] if apparent else group)["l2"]
+def whole(folder):
+    """Root mean square over the lumen and all frames [mm]: of the data, and of the frames between."""
+    group = lambda source, kind: next(g for g in source_of(folder, source)[kind]["all_frames"] if g["region"] is None)
+    return MM * group("twin", "training")["l2"], MM * group("between", "held_out")["l2"]
 
 
 def over_beat(found, region):

@@ -4,7 +4,7 @@ import math
 
 import plots
 from anatomy import SUPPORTED
-from models import ELEVEN, LIGHT, PRIORS, TRUE_OF_FOUR, TRUTH, eleven, four, theta
+from models import ELEVEN, HELD_OUT, LIGHT, PAPER_WEIGHTS, PRIORS, TRUE_OF_FOUR, TRUTH, eleven, four, theta
 from workshop import read
 
 
@@ -39,11 +39,12 @@ def values_by_region(folder):
 
 
 def four_parameters(study, figure):
-    """Figure 11: the paper's two priors, and a wide one of our own."""
+    """Figure 11: the paper's two priors with its weights, the same with the noise as it is, and a wide prior of our own."""
     folders = {prior: study.identified(f"four_{prior}", four(prior)) for prior in PRIORS}
+    folders |= {f"{prior}_weighed": study.identified(f"four_{prior}_weighed", four(prior, **PAPER_WEIGHTS)) for prior in ("light", "by_hand")}
     thetas = {name: theta(value) for name, value in TRUE_OF_FOUR.items()}
-    titles = {"light": "prior: theta = 0", "by_hand": "prior: by hand", "wide": "prior: wide"}
-    plots.evolutions(figure("figure11"), [(titles[p], *evolution(f), thetas) for p, f in folders.items()])
+    titles = {"light_weighed": "prior theta = 0, the paper's weights", "by_hand_weighed": "prior by hand, the paper's weights", "wide": "wide prior, noise as it is"}
+    plots.evolutions(figure("figure11"), [(title, *evolution(folders[p]), thetas) for p, title in titles.items()])
     return folders
 
 
@@ -91,10 +92,10 @@ def joint(study):
 
 
 def between_frames(study):
-    """Corrected by chords between frames, or at the frames only: with the study's data, and without noise and held-out frames."""
-    quiet = study.twin(study.size.seeds[0], (), "0.01 mm", name="data_quiet")
+    """Corrected by chords between frames, or at the frames only: with the study's data, and with hardly an error but the voxels'."""
+    quiet = study.twin("data_quiet", study.size.seeds[0], deviation="0.01 mm")
     table = {}
-    for data, kind in ((None, "the study's data"), (quiet, "errors of 0.01 mm, all frames")):
+    for data, kind in ((None, "the study's data"), (quiet, "errors of 0.01 mm beside the voxels'")):
         for observe in ("every_step", "frames"):
             fields = four("wide", 0, **{"identification.observe": observe})
             if data is None:
@@ -107,5 +108,5 @@ def between_frames(study):
 
 def diagnosed(study):
     """What tether diagnose says to the same data, from the model without support: springs and contacts in each region, loose rings, a stiffer wall."""
-    case = study.shop.case("diagnosed", study.data[study.size.seeds[0]], {"diagnosis": {"candidates": ["visco_elastic", "contact", "stiffness_factor"], "most": 2}})
+    case = study.shop.case("diagnosed", study.data[study.size.seeds[0]], {"diagnosis": {"candidates": ["visco_elastic", "contact", "stiffness_factor"], "most": 2}, "observations.surfaces.twin.held_out": HELD_OUT})
     return read(study.shop.make("diagnose", case, after=[f"data_{study.size.seeds[0]}"]) / "diagnosis.json")

@@ -15,7 +15,8 @@ def unpacked(packed):
 def of_run(folder, frame):
     """Positions [n x 3] and triangles of a compared run at a frame."""
     wall = read(folder / "wall.json")
-    return unpacked(wall["sources"][0]["moments"][frame]["positions"]), numpy.array(wall["triangles"]).reshape(-1, 3)
+    source = next(s for s in wall["sources"] if s["name"] == "twin")
+    return unpacked(source["moments"][frame]["positions"]), numpy.array(wall["triangles"]).reshape(-1, 3)
 
 
 def measured(folder, frame):

@@ -5,6 +5,7 @@ import subprocess
 from anatomy import ERROR_REGIONS
 
 COLOURS = ("#1b6ca8", "#d1495b", "#edae49", "#3a7d44", "#7d5ba6", "#444444", "#2ab7ca", "#fe4a49", "#b5651d", "#88aa00", "#cc79a7")
+KEY = "set key top left horizontal maxcols 3 font 'sans,8'"
 SHOWN = [name.replace("_", " ") for name in ERROR_REGIONS]
 
 
@@ -31,7 +32,7 @@ def distances(file, rows):
         for column, (norm, name) in enumerate((("l2", "L2"), ("linf", "largest"))):
             first = 2 + column * len(SHOWN)
             lines = ", ".join(f"$d{k} using 1:{first + i} with linespoints lw 1.5 pt 7 ps 0.5 lc rgb '{COLOURS[i]}' title '{region}'" for i, region in enumerate(SHOWN))
-            script += f"set title '{title}: {name} [mm]'\nset yrange [0:{1.05 * top[column]:.3g}]\n{'set key top left font ' + repr('sans,8') if k == column == 0 else 'unset key'}\nplot {lines}\n"
+            script += f"set title '{title}: {name} [mm]'\nset yrange [0:{1.3 * top[column]:.3g}]\n{KEY if k == column == 0 else 'unset key'}\nplot {lines}\n"
     gnuplot(script + "unset multiplot\n")
 
 

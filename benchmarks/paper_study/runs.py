@@ -53,7 +53,7 @@ def observed(study, figure):
             folder = study.direct(f"observed_{gain}_{start}", {"observer.gain": gain, **supports(BY_HAND), **fields})
             found = moments(folder)
             rows.append((f"gain {gain} 1/s, {start} start", found))
-            table[start, gain] = (whole(folder, "training"), whole(folder, "held_out"), max(v for m in found for v in m.linf.values()))
+            table[start, gain] = (*whole(folder), max(v for m in found for v in m.linf.values()))
         plots.distances(figure(f"figure10_{start}"), rows)
     return table
 
@@ -65,7 +65,7 @@ def direct_runs(study, figure, identified):
     for name, title, fields in models:
         folder = study.direct(name, fields)
         rows.append((title, moments(folder)))
-        table[title] = (whole(folder, "training"), whole(folder, "held_out"), {region: over_beat(rows[-1][1], region)[0] for region in ERROR_REGIONS})
+        table[title] = (*whole(folder), {region: over_beat(rows[-1][1], region)[0] for region in ERROR_REGIONS})
     plots.distances(figure("figure13"), rows)
     return table
 
