@@ -36,9 +36,8 @@ class Workshop:
 
     def __init__(self, folder, quiet=False):
         self.folder, self.quiet = folder, quiet
-        self.folder.mkdir(parents=True, exist_ok=True)
-        self.ledger = folder / "steps.json"
-        self.steps = json.loads(self.ledger.read_text()) if self.ledger.exists() else {}
+        self.ledger = folder / "steps"  # a file for each
+        self.ledger.mkdir(parents=True, exist_ok=True)
         self.used = []  # names of this study's steps, kept or made
 
     def case(self, name, base, fields):
@@ -53,8 +52,8 @@ class Workshop:
         name = name or case.stem
         folder = self.folder / name
         name += "_compared" if verb == "compare" else ""  # beside its run
-        key = hashlib.sha1((verb + self._text(case) + "".join(self.steps[step]["key"] for step in after)).encode()).hexdigest()
-        before = self.steps.get(name, {})
+        key = hashlib.sha1((verb + self._text(case) + "".join(self.step(earlier)["key"] for earlier in after)).encode()).hexdigest()
+        before = self.step(name)
         self.used.append(name)
         if before.get("key") == key and before.get("cpu_seconds") is not None and (folder / RESULTS[verb]).exists():
             return folder
@@ -67,16 +66,19 @@ class Workshop:
             raise SystemExit(f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
         self._note(name, key, children_cpu() - cpu, time.time() - begun)
         if not self.quiet:
-            print(f"{verb} {name}: {self.steps[name]['cpu_seconds']:.1f} CPU s", flush=True)
+            print(f"{verb} {name}: {self.step(name)['cpu_seconds']:.1f} CPU s", flush=True)
         return folder
 
     def cpu_seconds(self):
         """Of all steps of this study."""
-        return sum(self.steps[name]["cpu_seconds"] for name in dict.fromkeys(self.used))
+        return sum(self.step(name)["cpu_seconds"] for name in set(self.used))
+
+    def step(self, name):
+        file = self.ledger / f"{name}.json"
+        return read(file) if file.exists() else {}
 
     def _note(self, name, key, cpu, wall):
-        self.steps[name] = {"key": key, "cpu_seconds": cpu, "wall_seconds": wall}
-        self.ledger.write_text(json.dumps(self.steps, indent=1))
+        (self.ledger / f"{name}.json").write_text(json.dumps({"key": key, "cpu_seconds": cpu, "wall_seconds": wall}))
 
     def _text(self, case):
         text = case.read_text()
