@@ -40,15 +40,17 @@ def vessel(shop, name, mesh, divided=True):
     return beat
 
 
-def supports(values, divided=True):
-    """Fields of a case whose springs have these stiffnesses, by support region or error region."""
+def held(values):
+    """Fields of a case that builds on vessel(): springs and dampers in all support regions, in place of those of the config."""
     fields = {}
     for name, parts in ERROR_REGIONS.items():
-        if name == "small_arteries":
-            continue
-        if divided and parts != [name]:
+        if parts != [name]:
             fields[f"solid.support.regions.{name}"] = None
-        for region in parts if divided else [name]:
-            fields[f"solid.support.regions.{region}"] = {"type": "visco_elastic", "stiffness": values[region if region in values else name], "damping": 2e3}
-    fields[OUTLET] = values["outlet"]
-    return fields
+        for region in [part for part in parts if part in SUPPORTED]:
+            fields[f"solid.support.regions.{region}"] = {"type": "visco_elastic", "stiffness": values[region], "damping": 2e3}
+    return {**fields, OUTLET: values["outlet"]}
+
+
+def supports(values):
+    """Fields of a case that builds on one with held(): other stiffnesses."""
+    return {**{stiffness(region): values[region] for region in SUPPORTED}, OUTLET: values["outlet"]}

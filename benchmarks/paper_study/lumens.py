@@ -19,6 +19,31 @@ def of_run(folder, frame):
     return unpacked(source["moments"][frame]["positions"]), numpy.array(wall["triangles"]).reshape(-1, 3)
 
 
+def normals(points, triangles):
+    """At nodes, of the triangles around them by area."""
+    corners = points[triangles]
+    areas = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sums = numpy.zeros_like(points)
+    for corner in range(3):
+        numpy.add.at(sums, triangles[:, corner], areas)
+    return sums / numpy.linalg.norm(sums, axis=1)[:, None]
+
+
+def off_the_chord(folder, regions):
+    """How far a run's lumen is from the middle of where it was at two frames, half way between them, along its normal:
+    root mean square over the beat and the largest [mm], by region. regions: {name: names in the run}."""
+    wall = read(folder / "wall.json")
+    triangles = numpy.array(wall["triangles"]).reshape(-1, 3)
+    at = {s["name"]: [unpacked(m["positions"]) for m in s["moments"]] for s in wall["sources"]}
+    off = []
+    for k, points in enumerate(at["between"][:-1]):
+        chord = (at["twin"][k] + at["twin"][k + 1]) / 2
+        off.append(10 * numpy.sum((points - chord) * normals(points, triangles), axis=1))
+    names = numpy.array(wall["regions"])[numpy.array(wall["region"])]
+    of = lambda parts: numpy.array(off)[:, numpy.isin(names, parts)]
+    return {name: (float(numpy.sqrt(numpy.mean(of(parts) ** 2))), float(numpy.abs(of(parts)).max())) for name, parts in regions.items()}
+
+
 def measured(folder, frame):
     """The same of a twin's surface."""
     piece = xml.etree.ElementTree.parse(folder / f"data/lumen_{frame:02}.vtp").getroot().find(".//Piece")

@@ -1,7 +1,7 @@
 """Truth, model and data of the study, and the cases of its figures."""
 import math
 
-from anatomy import OUTLET, PARTS, SUPPORTED, stiffness, supports, vessel
+from anatomy import OUTLET, PARTS, SUPPORTED, held, stiffness, vessel
 from workshop import read
 
 LIGHT = 1e4  # dyn/cm3: the paper's theta = 0, k = LIGHT 2^theta
@@ -44,9 +44,9 @@ class Study:
     def prepare(self):
         truth = vessel(self.shop, "fine", self.size.truth)
         self.beat = vessel(self.shop, "plain", self.size.model)
-        self.truth = self.shop.case("truth", truth, {"time.step": self.size.truth.step, "output.write_every": 100000, **supports(TRUTH)})
+        self.truth = self.shop.case("truth", truth, {"time.step": self.size.truth.step, "output.write_every": 100000, **held(TRUTH)})
         self.truth_run = self.shop.make("simulate", self.truth, after=["fine_mesh", "fine_outlets"])
-        self.model = self.shop.case("model", self.beat, {"time.step": self.size.model.step, "output.write_every": 100000, **supports(NONE)})
+        self.model = self.shop.case("model", self.beat, {"time.step": self.size.model.step, "output.write_every": 100000, **held(NONE)})
         self.data = {seed: self.twin(f"data_{seed}", seed) for seed in self.size.seeds}
         self.between = self.twin("between", 100, first=FRAME_APART / 2)
 

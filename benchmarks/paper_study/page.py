@@ -150,8 +150,9 @@ def joint(of):
             f"Goal: at most 1.15 times the filter alone ({alone:.0f} CPU s).\n")
 
 
-def between(of):
-    return ("\n## Between frames\n\nDiscrepancies interpolated in time between frames 90 ms apart (`observe: every_step`, the default), or at frames only (`frames`); wide prior, no observer. Error of theta in powers of two, and in deviations:\n" +
+def between(of, chords):
+    return ("\n## Between frames\n\nDiscrepancies interpolated in time between frames 90 ms apart (`observe: every_step`, the default), or at frames only (`frames`). A lumen is off the chord between two frames, half way between them, along its normal (the run set by hand):\n" +
+            by_region({"off the chord": chords}) + "Wide prior, no observer: error of theta in powers of two, and in deviations:\n" +
             table(("data", "observe", "bias", *next(iter(of.values()))), [(kind, f"`{observe}`", f"{(sum(r['octaves'] ** 2 for r in rows.values()) / len(rows)) ** 0.5:.2f}", *(f"{r['octaves']:+.2f} ({r['deviations']:+.1f})" for r in rows.values())) for (kind, observe), rows in of.items()]))
 
 

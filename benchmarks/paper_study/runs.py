@@ -6,9 +6,9 @@ import subprocess
 
 import lumens
 import plots
-from anatomy import ERROR_REGIONS, vessel
+from anatomy import ERROR_REGIONS, SUPPORTED, supports, vessel
 from distances import moments, over_beat, whole
-from models import BY_HAND, FRAME_APART, IMAGE_PRESSURE, OUTLETS, TRUTH, supports
+from models import BY_HAND, FRAME_APART, IMAGE_PRESSURE, OUTLETS
 from workshop import PROGRAMS
 
 GAINS = (0, 3, 15, 30)
@@ -35,10 +35,7 @@ def apparent(study, figure):
 def clamped(study, figure):
     """Figure 9: both ends fixed, and nothing else holds the wall."""
     fields = {path: {"type": "clamped"} for path in CLAMPED}
-    for path in list(supports(TRUTH)):
-        if path.startswith("solid.support.regions.") and supports(TRUTH)[path]:
-            fields[f"{path}.stiffness"] = fields[f"{path}.damping"] = 0
-    fields |= {"solid.support.regions.small_arteries.stiffness": 0, "solid.support.regions.small_arteries.damping": 0}
+    fields |= {f"solid.support.regions.{region}": {"stiffness": 0, "damping": 0} for region in (*SUPPORTED, "small_arteries")}
     found = moments(study.direct("clamped", fields))
     plots.distances(figure("figure9"), [("clamped at its ends, no support", found)])
     return {region: over_beat(found, region) for region in ERROR_REGIONS}
