@@ -8,15 +8,17 @@ import numpy
 from workshop import read
 
 
-def unpacked(packed):
-    return numpy.frombuffer(base64.b64decode(packed["float32"]), dtype="<f4").reshape(packed["shape"]).astype(float)
+def positions(moment):
+    """Of the nodes at a moment of wall.json [n x 3]."""
+    packed = moment["positions"]  # a row for each direction
+    return numpy.frombuffer(base64.b64decode(packed["float32"]), dtype="<f4").reshape(packed["shape"]).astype(float).T
 
 
 def of_run(folder, frame):
     """Positions [n x 3] and triangles of a compared run at a frame."""
     wall = read(folder / "wall.json")
     source = next(s for s in wall["sources"] if s["name"] == "twin")
-    return unpacked(source["moments"][frame]["positions"]), numpy.array(wall["triangles"]).reshape(-1, 3)
+    return positions(source["moments"][frame]), numpy.array(wall["triangles"]).reshape(-1, 3)
 
 
 def normals(points, triangles):
@@ -34,7 +36,7 @@ def off_the_chord(folder, regions):
     root mean square over the beat and the largest [mm], by region. regions: {name: names in the run}."""
     wall = read(folder / "wall.json")
     triangles = numpy.array(wall["triangles"]).reshape(-1, 3)
-    at = {s["name"]: [unpacked(m["positions"]) for m in s["moments"]] for s in wall["sources"]}
+    at = {s["name"]: [positions(m) for m in s["moments"]] for s in wall["sources"]}
     off = []
     for k, points in enumerate(at["between"][:-1]):
         chord = (at["twin"][k] + at["twin"][k + 1]) / 2
