@@ -5,7 +5,7 @@ import math
 import plots
 from anatomy import SUPPORTED
 from models import ELEVEN, HELD_OUT, LIGHT, PAPER_WEIGHTS, PRIORS, TRUE_OF_FOUR, TRUTH, eleven, four, theta
-from workshop import read
+from workshop import Failed, read
 
 
 def evolution(folder):
@@ -40,17 +40,17 @@ def values_by_region(folder):
 
 def four_parameters(study, figure):
     """Figure 11: the paper's two priors with its weights, the same with the noise as it is, and a wide prior of our own."""
-    folders = {prior: study.identified(f"four_{prior}", four(prior)) for prior in PRIORS}
-    folders |= {f"{prior}_weighed": study.identified(f"four_{prior}_weighed", four(prior, **PAPER_WEIGHTS)) for prior in ("light", "by_hand")}
+    fields = {**{prior: four(prior) for prior in PRIORS}, **{f"{prior}_weighed": four(prior, **PAPER_WEIGHTS) for prior in ("light", "by_hand")}}
+    folders = study.shop.those_made({prior: lambda prior=prior: study.identified(f"four_{prior}", fields[prior]) for prior in fields})
     thetas = {name: theta(value) for name, value in TRUE_OF_FOUR.items()}
     titles = {"light_weighed": "prior theta = 0, the paper's weights", "by_hand_weighed": "prior by hand, the paper's weights", "wide": "wide prior, noise as it is"}
-    plots.evolutions(figure("figure11"), [(title, *evolution(folders[p]), thetas) for p, title in titles.items()])
+    plots.evolutions(figure("figure11"), [(title, *evolution(folders[p]), thetas) for p, title in titles.items() if p in folders])
     return folders
 
 
 def seeds(study):
     """The wide prior on other errors of the data."""
-    return {seed: found(study.identified(f"four_wide_seed_{seed}", four("wide"), seed), TRUE_OF_FOUR) for seed in study.size.seeds[1:]}
+    return study.shop.those_made({seed: lambda seed=seed: found(study.identified(f"four_wide_seed_{seed}", four("wide"), seed), TRUE_OF_FOUR) for seed in study.size.seeds[1:]})
 
 
 def eleven_parameters(study, figure, earlier):
@@ -79,31 +79,31 @@ def rms(rows):
     return math.sqrt(sum(r["octaves"] ** 2 for r in rows.values()) / len(rows))
 
 
+def judged(study, name, fields):
+    """Parameters, bias, cost and misfit of an identification; None: it broke off."""
+    try:
+        folder = study.identified(name, fields)
+    except Failed as failed:
+        print(failed)
+        return None
+    rows = found(folder, TRUE_OF_FOUR)
+    return rows, rms(rows), cost(folder), read(folder / "estimate.json")["innovations"]["chi_square_per_datum"]
+
+
 def joint(study):
     """The filter alone and with the observer, from the right start and a wrong one, with the wide prior."""
-    table = {}
-    for start, fields in (("right", {}), ("wrong", study.wrong_start())):
-        for gain in (0, 3):
-            name = "four_wide" if (start, gain) == ("right", 3) else f"joint_{gain}_{start}"
-            folder = study.identified(name, four("wide", gain, **fields))
-            rows = found(folder, TRUE_OF_FOUR)
-            table[start, gain] = (rows, rms(rows), cost(folder), read(folder / "estimate.json")["innovations"]["chi_square_per_datum"])
-    return table
+    starts, names = {"right": {}, "wrong": study.wrong_start()}, {("right", 3): "four_wide"}
+    return study.shop.those_made({(start, gain): lambda start=start, gain=gain: judged(study, names.get((start, gain), f"joint_{gain}_{start}"), four("wide", gain, **starts[start]))
+                                  for start in starts for gain in (0, 3)})
 
 
 def between_frames(study):
     """Corrected by chords between frames, or at the frames only: with the study's data, and with hardly an error but the voxels'."""
-    quiet = study.twin("data_quiet", study.size.seeds[0], deviation="0.01 mm")
-    table = {}
-    for data, kind in ((None, "the study's data"), (quiet, "errors of 0.01 mm beside the voxels'")):
-        for observe in ("every_step", "frames"):
-            fields = four("wide", 0, **{"identification.observe": observe})
-            if data is None:
-                folder = study.identified("joint_0_right" if observe == "every_step" else "frames", fields if observe == "frames" else four("wide", 0))
-            else:
-                folder = study.shop.make("identify", study.shop.case(f"quiet_{observe}", data, fields), after=["data_quiet"])
-            table[kind, observe] = found(folder, TRUE_OF_FOUR)
-    return table
+    at_frames = four("wide", 0, **{"identification.observe": "frames"})
+    quiet = lambda name, fields: study.shop.make("identify", study.shop.case(name, study.twin("data_quiet", study.size.seeds[0], deviation="0.01 mm"), fields), after=["data_quiet"])
+    runs = {("the study's data", "every_step"): lambda: study.identified("joint_0_right", four("wide", 0)), ("the study's data", "frames"): lambda: study.identified("frames", at_frames),
+            ("errors of 0.01 mm beside the voxels'", "every_step"): lambda: quiet("quiet_every_step", four("wide", 0)), ("errors of 0.01 mm beside the voxels'", "frames"): lambda: quiet("quiet_frames", at_frames)}
+    return {key: found(folder, TRUE_OF_FOUR) for key, folder in study.shop.those_made(runs).items()}
 
 
 def diagnosed(study):

@@ -27,7 +27,7 @@ BEAT = 0.8955  # [s]
 FRAME_APART = BEAT / 10
 NOISE = "0.3 mm"  # alike over 5 mm
 OUTLETS = ("brachiocephalic", "left_carotid", "left_subclavian", "descending")
-WRONG_START = -20  # mmHg: pressure behind the outlets at the start, against the right one
+WRONG_START = -8  # mmHg: pressure behind the outlets at the start, against the right one
 IMAGE_PRESSURE = 75  # mmHg, of configs/thoracic_aorta: the runs' pressures are relative to it
 
 

@@ -1,6 +1,6 @@
 """README.md of the study: tables of what was measured, beside what the paper says."""
 from anatomy import ERROR_REGIONS
-from models import FRAME_APART, NOISE, NONE, TRUTH
+from models import FRAME_APART, NOISE, NONE, TRUE_OF_FOUR, TRUTH
 from workshop import read
 
 PAPER = "Moireau et al. (2012)"
@@ -19,7 +19,7 @@ def regions(study):
             '<img src="figure7_support.png" width="420"> <img src="figure7_error.png" width="420">\n')
 
 
-def whole(size, study, parts):
+def whole(size, study, parts, missing):
     """The page."""
     truth, model, shop = study.size.truth, study.size.model, study.shop
     counts = {name: read(shop.folder / f"{name}_mesh/model/quality.json") for name in ("fine", "plain")}
@@ -34,7 +34,8 @@ def whole(size, study, parts):
             ("springs [dyn/cm3]: spine, vicinity, elsewhere, outlet ring", *(", ".join(f"{v[r]:g}" for r in ("spine_1", "vicinity_1", "arch", "outlet")) for v in (TRUTH, NONE)))]) +
         f"Data: ten frames {FRAME_APART * 1e3:.1f} ms apart from the first of the beat on, voxels of {' x '.join(map(str, study.size.voxel))} mm, blurred by 0.4 mm, segmented, with errors of {NOISE} that are alike over 5 mm; nine others, half way between them, judge: nothing is fitted to them. "
         f"The paper's noise is about 1 mm, but its weight `w` takes a frame for 180 cm2 x 180 independent errors per cm2 (32,400); by their correlation length they are 115 here ([K.5](../../docs/equations.md#k-identification)).\n\n"
-        f"One beat of 0.8955 s from the imaged state, whose outlets begin in their periodic state. Cost: {shop.cpu_seconds():.0f} CPU s of all processes, that is {shop.cpu_seconds() / 120:.0f} minutes of two cores.\n" + "".join(parts))
+        f"One beat of 0.8955 s from the imaged state, whose outlets begin in their periodic state. Cost: {shop.cpu_seconds():.0f} CPU s of all processes, that is {shop.cpu_seconds() / 120:.0f} minutes of two cores.\n" +
+        (f"\nNot made yet in this size: {', '.join(missing)}, and rows that are absent below.\n" if missing else "") + "".join(parts.values()))
 
 
 def found_table(rows):
@@ -65,19 +66,21 @@ def motion(apparent, clamped):
     worst = sorted(ratio, key=ratio.get)[-2:]
     return (
         "\n## Figures 8 and 9: motion, and a model without surroundings\n\n![apparent motion](figure8.png)\n![ends clamped](figure9.png)\n" +
-        by_region({"apparent motion (8)": apparent, "ends clamped, no support (9)": clamped}) +
+        by_region({"apparent motion (8)": apparent, "ends clamped, hardly a support (9)": clamped}) +
         f"The paper: errors of the order of the motion itself, *and even much larger in some areas such as the spine and its vicinity*. Here error over motion is " +
         ", ".join(f"{region.replace('_', ' ')} {ratio[region]:.1f}" for region in ERROR_REGIONS) + f": **{holds(set(worst) == {'spine', 'vicinity'} and min(ratio[r] for r in worst) > 1.2)}**"
-        f" (largest: {worst[1].replace('_', ' ')}, {worst[0].replace('_', ' ')}). Its axes end at 4 mm (rms) and 8 mm (largest); its vessel's radius is about 10 mm, as here.\n")
+        f" (largest: {worst[1].replace('_', ' ')}, {worst[0].replace('_', ' ')}). With no springs and dampers at all the coarse wall folds after 0.1 s (the image's prestress leaves some of the load to the surroundings): springs of 1e3 dyn/cm3 and the dampers are left. The paper's axes end at 4 mm (rms) and 8 mm (largest); its vessel's radius is about 10 mm, as here.\n")
 
 
 def observer(of):
     rows = [(start, gain, *(f"{v:.3f}" for v in values)) for (start, gain), values in of.items()]
-    falls = all(of[start, 3][0] < of[start, 0][0] and of[start, 15][0] < of[start, 3][0] for start in ("right", "wrong"))
+    errors = [[v[0] for (s, gain), v in of.items() if s == start and gain <= 15] for start in ("right", "wrong")]
+    falls = all(later < earlier for of_start in errors for earlier, later in zip(of_start, of_start[1:]))
     return ("\n## Figure 10: the state observer\n\nSupports set by hand, as the paper's; a wrong start is one whose outlets begin 20 mmHg too low, and with them blood and wall.\n\n"
-            "![right start](figure10_right.png)\n![wrong start](figure10_wrong.png)\n" +
+            "".join(f"![{start} start](figure10_{start}.png)\n" for start in ("right", "wrong") if any(s == start for s, _ in of)) +
             table(("start", "gain [1/s]", "data: rms [mm]", "frames between", "largest [mm]"), rows) +
-            f"The paper: distances fall in all regions with 3, further with 15 (there with an inlet band masked), and the mesh folds at 30. Here they fall with 3 and 15: **{holds(falls)}**; 30 1/s ran without a repeated step, nothing masked.\n")
+            "The paper: distances fall in all regions with 3, further with 15 (there with an inlet band masked), and the mesh folds at 30. Here nothing is masked. " +
+            (f"They fall with each gain up to 15: **{holds(falls)}**.\n" if len(of) > 1 else "\n"))
 
 
 FINDINGS = (  # of figure 11: what the paper says, whether it is so, of which theta
@@ -85,6 +88,10 @@ FINDINGS = (  # of figure 11: what the paper says, whether it is so, of which th
     ("vicinity and light support stay near theta = 0 (truth here: 3.3 and 0)", lambda of: max(of["vicinity"]["theta"], of["light"]["theta"]) < 1, ("vicinity", "light")),
     ("the spine comes out softer than by hand (theta = 8.2)", lambda of: of["spine"]["theta"] < 8.2, ("spine",)),
 )
+
+
+PRIOR_TITLES = {"light_weighed": "First prior, the paper's weights", "by_hand_weighed": "Second prior, the paper's weights", "light": "First prior, the noise as it is",
+                "by_hand": "Second prior, the noise as it is", "wide": "A wide prior of ours, 1e5 with a deviation of three powers of two; the noise as it is"}
 
 
 def thetas(of, names):
@@ -96,23 +103,26 @@ def apart(one, other):
     return {n: abs(one[n]["theta"] - other[n]["theta"]) / max(one[n]["theta_deviation"], other[n]["theta_deviation"]) for n in one}
 
 
-def agreement(one, other):
-    far = apart(one, other)
+def agreement(rows, one, other):
+    if one not in rows or other not in rows:
+        return "not made yet"
+    far = apart(rows[one], rows[other])
     return f"**{holds(max(far.values()) <= 1)}**: " + ", ".join(f"{n} {v:.1f}" for n, v in far.items()) + " deviations apart"
 
 
+def finding(rows, which, is_so, names):
+    return f"**{holds(is_so(rows[which]))}**: {thetas(rows[which], names)}" if which in rows else "not made yet"
+
+
 def four(rows, seeds):
-    light, hand = rows["light_weighed"], rows["by_hand_weighed"]
     text = ("\n## Figure 11: four parameters, observer with 3 1/s\n\n![theta over the beat](figure11.png)\n\n*Lines: estimate and deviation of theta; dashed: truth.*\n\n"
             "`theta` counts powers of two from 1e4 dyn/cm3. The paper's first prior is `theta` = 0 with variances of 1.25 (spine), 0.125 (vicinity, light support), 0.625 (outlet); its second has values set by hand, and 0.125. "
-            "Its weight `w` takes a frame for 32,400 independent errors of 1 mm. With that weight, first prior:\n" + found_table(light) + "Second prior:\n" + found_table(hand) +
-            f"With the noise as it is, first prior:\n" + found_table(rows["light"]) + "Second:\n" + found_table(rows["by_hand"]) + "A wide prior of ours, 1e5 with a deviation of three powers of two:\n" + found_table(rows["wide"]))
-    for seed, of in seeds.items():
-        text += f"The same with other errors of the data (seed {seed}):\n" + found_table(of)
+            "Its weight `w` takes a frame for 32,400 independent errors of 1 mm.\n")
+    text += "".join(f"\n{title}:\n{found_table(rows[key])}" for key, title in PRIOR_TITLES.items() if key in rows)
+    text += "".join(f"The same with other errors of the data (seed {seed}):\n{found_table(of)}" for seed, of in seeds.items())
     return text + table(("the paper", "here, with its weights", "noise as it is"), [
-        ("both priors lead to the same values", agreement(light, hand), agreement(rows["light"], rows["by_hand"])),
-        *((what, *(f"**{holds(is_so(of))}**: {thetas(of, names)}" for of in (light, rows["wide"]))) for what, is_so, names in FINDINGS),
-        ("the truth in the 95 % intervals (known here only)", f"{inside(light)}, {inside(hand)}", f"paper's priors {inside(rows['light'])}, {inside(rows['by_hand'])}; wide {inside(rows['wide'])}" + "".join(f", seed {s} {inside(of)}" for s, of in seeds.items()))])
+        ("both priors lead to the same values", agreement(rows, "light_weighed", "by_hand_weighed"), agreement(rows, "light", "by_hand")),
+        *((what, finding(rows, "light_weighed", is_so, names), finding(rows, "wide", is_so, names)) for what, is_so, names in FINDINGS)])
 
 
 def eleven(rows):
@@ -121,8 +131,7 @@ def eleven(rows):
 
 
 def direct(of):
-    names = list(of)
-    order = [of[n][1] for n in names]
+    order = [values[1] for values in of.values()]
     return ("\n## Figure 13: direct runs\n\n![distances](figure13.png)\n" +
             table(("model", "data: rms [mm]", "frames between", *(r.replace("_", " ") for r in ERROR_REGIONS)), [(n, f"{a:.3f}", f"{b:.3f}", *(f"{v:.2f}" for v in c.values())) for n, (a, b, c) in of.items()]) +
             f"The paper's order, none > by hand > identified, on the frames between, which nothing is fitted to: **{holds(order[0] > order[1] > min(order[2:]))}**.\n")
@@ -142,12 +151,18 @@ def identifiability(of):
             f"Columns behind `retained`: correlations. Information over the prior's by direction: {information}.\n")
 
 
+def joint_row(start, gain, result, alone):
+    if result is None:
+        return (start, gain, "broke off", *[""] * 8)
+    rows, bias, cpu, chi = result
+    return (start, gain, f"{bias:.2f}", inside(rows), f"{chi:.2f}", f"{cpu:.0f}", f"{cpu / alone[2]:.2f}" if alone else "", *(f"{r['octaves']:+.2f}" for r in rows.values()))
+
+
 def joint(of):
-    alone = of["right", 0][2]
-    return ("\n## Filter and observer together\n\nWide prior; bias: root mean square error of theta of the four, in powers of two.\n" +
-            table(("start", "observer [1/s]", "bias", "inside", "chi-square per datum", "CPU s", "over the filter alone", *of["right", 0][0]),
-                  [(start, gain, f"{bias:.2f}", inside(rows), f"{chi:.2f}", f"{cpu:.0f}", f"{cpu / of[start, 0][2]:.2f}", *(f"{r['octaves']:+.2f}" for r in rows.values())) for (start, gain), (rows, bias, cpu, chi) in of.items()]) +
-            f"Goal: at most 1.15 times the filter alone ({alone:.0f} CPU s).\n")
+    return ("\n## Filter and observer together\n\nWide prior; bias: root mean square error of theta of the four, in powers of two. A wrong start: outlets 20 mmHg too low. CPU is that of the identification's own processes.\n" +
+            table(("start", "observer [1/s]", "bias", "inside", "chi-square per datum", "CPU s", "over the filter alone", *TRUE_OF_FOUR),
+                  [joint_row(start, gain, result, of.get((start, 0))) for (start, gain), result in of.items()]) +
+            "Goal: at most 1.15 times the filter alone. *Broke off*: a particle's wall could not be computed, even in halves of the step; the run ends and names the particle.\n")
 
 
 def between(of, chords):

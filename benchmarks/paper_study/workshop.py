@@ -31,11 +31,19 @@ def children_cpu():
     return used.ru_utime + used.ru_stime
 
 
+class Failed(RuntimeError):
+    """What a verb said as it failed."""
+
+
+class NotMade(RuntimeError):
+    """A step that is not there, where none is to be made."""
+
+
 class Workshop:
     """A step is kept as long as its case, the cases that this builds on, and the steps before it are the same."""
 
-    def __init__(self, folder, quiet=False):
-        self.folder, self.quiet = folder, quiet
+    def __init__(self, folder, quiet=False, makes=True):
+        self.folder, self.quiet, self.makes = folder, quiet, makes
         self.ledger = folder / "steps"  # a file for each
         self.ledger.mkdir(parents=True, exist_ok=True)
         self.used = []  # names of this study's steps, kept or made
@@ -57,28 +65,41 @@ class Workshop:
         self.used.append(name)
         if before.get("key") == key and before.get("cpu_seconds") is not None and (folder / RESULTS[verb]).exists():
             return folder
+        if not self.makes:
+            raise Failed(before["failed"]) if before.get("key") == key and before.get("failed") else NotMade(name)
         goes_on = verb in RESUMED and before.get("key") == key and any((folder / "checkpoint").glob("*"))
-        self._note(name, key, None, None)
+        self._note(name, key=key)
         cpu, begun = children_cpu(), time.time()
         options = [*(["--resume"] if goes_on else []), *(["--quiet", "--overwrite"] if verb in OF_CASES else [])]
         done = subprocess.run([PROGRAMS / "tether", verb, case, "--output", folder, *options], capture_output=True, text=True, env={**os.environ, "TETHER_PICTURES": "0"})
         if done.returncode != 0:
-            raise SystemExit(f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
-        self._note(name, key, children_cpu() - cpu, time.time() - begun)
+            self._note(name, key=key, failed=f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
+            raise Failed(self.step(name)["failed"])
+        self._note(name, key=key, cpu_seconds=children_cpu() - cpu, wall_seconds=time.time() - begun)
         if not self.quiet:
             print(f"{verb} {name}: {self.step(name)['cpu_seconds']:.1f} CPU s", flush=True)
         return folder
 
     def cpu_seconds(self):
         """Of all steps of this study."""
-        return sum(self.step(name)["cpu_seconds"] for name in set(self.used))
+        return sum(self.step(name).get("cpu_seconds") or 0 for name in set(self.used))
 
     def step(self, name):
         file = self.ledger / f"{name}.json"
         return read(file) if file.exists() else {}
 
-    def _note(self, name, key, cpu, wall):
-        (self.ledger / f"{name}.json").write_text(json.dumps({"key": key, "cpu_seconds": cpu, "wall_seconds": wall}))
+    def those_made(self, makers):
+        """Results of functions by key; without those whose steps are not there."""
+        results = {}
+        for key, maker in makers.items():
+            try:
+                results[key] = maker()
+            except NotMade:
+                pass
+        return results
+
+    def _note(self, name, **what):
+        (self.ledger / f"{name}.json").write_text(json.dumps(what))
 
     def _text(self, case):
         text = case.read_text()
