@@ -137,7 +137,7 @@ void write_estimates(const std::filesystem::path& path, const IdentifiedParamete
 void write_estimate(const std::filesystem::path& path, const IdentifiedParameters& parameters,
                     const Identification& done, const IdentificationFacts& facts) {
   const EstimateRecord& last = done.last();
-  const Identifiability what = identifiability(parameters.prior_variances().asDiagonal(), last.covariance);
+  const Identifiability what = identifiability(parameters.prior_covariance(), last.covariance);
   Estimate estimate;
   estimate.case_name = facts.case_name;
   estimate.title = facts.title;

@@ -23,10 +23,6 @@ void check_columns(const Measurement& source, const std::vector<std::string>& kn
 /// gives no sensitivity to numbers that have none (at 1 it does), and the coupling's tolerance does not show yet.
 constexpr double nearness = 0.05;
 
-MatrixXd diagonal(const VectorXd& variances) {
-  return variances.asDiagonal();
-}
-
 }  // namespace
 
 DataTotals totals_of(const std::vector<EstimateRecord>& records) {
@@ -50,8 +46,7 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
       precision_(precision),
       ensemble_(ensemble),
       lasting_errors_(std::move(lasting.errors)),
-      filter_(parameters.prior_mean(),
-              diagonal(parameters.prior_variances() * (plan.corrects ? 1 : nearness * nearness)),
+      filter_(parameters.prior_mean(), parameters.prior_covariance() * (plan.corrects ? 1 : nearness * nearness),
               std::move(lasting.values)) {
   for (const auto& observable : ensemble.model().observables) moment_.names.push_back(observable.name);
   moment_.points = observations.points();
@@ -66,7 +61,7 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
   state_.lasting = filter_.lasting();
   const Eigen::Index numbers = filter_.parameters() + state_.lasting.count();
   state_.information = MatrixXd::Zero(plan.corrects ? 0 : numbers, plan.corrects ? 0 : numbers);
-  state_.records.push_back({plan.start, parameters.prior_mean(), diagonal(parameters.prior_variances())});
+  state_.records.push_back({plan.start, parameters.prior_mean(), parameters.prior_covariance()});
 }
 
 void Identification::restore(IdentificationState state) {
@@ -110,7 +105,7 @@ void Identification::diffuse_and_forget() {
   filter_.diffuse(parameters_.walked(plan_.dt));
   if (plan_.memory_time > 0)
     state_.states *=
-        filter_.forget(std::exp(-plan_.dt / plan_.memory_time), diagonal(parameters_.prior_variances())).transpose();
+        filter_.forget(std::exp(-plan_.dt / plan_.memory_time), parameters_.prior_covariance()).transpose();
 }
 
 bool Identification::is_observed(std::int64_t step) const {
@@ -189,7 +184,7 @@ void Identification::correct(const std::vector<ParticleReport>& reports, double 
 MatrixXd Identification::covariance_left() const {
   MatrixXd joint = state_.information;
   const Eigen::Index p = filter_.parameters();
-  joint.diagonal().head(p) += parameters_.prior_variances().cwiseInverse();
+  joint.topLeftCorner(p, p) += parameters_.prior_covariance().inverse();
   joint.diagonal().tail(joint.rows() - p).array() += 1;
   return joint.inverse().topLeftCorner(p, p);
 }

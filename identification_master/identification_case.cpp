@@ -45,15 +45,19 @@ void ParameterCase::declare(Fields& f) {
            "what is assumed to be normally distributed");
   f.number("mean", mean, dimension::none, range::any,
            "value before the data, in the case's units; absent: that of the case");
-  f.number(
-      "deviation", deviation, dimension::none, range::positive,
-      "standard deviation before the data, of theta; absent: as the model announces, told in this theta at the mean");
+  f.number("deviation", deviation, dimension::none, range::positive,
+           "standard deviation before the data, of theta; absent: as the model announces, told in this theta at the "
+           "mean; of "
+           "one that begins from prior_from: about what that knew, absent: 0");
   f.number("lower", lower, dimension::none, range::any,
            "smallest admissible value, in the case's units; absent: that of the model");
   f.number("upper", upper, dimension::none, range::any, "largest admissible value");
   f.number("walk", walk, dimension::none, range::not_negative,
            "the parameter changes in time: standard deviation of theta after one unit of time without data");
   f.flag("factor", factor, "the parameter is a factor: each number keeps its value of the case, times it");
+  f.text("part_of", part_of,
+         "parameter of prior_from whose region was divided into this one and others: this one begins from it; absent: "
+         "from the one of the same name, if there is one");
   f.check(!of.empty(), "of", "must name at least one number");
   f.check(!lower || !upper || *lower < *upper, "upper", "must be above lower");
 }
@@ -64,6 +68,10 @@ void IdentificationCase::declare(Fields& f) {
   for (const auto& [name, parameter] : parameters) names.push_back(name);
   const std::string fault = fault_of(names);
   f.check(fault.empty(), "parameters", fault);
+  f.path("prior_from", prior_from,
+         "estimate.json of an earlier identification: mean and covariance that it ended with are the prior of "
+         "parameters of "
+         "the same name, and of parts");
   f.group(
       "allowed", allowed,
       "standard deviations of what the data may be off by in all frames alike, which is found beside the parameters "

@@ -13,6 +13,7 @@ struct ParameterCase {
   std::optional<double> lower, upper;     ///< of the value
   double walk = 0;                        ///< of theta [1/sqrt(time)]
   bool factor = false;                    ///< it multiplies the values of the case
+  std::string part_of;                    ///< parameter of `prior_from`; empty: that of the same name
   void declare(Fields& f);
 };
 
@@ -20,6 +21,7 @@ struct ParameterCase {
 struct IdentificationCase {
   Named<ParameterCase> parameters;
   LastingAllowance allowed;
+  std::filesystem::path prior_from;  ///< estimate.json; empty: priors are those of the case
   std::string observe = "every_step";
   double reject_beyond = 0, memory_time = 0, largest_shift = 2;
   int groups = 0;

@@ -58,7 +58,7 @@ double slope(Transform transform, double value, const Range& range) {
 class Builder {
  public:
   Builder(const std::string& name, const ParameterCase& given, const std::vector<ParameterInfo>& announced,
-          const CaseFile& file)
+          const EarlierEstimate& earlier, const CaseFile& file)
       : given_(given),
         path_("identification.parameters." + name),
         file_(file),
@@ -69,8 +69,8 @@ class Builder {
     made_.transform = transform_named(given.transform == "announced" ? first_.transform : given.transform);
     for (const std::string& target : given.of) add(find(announced, target, where("of")));
     bound();
-    made_.prior_mean = theta_of(mean_ = given.mean.value_or(given.factor ? 1 : usual_value()));
-    made_.prior_deviation = given.deviation ? *given.deviation : announced_deviation();
+    made_.mother = mother_in(earlier);
+    made_.mother ? begin_from(earlier[*made_.mother], earlier.covariance(*made_.mother, *made_.mother)) : begin();
     check_reach();
   }
   IdentifiedParameter take() { return std::move(made_); }
@@ -96,6 +96,33 @@ class Builder {
     if (made_.transform == Transform::bounded &&
         !(std::isfinite(made_.range.lower) && std::isfinite(made_.range.upper)))
       throw input_error("{}: must be given for a bounded parameter, and upper too", where("lower"));
+  }
+  void begin() {
+    made_.prior_mean = theta_of(mean_ = given_.mean.value_or(given_.factor ? 1 : usual_value()));
+    made_.prior_deviation = given_.deviation ? *given_.deviation : announced_deviation();
+  }
+  std::optional<Eigen::Index> mother_in(const EarlierEstimate& earlier) const {
+    if (given_.part_of.empty()) return earlier.find(made_.name);
+    if (const auto mother = earlier.find(given_.part_of)) return mother;
+    const std::vector<std::string> known = earlier.names();
+    throw input_error("{}: identification.prior_from has no parameter {}{}", where("part_of"), given_.part_of,
+                      known.empty() ? "" : "; it has " + listed(known));
+  }
+  /// From what an earlier identification knew of it, or of the whole that it is a part of. (K.8)
+  void begin_from(const EstimatedParameter& mother, double variance) {
+    if (given_.mean)
+      throw input_error("{}: must be absent: identification.prior_from has it ({})", where("mean"), mother.name);
+    if (!given_.part_of.empty() && !given_.deviation)
+      throw input_error("{}: must be given: how far a part may be from the whole", where("deviation"));
+    if (mother.transform != name_of(made_.transform) || mother.unit != made_.unit)
+      throw input_error("{}: {} is the {} of a number in {}, and was the {} of one in {} in identification.prior_from",
+                        where("transform"), made_.name, name_of(made_.transform), made_.unit, mother.transform,
+                        mother.unit);
+    if (const double theta = theta_of(mother.estimate.value);
+        made_.transform == Transform::bounded && std::abs(theta - mother.estimate.theta) > 1e-6)
+      throw input_error("{}: must be what it was in identification.prior_from: theta depends on it", where("lower"));
+    made_.prior_mean = mother.estimate.theta;
+    made_.prior_deviation = std::sqrt(variance + std::pow(given_.deviation.value_or(0), 2));
   }
   double theta_of(double mean) const {
     const char* whose = given_.mean ? "" : " (the case's value; give a mean)";
@@ -187,8 +214,9 @@ IdentifiedParameters::IdentifiedParameters(const IdentificationCase& given, cons
                                            const CaseFile& file) {
   if (given.parameters.empty())
     throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
+  if (!given.prior_from.empty()) earlier_ = EarlierEstimate(given.prior_from);
   for (const auto& [name, parameter] : given.parameters)
-    list_.push_back(Builder(name, parameter, announced, file).take());
+    list_.push_back(Builder(name, parameter, announced, earlier_, file).take());
   check_overlap(list_, file);
 }
 
@@ -203,6 +231,16 @@ VectorXd IdentifiedParameters::prior_variances() const {
   for (Eigen::Index i = 0; i < variances.size(); ++i)
     variances(i) = std::pow(list_[static_cast<std::size_t>(i)].prior_deviation, 2);
   return variances;
+}
+
+MatrixXd IdentifiedParameters::prior_covariance() const {
+  MatrixXd covariance = prior_variances().asDiagonal();
+  for (std::size_t i = 0; i < list_.size(); ++i)
+    for (std::size_t j = 0; j < list_.size(); ++j)
+      if (i != j && list_[i].mother && list_[j].mother)
+        covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            earlier_.covariance(*list_[i].mother, *list_[j].mother);  // (K.8)
+  return covariance;
 }
 
 VectorXd IdentifiedParameters::walked(double dt) const {

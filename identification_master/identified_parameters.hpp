@@ -7,6 +7,7 @@
 #include "common/base/types.hpp"
 #include "common/config/case_file.hpp"
 #include "common/protocol/messages.hpp"
+#include "identification_master/earlier_estimate.hpp"
 #include "identification_master/identification_case.hpp"
 #include "identification_master/results/named_values.hpp"
 
@@ -24,6 +25,7 @@ struct IdentifiedParameter {
   Range range;  ///< of the value: the case's bounds, and what the model admits of all targets
   double prior_mean = 0, prior_deviation = 0;  ///< of theta
   double walk = 0;                             ///< of theta [1/sqrt(time)]
+  std::optional<Eigen::Index> mother;          ///< number of the earlier parameter that it begins from
 
   /// What the model is told for a theta: within the range, whatever the theta.
   double value(double theta) const;
@@ -43,6 +45,8 @@ class IdentifiedParameters {
   const std::vector<IdentifiedParameter>& list() const { return list_; }
   VectorXd prior_mean() const;
   VectorXd prior_variances() const;
+  /// With what an earlier identification knew of several together. (K.8)
+  MatrixXd prior_covariance() const;
   /// Added to the variances of theta in a step of dt.
   VectorXd walked(double dt) const;
   /// What the model is told for a theta [p]. What the bounds do not admit is moved to the nearest admissible value.
@@ -54,6 +58,7 @@ class IdentifiedParameters {
 
  private:
   std::vector<IdentifiedParameter> list_;
+  EarlierEstimate earlier_;
   mutable int moved_ = 0;
 };
 

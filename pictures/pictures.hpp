@@ -13,7 +13,7 @@ namespace tether {
 /// the names of the pictures; none if there is no display (xvfb-run is not installed) or no series.
 std::vector<std::string> draw_pictures(const std::filesystem::path& output, const UnitSystem& units);
 
-/// Whether pictures can be drawn: xvfb-run is installed.
+/// Whether pictures are to be drawn: xvfb-run is installed, and TETHER_PICTURES in the environment is not 0.
 bool has_display_server();
 
 /// Runs tether_picture MESH PNG with these options. Returns whether it drew.

@@ -6,6 +6,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
 #include "identification_master/estimate_files.hpp"
 #include "identification_master/identified_case.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -125,6 +126,54 @@ TEST_F(Parameters, ToldInAnotherThetaKeepTheAnnouncedDeviation) {
   EXPECT_NE(refusal("    a: {of: [solid.a.stiffness], transform: linear}\n").find("deviation: must be given"),
             std::string::npos)
       << "a factor of four either way is no normal distribution of the value";
+}
+
+class Inherited : public Parameters {
+ protected:
+  Inherited() {
+    Estimate earlier;
+    earlier.corrected = true;
+    for (const auto& [name, theta] : {std::pair{"a", 17.0}, {"rest", 12.0}}) {
+      EstimatedParameter p;
+      p.name = name, p.unit = "g/(cm2 s2)", p.transform = "log2";
+      p.estimate = {.value = std::exp2(theta), .theta = theta};
+      earlier.parameters.push_back(p);
+    }
+    earlier.covariance_of_theta = covariance;
+    earlier.correlations = earlier.identifiability.gramian = earlier.identifiability.directions = covariance;
+    write_record(folder / "estimate.json", earlier);
+    earlier.corrected = false;
+    write_record(folder / "watched.json", earlier);
+  }
+  const MatrixXd covariance = (MatrixXd(2, 2) << 0.25, -0.1, -0.1, 0.5).finished();
+  const std::string prior = "  prior_from: estimate.json\n";
+};
+
+TEST_F(Inherited, BeginWithMeansAndCovarianceOfAnEarlierIdentification) {
+  const IdentifiedParameters parameters = made(
+      "    a: {of: [solid.a.stiffness]}\n    b: {of: [solid.b.stiffness], part_of: rest, deviation: 0.3}\n"
+      "    c: {of: [solid.absent.stiffness], part_of: rest, deviation: 0.4}\n    nu: {of: [solid.poisson]}\n" +
+      prior);
+  EXPECT_EQ(parameters.prior_mean().head<3>(), Eigen::Vector3d(17, 12, 12));
+  MatrixXd expected(4, 4);
+  expected << 0.25, -0.1, -0.1, 0,  //
+      -0.1, 0.5 + 0.09, 0.5, 0,     // parts of one whole know its value together
+      -0.1, 0.5, 0.5 + 0.16, 0, 0, 0, 0, 0.09;
+  EXPECT_LT((parameters.prior_covariance() - expected).norm(), 1e-14);
+  EXPECT_LT((parameters.prior_variances() - expected.diagonal()).norm(), 1e-14);
+}
+
+TEST_F(Inherited, WhatDoesNotFitIsNamed) {
+  const auto expect = [&](const std::string& text, const std::string& part) {
+    EXPECT_NE(refusal(text).find(part), std::string::npos) << refusal(text);
+  };
+  expect("    b: {of: [solid.b.stiffness], part_of: other, deviation: 1}\n" + prior, "has no parameter other; it has");
+  expect("    b: {of: [solid.b.stiffness], part_of: a}\n" + prior, "deviation: must be given: how far a part");
+  expect("    b: {of: [solid.b.stiffness], part_of: a, deviation: 1}\n", "has no parameter a");
+  expect("    a: {of: [solid.a.stiffness], mean: 3}\n" + prior, "mean: must be absent");
+  expect("    a: {of: [solid.a.stiffness], transform: log, deviation: 1}\n" + prior, "was the log2 of one in");
+  expect("    a: {of: [solid.a.stiffness], upper: 1e5}\n" + prior, "is not between the bounds");
+  expect("    a: {of: [solid.a.stiffness]}\n  prior_from: watched.json\n", "corrected nothing");
 }
 
 TEST_F(Parameters, BadOnesAreNamedWithTheirLine) {

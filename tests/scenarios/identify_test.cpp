@@ -211,6 +211,24 @@ TEST_F(Identify, WithoutCorrectionsItWritesAllSensitivities) {
   EXPECT_GT(CsvTable(folder / "watched/sensitivities_of_data.csv").rows(), 100U);
 }
 
+/// One number by its name, the other as a part of what was found before.
+TEST_F(Identify, BeginsWhereAnotherOneEnded) {
+  const fs::path again = case_variant(
+      case_file, folder / "again",
+      {{"identification:", "identification:\n  prior_from: ../one/estimate.json"},
+       {"transform: log2, mean: 2e5, deviation: 2", "transform: log2"},
+       {"opposite: {of: [solid.support.regions.opposite.stiffness], transform: log2, mean: 5e4, deviation: 2}",
+        "front: {of: [solid.support.regions.opposite.stiffness], transform: log2, part_of: opposite, deviation: 1}"}});
+  const ChildEnd end = tether("identify", again, "twice", {}, 2);
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  const auto first = theta(estimate("one"));
+  const Json second = estimate("twice");
+  EXPECT_NEAR(second["parameters"][0]["prior"]["theta"], first[0].first, 1e-12);
+  EXPECT_NEAR(second["parameters"][0]["prior"]["theta_deviation"], first[0].second, 1e-12);
+  EXPECT_NEAR(second["parameters"][1]["prior"]["theta"], first[1].first, 1e-12);
+  EXPECT_NEAR(second["parameters"][1]["prior"]["theta_deviation"], std::hypot(first[1].second, 1), 1e-12);
+}
+
 TEST_F(Identify, SaysWhichNumberItDoesNotKnow) {
   const fs::path wrong =
       case_variant(case_file, folder / "wrong", {{"regions.spine.stiffness]", "regions.spin.stiffness]"}});

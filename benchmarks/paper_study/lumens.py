@@ -1,0 +1,87 @@
+"""Moving and measured lumens, and their cuts by planes."""
+import base64
+import csv
+import xml.etree.ElementTree
+
+import numpy
+
+from workshop import read
+
+
+def positions(moment):
+    """Of the nodes at a moment of wall.json [n x 3]."""
+    packed = moment["positions"]  # a row for each direction
+    return numpy.frombuffer(base64.b64decode(packed["float32"]), dtype="<f4").reshape(packed["shape"]).astype(float).T
+
+
+def of_run(folder, frame):
+    """Positions [n x 3] and triangles of a compared run at a frame."""
+    wall = read(folder / "wall.json")
+    source = next(s for s in wall["sources"] if s["name"] == "twin")
+    return positions(source["moments"][frame]), numpy.array(wall["triangles"]).reshape(-1, 3)
+
+
+def normals(points, triangles):
+    """At nodes, of the triangles around them by area."""
+    corners = points[triangles]
+    areas = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sums = numpy.zeros_like(points)
+    for corner in range(3):
+        numpy.add.at(sums, triangles[:, corner], areas)
+    return sums / numpy.linalg.norm(sums, axis=1)[:, None]
+
+
+def off_the_chord(folder, regions):
+    """How far a run's lumen is from the middle of where it was at two frames, half way between them, along its normal:
+    root mean square over the beat and the largest [mm], by region. regions: {name: names in the run}."""
+    wall = read(folder / "wall.json")
+    triangles = numpy.array(wall["triangles"]).reshape(-1, 3)
+    at = {s["name"]: [positions(m) for m in s["moments"]] for s in wall["sources"]}
+    off = []
+    for k, points in enumerate(at["between"][:-1]):
+        chord = (at["twin"][k] + at["twin"][k + 1]) / 2
+        off.append(10 * numpy.sum((points - chord) * normals(points, triangles), axis=1))
+    names = numpy.array(wall["regions"])[numpy.array(wall["region"])]
+    of = lambda parts: numpy.array(off)[:, numpy.isin(names, parts)]
+    return {name: (float(numpy.sqrt(numpy.mean(of(parts) ** 2))), float(numpy.abs(of(parts)).max())) for name, parts in regions.items()}
+
+
+def measured(folder, frame):
+    """The same of a twin's surface."""
+    piece = xml.etree.ElementTree.parse(folder / f"data/lumen_{frame:02}.vtp").getroot().find(".//Piece")
+    numbers = lambda path: numpy.array(piece.find(path).text.split(), dtype=float)
+    return numbers("Points/DataArray").reshape(-1, 3), numbers("Polys/DataArray[@Name='connectivity']").astype(int).reshape(-1, 3)
+
+
+def cut(points, triangles, origin, normal, reach):
+    """Segments in which a plane cuts triangles within reach of the origin, in the plane's coordinates [mm]."""
+    across = numpy.cross(normal, [1.0, 0, 0])
+    across /= numpy.linalg.norm(across)
+    axes = numpy.array([across, numpy.cross(normal, across)])
+    height = (points - origin) @ normal
+    segments = []
+    for t in triangles[numpy.linalg.norm(points[triangles[:, 0]] - origin, axis=1) < reach]:
+        ends = []
+        for a, b in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0])):
+            if (height[a] < 0) != (height[b] < 0):
+                share = height[a] / (height[a] - height[b])
+                ends.append(10 * axes @ (points[a] + share * (points[b] - points[a]) - origin))
+        if len(ends) == 2:
+            segments.append(ends)
+    return segments
+
+
+def centreline(file, branch):
+    """Points of a branch [cm]."""
+    with open(file) as lines:
+        rows = list(csv.DictReader((line for line in lines if not line.startswith("#")), skipinitialspace=True))
+    scale = 0.1 if "x [mm]" in rows[0] else 1.0
+    unit = "mm" if scale == 0.1 else "cm"
+    return scale * numpy.array([[float(r[f"{axis} [{unit}]"]) for axis in "xyz"] for r in rows if r["branch"] == branch])
+
+
+def place_along(line, distance):
+    """Point and direction at a distance from a line's start."""
+    steps = numpy.linalg.norm(numpy.diff(line, axis=0), axis=1)
+    k = min(int(numpy.searchsorted(numpy.cumsum(steps), distance)), len(steps) - 1)
+    return line[k], (line[k + 1] - line[k]) / steps[k]

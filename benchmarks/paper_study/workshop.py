@@ -1,0 +1,113 @@
+"""Makes the study's steps by tether's verbs, each once, in a folder of its own."""
+import hashlib
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAMS = pathlib.Path(os.environ.get("TETHER_PROGRAMS", ROOT / "build/bin"))
+RESULTS = {"build-model": "model/case.yaml", "fit-outlets": "case.yaml", "simulate": "summary.json", "compare": "comparison.json", "twin": "case.yaml", "identify": "estimate.json", "diagnose": "diagnosis.json"}
+RESUMED = ("simulate", "identify")
+OF_CASES = (*RESUMED, "compare", "twin", "diagnose")
+
+
+def nested(fields):
+    """{"a.b": 1} as {"a": {"b": 1}}."""
+    whole = {}
+    for path, value in fields.items():
+        *above, last = path.split(".")
+        section = whole
+        for name in above:
+            section = section.setdefault(name, {})
+        section[last] = value
+    return whole
+
+
+def children_cpu():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+class Failed(RuntimeError):
+    """What a verb said as it failed."""
+
+
+class NotMade(RuntimeError):
+    """A step that is not there, where none is to be made."""
+
+
+class Workshop:
+    """A step is kept as long as its case, the cases that this builds on, and the steps before it are the same."""
+
+    def __init__(self, folder, quiet=False, makes=True):
+        self.folder, self.quiet, self.makes = folder, quiet, makes
+        self.ledger = folder / "steps"  # a file for each
+        self.ledger.mkdir(parents=True, exist_ok=True)
+        self.used = []  # names of this study's steps, kept or made
+
+    def case(self, name, base, fields):
+        """A case that builds on another one; sections as JSON, which YAML reads."""
+        path = self.folder / f"{name}.yaml"
+        sections = "".join(f"{key}: {json.dumps(value)}\n" for key, value in nested(fields).items())
+        path.write_text(f"base: {os.path.relpath(base, self.folder)}\nname: {name}\n{sections}")
+        return path
+
+    def make(self, verb, case, after=(), name=None):
+        """The folder with the results of a verb."""
+        name = name or case.stem
+        folder = self.folder / name
+        name += "_compared" if verb == "compare" else ""  # beside its run
+        key = hashlib.sha1((verb + self._text(case) + "".join(self.step(earlier)["key"] for earlier in after)).encode()).hexdigest()
+        before = self.step(name)
+        self.used.append(name)
+        if before.get("key") == key and before.get("cpu_seconds") is not None and (folder / RESULTS[verb]).exists():
+            return folder
+        if not self.makes:
+            raise Failed(before["failed"]) if before.get("key") == key and before.get("failed") else NotMade(name)
+        goes_on = verb in RESUMED and before.get("key") == key and any((folder / "checkpoint").glob("*"))
+        self._note(name, key=key)
+        cpu, begun = children_cpu(), time.time()
+        options = [*(["--resume"] if goes_on else []), *(["--quiet", "--overwrite"] if verb in OF_CASES else [])]
+        done = subprocess.run([PROGRAMS / "tether", verb, case, "--output", folder, *options], capture_output=True, text=True, env={**os.environ, "TETHER_PICTURES": "0"})
+        if done.returncode != 0:
+            self._note(name, key=key, failed=f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
+            raise Failed(self.step(name)["failed"])
+        self._note(name, key=key, cpu_seconds=children_cpu() - cpu, wall_seconds=time.time() - begun)
+        if not self.quiet:
+            print(f"{verb} {name}: {self.step(name)['cpu_seconds']:.1f} CPU s", flush=True)
+        return folder
+
+    def cpu_seconds(self):
+        """Of all steps of this study."""
+        return sum(self.step(name).get("cpu_seconds") or 0 for name in set(self.used))
+
+    def step(self, name):
+        file = self.ledger / f"{name}.json"
+        return read(file) if file.exists() else {}
+
+    def those_made(self, makers):
+        """Results of functions by key; without those whose steps are not there."""
+        results = {}
+        for key, maker in makers.items():
+            try:
+                results[key] = maker()
+            except NotMade:
+                pass
+        return results
+
+    def _note(self, name, **what):
+        (self.ledger / f"{name}.json").write_text(json.dumps(what))
+
+    def _text(self, case):
+        text = case.read_text()
+        for line in text.splitlines():
+            if line.startswith("base: ") and (case.parent / line[6:]).exists():
+                text += self._text(case.parent / line[6:])
+        return text
+
+
+def read(file):
+    return json.loads(pathlib.Path(file).read_text())

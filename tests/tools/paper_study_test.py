@@ -1,0 +1,85 @@
+"""benchmarks/paper_study: what it keeps, and what it computes of results; no run is made."""
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAMS = tempfile.TemporaryDirectory()
+os.environ["TETHER_PROGRAMS"] = PROGRAMS.name
+sys.path.insert(0, str(ROOT / "benchmarks/paper_study"))
+
+import distances
+import lumens
+import models
+import numpy
+import page
+import workshop
+
+# Writes what a verb would, and counts its calls.
+FAKE = """#!/bin/sh
+verb=$1 case=$2 folder=$4
+mkdir -p $folder && echo '{}' > $folder/summary.json && echo $verb >> $folder/calls
+"""
+
+
+class KeptSteps(unittest.TestCase):
+    def setUp(self):
+        tether = pathlib.Path(PROGRAMS.name) / "tether"
+        tether.write_text(FAKE)
+        tether.chmod(0o755)
+        self.folder = tempfile.TemporaryDirectory()
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_of(self, stiffness, step):
+        shop = workshop.Workshop(pathlib.Path(self.folder.name), quiet=True)
+        (shop.folder / "base.yaml").write_text(f"name: base\ntime: {{step: {step}}}\n")
+        case = shop.case("a", shop.folder / "base.yaml", {"solid.support.k": stiffness, "solid.rho": 1})
+        return (shop.make("simulate", case) / "calls").read_text().count("simulate"), case.read_text()
+
+    def test_a_step_is_made_once_and_again_if_its_case_or_base_changed(self):
+        calls, text = self.run_of(1, 2)
+        self.assertEqual(text, 'base: base.yaml\nname: a\nsolid: {"support": {"k": 1}, "rho": 1}\n')
+        self.assertEqual(calls, 1)
+        self.assertEqual(self.run_of(1, 2)[0], 1)
+        self.assertEqual(self.run_of(3, 2)[0], 2)
+        self.assertEqual(self.run_of(3, 4)[0], 3)
+
+
+class Computed(unittest.TestCase):
+    def test_distances_of_regions_are_joined_by_area(self):
+        group = lambda region, extent, l2, linf: {"region": region, "samples": 5, "extent": extent, "l2": l2, "linf": linf}
+        groups = [group("spine_1", 1, 0.1, 0.2), group("spine_2", 3, 0.3, 0.5), group("arch", 9, 9, 9), {"region": "spine_3", "samples": 0}]
+        rms, largest = distances.joined(groups, ["spine_1", "spine_2", "spine_3"])
+        self.assertAlmostEqual(rms, 10 * math.sqrt((0.01 + 3 * 0.09) / 4))
+        self.assertAlmostEqual(largest, 5)
+        self.assertTrue(math.isnan(distances.joined(groups, ["opposite"])[0]))
+
+    def test_a_plane_cuts_a_tube_in_a_circle(self):
+        angles = numpy.linspace(0, 2 * math.pi, 48, endpoint=False)
+        points = numpy.array([[math.cos(a), math.sin(a), z] for z in (-1, 1) for a in angles])
+        triangles = numpy.array([t for i in range(48) for j in [(i + 1) % 48] for t in ([i, j, 48 + i], [j, 48 + j, 48 + i])])
+        segments = lumens.cut(points, triangles, numpy.zeros(3), numpy.array([0, 0, 1.0]), 5)
+        self.assertEqual(len(segments), 96)
+        for end in numpy.array(segments).reshape(-1, 2):
+            self.assertAlmostEqual(numpy.linalg.norm(end), 10, delta=0.03)
+
+    def test_every_part_has_a_mother_among_the_four(self):
+        numbers = lambda of: sorted(n for targets in of for n in targets)
+        self.assertEqual(numbers(models.FOUR.values()), numbers(t for t, _ in models.ELEVEN.values()))
+        self.assertEqual(len(models.ELEVEN), 11)
+        for name, (targets, mother) in models.ELEVEN.items():
+            self.assertLessEqual(set(targets), set(models.FOUR[mother or name]))
+
+    def test_tables_say_whether_the_truth_is_inside(self):
+        row = {"truth": 1e6, "value": 9e5, "lower": 7e5, "upper": 1.2e6, "deviations": -0.5, "after_before": 0.1, "retained": 0.8}
+        self.assertIn("| spine 1 | 1e+06 | 9e+05 | 7e+05 .. 1.2e+06 | yes | -0.50 | 0.10 | 0.80 |", page.found_table({"spine_1": row}))
+        self.assertEqual(page.inside({"a": row, "b": {**row, "upper": 9.5e5}}), "1 of 2")
+
+
+if __name__ == "__main__":
+    unittest.main()
