@@ -7,7 +7,7 @@
 
 namespace tether {
 
-/// What an earlier identification found, as the beginning of another one. (K.8)
+/// What an earlier identification found, as the beginning of another one. (K.9)
 class EarlierEstimate {
  public:
   EarlierEstimate() = default;

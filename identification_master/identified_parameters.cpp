@@ -108,7 +108,7 @@ class Builder {
     throw input_error("{}: identification.prior_from has no parameter {}{}", where("part_of"), given_.part_of,
                       known.empty() ? "" : "; it has " + listed(known));
   }
-  /// From what an earlier identification knew of it, or of the whole that it is a part of. (K.8)
+  /// From what an earlier identification knew of it, or of the whole that it is a part of. (K.9)
   void begin_from(const EstimatedParameter& mother, double variance) {
     if (given_.mean)
       throw input_error("{}: must be absent: identification.prior_from has it ({})", where("mean"), mother.name);
@@ -239,7 +239,7 @@ MatrixXd IdentifiedParameters::prior_covariance() const {
     for (std::size_t j = 0; j < list_.size(); ++j)
       if (i != j && list_[i].mother && list_[j].mother)
         covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            earlier_.covariance(*list_[i].mother, *list_[j].mother);  // (K.8)
+            earlier_.covariance(*list_[i].mother, *list_[j].mother);  // (K.9)
   return covariance;
 }
 

@@ -45,7 +45,7 @@ class IdentifiedParameters {
   const std::vector<IdentifiedParameter>& list() const { return list_; }
   VectorXd prior_mean() const;
   VectorXd prior_variances() const;
-  /// With what an earlier identification knew of several together. (K.8)
+  /// With what an earlier identification knew of several together. (K.9)
   MatrixXd prior_covariance() const;
   /// Added to the variances of theta in a step of dt.
   VectorXd walked(double dt) const;
