@@ -12,6 +12,7 @@ from rooms import read_rooms, room_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 INCLUDED = re.compile(r'#include "(/[^"]+)"')
+FOR_GCC_ONLY = re.compile(r"#include <itk")  # Debian's ITK refuses every other compiler
 
 
 def sources_of(unit):
@@ -21,10 +22,17 @@ def sources_of(unit):
     return set(INCLUDED.findall(pathlib.Path(unit).read_text()))
 
 
+def is_for_gcc_only(source):
+    path = pathlib.Path(source)
+    return path.exists() and FOR_GCC_ONLY.search(path.read_text()) is not None
+
+
 def units(database, is_wanted):
-    """Sorted; is_wanted: of a source's absolute path."""
+    """Sorted, without those that clang cannot read; is_wanted: of a source's absolute path."""
     all_units = {entry["file"] for entry in database if entry["file"].endswith((".cpp", ".cxx"))}
-    return sorted(unit for unit in all_units if any(map(is_wanted, sources_of(unit))))
+    return sorted(
+        unit for unit in all_units if any(map(is_wanted, sources_of(unit))) and not any(map(is_for_gcc_only, sources_of(unit)))
+    )
 
 
 def is_of_room(source, rooms, root=ROOT):

@@ -32,6 +32,12 @@ class TranslationUnits(unittest.TestCase):
     def test_of_none(self):
         self.assertEqual(units(self.database, {"/other/x.cpp"}.__contains__), [])
 
+    def test_not_those_for_gcc_only(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".cpp") as source:
+            source.write("#include <itkImage.h>\n")
+            source.flush()
+            self.assertEqual(units(self.database + [{"file": source.name}], lambda _: True), units(self.database, lambda _: True))
+
     def test_of_rooms(self):
         rooms, root = {"solid": [], "diagnosis/search": []}, pathlib.Path("/house")
         for source, expected in (

@@ -74,7 +74,7 @@ Grey::Pointer empty_image(const Box& box, const Vec3& spacing) {
   Grey::SizeType size;
   Grey::SpacingType voxel;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    size[axis] = static_cast<itk::SizeValueType>(box.high[axis] - box.low[axis] + 1);
+    size[axis] = static_cast<itk::SizeValueType>(box.high[axis] - box.low[axis]) + 1;
     voxel[axis] = spacing[axis] / spacing.minCoeff();
   }
   image->SetRegions(size);
