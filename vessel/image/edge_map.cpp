@@ -54,7 +54,8 @@ ImageVolume gradient_magnitude(const ImageVolume& image) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t low = voxel[axis] > 0 ? n - stride[axis] : n;
       const std::size_t high = voxel[axis] + 1 < image.count[axis] ? n + stride[axis] : n;
-      const double way = image.spacing[static_cast<int>(axis)] * static_cast<double>((high - low) / stride[axis]);
+      const std::size_t voxels_apart = (high - low) / stride[axis];
+      const double way = image.spacing[static_cast<int>(axis)] * static_cast<double>(voxels_apart);
       const double slope = (image.values[high] - image.values[low]) / way;
       square += slope * slope;
     }

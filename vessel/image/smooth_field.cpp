@@ -10,10 +10,11 @@ namespace {
 /// Its sum is 1, its second moment 0.
 std::vector<double> kernel(double deviation) {
   const int half = static_cast<int>(std::ceil(3.5 * deviation)), twice = 2 * half;
-  std::vector<double> once(static_cast<std::size_t>(2 * half + 1)),
-      result(static_cast<std::size_t>(2 * twice + 1), 0.0);
-  for (int i = -half; i <= half; ++i)
-    once[static_cast<std::size_t>(i + half)] = std::exp(-0.5 * i * i / (deviation * deviation));
+  std::vector<double> once(static_cast<std::size_t>(twice) + 1), result(2 * static_cast<std::size_t>(twice) + 1, 0.0);
+  for (int place = 0; place <= twice; ++place) {
+    const double i = place - half;
+    once[static_cast<std::size_t>(place)] = std::exp(-0.5 * i * i / (deviation * deviation));
+  }
   const double sum = std::accumulate(once.begin(), once.end(), 0.0);
   for (double& weight : once) weight /= sum;
   for (std::size_t i = 0; i < once.size(); ++i) {
@@ -27,7 +28,7 @@ std::vector<double> kernel(double deviation) {
 void smooth_line(float* first, std::size_t stride, int count, const std::vector<double>& weights,
                  std::vector<float>& padded) {
   const int half = static_cast<int>(weights.size() / 2);
-  padded.resize(static_cast<std::size_t>(count + 2 * half));
+  padded.resize(static_cast<std::size_t>(count) + 2 * static_cast<std::size_t>(half));
   for (int i = 0; i < count + 2 * half; ++i)
     padded[static_cast<std::size_t>(i)] = first[stride * static_cast<std::size_t>(std::clamp(i - half, 0, count - 1))];
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
