@@ -4,7 +4,7 @@
 #include "common/linalg/krylov.hpp"
 #include "common/mesh/surface.hpp"
 #include "solid/inflation_stiffness.hpp"
-#include "solid/mark.hpp"
+#include "common/base/mark.hpp"
 
 #include <algorithm>
 
