@@ -58,6 +58,7 @@ void InitialStateCase::declare(Fields& f) {
 }
 
 void InitialState::put(TimeLoop& loop) const {
+  if (!loop.keeps_state()) throw input_error("{}: a code of this case announces no state, and cannot begin there", where);
   try {
     loop.restore(snapshot);
   } catch (const StepFailure& failure) {
