@@ -57,8 +57,8 @@ class FluidSolver {
   void move_interface(const Points& change);
 
   /// Everything needed to continue, bit for bit. A state of the same nodes with other openings, whose length may be
-  /// another, is taken but for the pressures stored beyond them, which are the initial ones. Throws InputError for one of
-  /// other nodes.
+  /// another, is taken but for the pressures stored beyond them, which are the initial ones. Throws InputError for one
+  /// of other nodes.
   VectorXd state() const;
   void set_state(const VectorXd& values);
 

@@ -11,12 +11,12 @@ namespace tether {
 
 /// What another run must have in common with this one to begin with its state, and what it asks of it.
 struct StateOrigin {
-  std::string units;            ///< their system
-  double image_pressure = 0;    ///< to which its pressures are relative
-  double time = 0;              ///< of the state
-  std::int64_t nodes = 0;       ///< of the interface,
-  std::int64_t places = 0;      ///< and where they are in the image: a hash
-  std::int64_t model = 0;       ///< a hash of all that the codes are told
+  std::string units;          ///< their system
+  double image_pressure = 0;  ///< to which its pressures are relative
+  double time = 0;            ///< of the state
+  std::int64_t nodes = 0;     ///< of the interface,
+  std::int64_t places = 0;    ///< and where they are in the image: a hash
+  std::int64_t model = 0;     ///< a hash of all that the codes are told
 
   void fields(auto& archive) { archive(units, image_pressure, time, nodes, places, model); }
   void fields(auto& archive) const { archive(units, image_pressure, time, nodes, places, model); }

@@ -49,16 +49,18 @@ std::string what_time_changes(double time, double start, const std::optional<dou
 }  // namespace
 
 void InitialStateCase::declare(Fields& f) {
-  f.path("from", from,
-         "output folder of a run: this one begins with the last state that it saved. The mesh, the units and the image's "
-         "pressure must be the same; parameters, inflow, supports may be others. Time begins at time.start, and with it "
-         "the phases of inflows and motions; pressures beyond outlets go on if the outlets are of the same types, else "
-         "they begin as the case says",
-         Need::required);
+  f.path(
+      "from", from,
+      "output folder of a run: this one begins with the last state that it saved. The mesh, the units and the image's "
+      "pressure must be the same; parameters, inflow, supports may be others. Time begins at time.start, and with it "
+      "the phases of inflows and motions; pressures beyond outlets go on if the outlets are of the same types, else "
+      "they begin as the case says",
+      Need::required);
 }
 
 void InitialState::put(TimeLoop& loop) const {
-  if (!loop.keeps_state()) throw input_error("{}: a code of this case announces no state, and cannot begin there", where);
+  if (!loop.keeps_state())
+    throw input_error("{}: a code of this case announces no state, and cannot begin there", where);
   try {
     loop.restore(snapshot);
   } catch (const StepFailure& failure) {
@@ -86,8 +88,7 @@ InitialState initial_state_of(const InitialStateCase& given, const CaseFile& fil
   const std::string place = fmt::format("{}: {}", file.where(field), file.given(field));
   const std::string notice = fmt::format(
       "initial state: {} after {} steps, at {:.6g} s; this run begins with it at {:.6g} s: {}", file.given(field),
-      saved.step, of.time, own.time,
-      what_time_changes(of.time, own.time, period_of_inlets(file.path(), file.units())));
+      saved.step, of.time, own.time, what_time_changes(of.time, own.time, period_of_inlets(file.path(), file.units())));
   return {std::move(saved.snapshot), place, notice};
 }
 

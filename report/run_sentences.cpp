@@ -8,7 +8,8 @@ namespace {
 std::string whole(const RunSummary& run) {
   std::string text = fmt::format("{:.4g} s of blood and wall in {} steps", run.time.end - run.time.start, run.steps);
   if (const auto& p = run.pressure)
-    text += fmt::format(": {:.1f} to {:.1f} mmHg", p->relative_to_mmhg + p->min_mmhg, p->relative_to_mmhg + p->max_mmhg);
+    text +=
+        fmt::format(": {:.1f} to {:.1f} mmHg", p->relative_to_mmhg + p->min_mmhg, p->relative_to_mmhg + p->max_mmhg);
   return text + fmt::format(", the lumen moved by at most {:.3g} mm", run.max_displacement_mm);
 }
 
@@ -21,7 +22,8 @@ std::string beats(const Periodicity& p) {
 
 std::string rest(const HeldBySurroundings& held) {
   return fmt::format(
-      "in the image the wall's tension carries the pressure but for {:.1f} % of its forces, which the surroundings hold; "
+      "in the image the wall's tension carries the pressure but for {:.1f} % of its forces, which the surroundings "
+      "hold; "
       "most, {:.2g} of the pressure, in region {}",
       100 * held.share, held.largest, held.region);
 }
@@ -32,10 +34,11 @@ std::vector<std::string> sentences_of(const RunSummary& run) {
   std::vector<std::string> all{whole(run)};
   if (run.periodicity && !run.periodicity->beats.empty()) all.push_back(beats(*run.periodicity));
   if (run.rest && run.rest->held) all.push_back(rest(*run.rest->held));
-  all.push_back(fmt::format("{:.2g} evaluations and {:.3g} Krylov iterations a step, {} steps done in halves; mass balance "
-                            "off by at most {:.1e} {}",
-                            run.coupling_iterations.mean, run.krylov_iterations.mean, run.repeated_steps,
-                            run.mass_balance_error_max, run.units.flow));
+  all.push_back(
+      fmt::format("{:.2g} evaluations and {:.3g} Krylov iterations a step, {} steps done in halves; mass balance "
+                  "off by at most {:.1e} {}",
+                  run.coupling_iterations.mean, run.krylov_iterations.mean, run.repeated_steps,
+                  run.mass_balance_error_max, run.units.flow));
   return all;
 }
 

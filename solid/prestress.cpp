@@ -109,7 +109,8 @@ StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material&
   StressFreeResult result;
   result.positions = mesh.points;
   if (fixed.empty()) {
-    result.failure = "no end of the wall is clamped or driven, so that nothing carries what the pressure exerts along it";
+    result.failure =
+        "no end of the wall is clamped or driven, so that nothing carries what the pressure exerts along it";
     return result;
   }
   double increment = 0.125;

@@ -8,7 +8,7 @@ namespace tether {
 
 struct StressFreeResult {
   bool converged = false;
-  double reached = 0;  ///< share of the pressure for which there is such a wall
+  double reached = 0;   ///< share of the pressure for which there is such a wall
   std::string failure;  ///< of the next step of pressure, the smallest that was tried
   int iterations = 0;
   double residual = 0;  ///< last correction over the vessel's size: half the smallest side of its bounding box

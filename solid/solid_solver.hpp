@@ -89,7 +89,7 @@ class SolidSolver {
   Points drifted_start() const;
 
   WallModel& model_;
-  Mark nodes_;  ///< of the mesh
+  Mark nodes_;                                      ///< of the mesh
   Points displacement_, velocity_, mean_velocity_;  ///< y, u at the start of the step; V of the last accepted step
   Points drift_;
   Points iterate_;  ///< V

@@ -37,7 +37,8 @@ std::string coupling(const RunSummary& s) {
 std::string rest(const std::optional<RestState>& rest) {
   if (!rest || !rest->held) return "";
   return fmt::format(
-      "  in the image   the surroundings hold {:.1f} % of the pressure's forces; most, {:.2g} of the pressure, in region "
+      "  in the image   the surroundings hold {:.1f} % of the pressure's forces; most, {:.2g} of the pressure, in "
+      "region "
       "{}\n",
       100 * rest->held->share, rest->held->largest, rest->held->region);
 }

@@ -88,7 +88,8 @@ std::vector<Windkessel> fit_to_pulse(const OutletTargets& targets, const Periodi
   if (targets.pulse_pressure <= reachable.least * 1.001 || targets.pulse_pressure >= reachable.most * 0.999)
     throw input_error(
         "a pulse pressure of {:.4g} mmHg cannot be reached: with this flow and mean pressure it is {:.4g} mmHg without "
-        "any compliance of outlets{}, and {:.4g} mmHg with an infinite one, which is what the proximal resistances leave",
+        "any compliance of outlets{}, and {:.4g} mmHg with an infinite one, which is what the proximal resistances "
+        "leave",
         targets.pulse_pressure, reachable.most, targets.vessel > 0 ? " beside that of the vessel" : "",
         reachable.least);
   const PeriodicFlow fine = flow.refined({}, pieces_of_a_beat);

@@ -21,7 +21,8 @@ struct ModeStep {
   }
 };
 
-/// The modes of the pressures stored in outlets that leave one vessel, after that of the vessel itself if it stores any.
+/// The modes of the pressures stored in outlets that leave one vessel, after that of the vessel itself if it stores
+/// any.
 struct Modes {
   Eigen::VectorXd rates, forcing;  ///< forcing: of each mode by a unit of flow
   Eigen::MatrixXd shapes;          ///< stored pressures of each mode, a column each
@@ -147,7 +148,8 @@ PeriodicBeat periodic_beat(std::span<const Windkessel> outlets, const PeriodicFl
   const Eigen::VectorXd g = conductances(outlets);
   const Modes modes = modes_of(outlets, g, vessel);
   Eigen::MatrixXd values(modes.rates.size(), static_cast<Eigen::Index>(flow.times.size()));
-  for (Eigen::Index k = 0; k < values.rows(); ++k) values.row(k) = periodic_mode(modes.rates[k], modes.forcing[k], flow);
+  for (Eigen::Index k = 0; k < values.rows(); ++k)
+    values.row(k) = periodic_mode(modes.rates[k], modes.forcing[k], flow);
   const Eigen::MatrixXd pressures = modes.shapes * values;
   PeriodicBeat beat;
   beat.times = flow.times;

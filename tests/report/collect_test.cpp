@@ -197,7 +197,8 @@ TEST_F(Collect, AnExplanation) {
 
 TEST_F(Collect, WhatCannotBeReported) {
   EXPECT_EQ(message_of([&] { collected(folder.path()); }),
-            folder.path().string() + ": holds no explain.json, comparison.json, diagnosis.json or estimate.json");
+            folder.path().string() +
+                ": holds no explain.json, comparison.json, diagnosis.json, estimate.json or summary.json");
   write("comparison.json", "{");
   EXPECT_TRUE(message_of([&] { collected(folder.path()); }).starts_with((folder / "comparison.json").string() + ": "));
   write("comparison.json", "{}");

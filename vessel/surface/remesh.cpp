@@ -100,8 +100,8 @@ class CapAt {
 };
 
 /// Parts with edges of one length each. A part's border is split and collapsed as the part wants it, which changes
-/// triangles beside it: parts are found anew each time. Three passes, with borders at other places; `first`: of which, as
-/// a share of a step.
+/// triangles beside it: parts are found anew each time. Three passes, with borders at other places; `first`: of which,
+/// as a share of a step.
 void remesh_by_radius(CgalMesh& mesh, const EdgeLength& length, const std::vector<double>& radius, const CapAt& cap_at,
                       double first) {
   const RadiusAt radius_at(mesh, radius);
