@@ -21,7 +21,7 @@ class InitialStateOfARun : public ::testing::Test {
   }
   ChildEnd simulate(const fs::path& case_file, const std::string& output, int steps) const {
     return capture({{TETHER_PROGRAM, "simulate", case_file.string(), "--output", (folder / output).string(), "--steps",
-                     std::to_string(steps)},
+                     std::to_string(steps), "--overwrite"},
                     {}});
   }
   /// A case that builds on the tube and begins where the run `begun` ended.
