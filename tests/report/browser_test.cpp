@@ -55,9 +55,9 @@ Json found_in(const fs::path& page, const std::string& script) {
                   "out.textContent = "
                   "JSON.stringify(found).replace(/[<>&]/g, (c) => '\\\\u00' + "
                   "c.charCodeAt(0).toString(16)); document.body.append(out); }));"
-                  "function afterDrawing(act, tries = 40) { requestAnimationFrame(() => "
+                  "function afterDrawing(act, tries = 40) { setTimeout(() => "
                   "tries && [...document.querySelectorAll('.chart')].some((c) => !c.querySelector('svg')) "
-                  "? setTimeout(() => afterDrawing(act, tries - 1), 100) : setTimeout(act, 100)); }</script>");
+                  "? afterDrawing(act, tries - 1) : setTimeout(act, 100), 100); }</script>");  // no frame need come
   const fs::path copy = page.parent_path() / "looked_at.html";
   std::ofstream(copy) << text;
   const std::string open = "<pre id=\"found\">";

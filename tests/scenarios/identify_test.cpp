@@ -189,8 +189,10 @@ TEST_F(Identify, ContinuesOnlyFromTheSameCaseAndMeasurements) {
 }
 
 TEST_F(Identify, WithoutCorrectionsItWritesAllSensitivities) {
-  const fs::path watching =
-      case_variant(case_file, folder / "watching", {{"identification:", "identification:\n  observe: never"}});
+  const fs::path watching = case_variant(case_file, folder / "watching",
+                                         {{"identification:",
+                                           "identification:\n  observe: never\n  allowed: {model: 0, "
+                                           "bias: 0, displacement: 0}"}});
   const ChildEnd end = tether("identify", watching, "watched", {});
   ASSERT_EQ(end.exit_code, 0) << end.errors;
   const Json found = estimate("watched");
