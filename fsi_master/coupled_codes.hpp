@@ -18,7 +18,6 @@ namespace tether {
 struct MasterCase {
   explicit MasterCase(const std::filesystem::path& path) : file(path) {
     file.read("coupling", coupling);
-    file.read("initial_state", initial_state);
     ObservationsCase observations;
     file.read("observations", observations);
     file.finish();
@@ -27,7 +26,6 @@ struct MasterCase {
   }
   CaseFile file;
   CouplingCase coupling;
-  std::optional<InitialStateCase> initial_state;
   FlowObservations flow;  ///< to record the velocity where it was measured
   bool measures_lumen = false;
 };
