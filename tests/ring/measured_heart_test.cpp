@@ -54,7 +54,7 @@ LabelledSurface arch() {
 }
 
 /// The first centimetres of it, between two flat caps; that of the root is 1.
-LabelledSurface stub() {
+LabelledSurface cut_arch() {
   const LabelledSurface whole = arch();
   RawSurface open{whole.points, whole.triangles, whole.label};
   open_labels(open, {1});
@@ -147,7 +147,7 @@ TEST_F(MeasuredHeart, WithoutALandmarkTheTurnAboutTheAxisIsWhatIsLost) {
 }
 
 TEST_F(MeasuredHeart, DoesNotDependOnTheFramesTriangles) {
-  make(stub(), true);
+  make(cut_arch(), true);
   EXPECT_LT(off(tracked(true), 0), 0.01) << "cm: chords of other corners of the rim";
 }
 
