@@ -59,6 +59,13 @@ double FrameSharing::spacing_at(std::int64_t frame) const {
   return std::max(mean, ends_.dt);
 }
 
+/// s of (O.3): 0 at the frame, or behind the last; 1 at the next, or ahead of the first.
+double FrameSharing::place_between(std::int64_t before, double time) const {
+  if (!exists(before)) return 1;
+  if (!exists(before + 1) || times_.size() == 1) return 0;
+  return std::clamp((time - time_of(before)) / (time_of(before + 1) - time_of(before)), 0.0, 1.0);
+}
+
 SeenFrame FrameSharing::at(double end_of_step) const {
   SeenFrame seen;
   if (times_.empty()) return seen;
@@ -75,9 +82,17 @@ SeenFrame FrameSharing::at(double end_of_step) const {
   }
   if (exists(before) && exists(before + 1) && times_.size() > 1) {
     seen.gap = time_of(before + 1) - time_of(before);
-    seen.place = std::clamp((end_of_step - time_of(before)) / seen.gap, 0.0, 1.0);
+    seen.place = place_between(before, end_of_step);
   }
   return seen;
+}
+
+std::array<FramePart, 2> FrameSharing::parts_at(double time) const {
+  const std::int64_t before = last_before(time);
+  const double place = place_between(before, time);
+  const FramePart earlier{before, 1 - place}, later{before + 1, place};
+  if (before % 2 == 0) return {earlier, later};
+  return {later, earlier};
 }
 
 }  // namespace tether

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +23,12 @@ struct SeenFrame {
   double place = 0;                                        ///< between them: s of (O.3)
 };
 
+/// What an interpolated datum has of a frame.
+struct FramePart {
+  std::int64_t frame = 0;  ///< numbered through all repetitions
+  double part = 0;         ///< 0: nothing
+};
+
 /// How the frames of one series, or the values of a trace, are shared out to the steps that see them, such that each
 /// counts once. (K.5)
 class FrameSharing {
@@ -33,12 +39,16 @@ class FrameSharing {
 
   /// At the end of a step; a share of 0 if nothing is seen there.
   SeenFrame at(double end_of_step) const;
+  /// Of which two successive frames data at a time are made (O.3), the one with an even number first. Not of a frame
+  /// that holds always.
+  std::array<FramePart, 2> parts_at(double time) const;
 
  private:
   /// Frames are numbered through all repetitions of a series that repeats.
   bool exists(std::int64_t frame) const;
   double time_of(std::int64_t frame) const;
   std::int64_t last_before(double time) const;
+  double place_between(std::int64_t before, double time) const;
   std::int64_t step_before(double time) const;
   std::pair<std::int64_t, std::int64_t> steps_nearest_to(std::int64_t frame) const;
   std::int64_t own_step_of(std::int64_t frame) const;

@@ -45,9 +45,9 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
       parameters_(parameters),
       precision_(precision),
       ensemble_(ensemble),
-      lasting_errors_(std::move(lasting.errors)),
+      lasting_(std::move(lasting)),
       filter_(parameters.prior_mean(), parameters.prior_covariance() * (plan.corrects ? 1 : nearness * nearness),
-              std::move(lasting.values)) {
+              lasting_.at(plan.start)) {
   for (const auto& observable : ensemble.model().observables) moment_.names.push_back(observable.name);
   moment_.points = observations.points();
   for (const Measurement* source : observations.FlowObservations::all()) {
@@ -86,6 +86,7 @@ void Identification::advance() {
   record.time = end;
   for (const ParticleReport& report : reports)
     record.evaluations += static_cast<double>(report.evaluations) / static_cast<double>(reports.size());
+  begin_errors_of_new_frames(plan_.time_at(step), end);
   if (plan_.corrects) {
     if (is_observed(step)) correct(reports, end, record);
     diffuse_and_forget();
@@ -178,6 +179,20 @@ void Identification::correct(const std::vector<ParticleReport>& reports, double 
   record.chi_square = done.chi_square;
   record.tempering = done.tempering;
   state_.states *= done.mix.transpose();  // (K.4)
+}
+
+void Identification::begin_errors_of_new_frames(double before, double end) {
+  const std::vector<Eigen::Index> renewed = lasting_.renewed(before, end);
+  filter_.errors_now(lasting_.at(end), renewed);
+  if (plan_.corrects) return;
+  MatrixXd& J = state_.information;  // whatever they are, within their deviations of 1: (K.7)
+  for (const Eigen::Index error : renewed) {
+    const Eigen::Index k = filter_.parameters() + error;
+    const VectorXd with = J.col(k);
+    J -= with * with.transpose() / (1 + with(k));
+    J.row(k).setZero();
+    J.col(k).setZero();
+  }
 }
 
 /// Of theta, from what all data so far would tell of it and of the errors that last. (K.7)

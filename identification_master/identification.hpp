@@ -22,6 +22,7 @@ struct IdentificationPlan {
   double largest_shift = 2;  ///< of a correction, in deviations
 
   double time_at(std::int64_t step) const { return start + static_cast<double>(step) * dt; }
+  StepEnds ends() const { return {.start = start, .dt = dt, .length = time_at(steps) - start}; }
 };
 
 /// What is known after a step.
@@ -72,13 +73,15 @@ struct IdentificationState {
   InnovationStatistics innovations;
   VectorXd last_mean;  ///< discrepancy of the mean at each datum's last frame; NaN before the first
   LastingErrors lasting;
-  MatrixXd information;  ///< if nothing is corrected: of all data so far, of theta and lasting errors [(p+q) x (p+q)]
+  /// If nothing is corrected: of all data so far, of theta and the errors that last [(p+q) x (p+q)]; what was known of
+  /// those that are over is left to theta and the others.
+  MatrixXd information;
 };
 
 /// The filter's cycle: sample, predict, correct (K.3, K.4), once a time step.
 class Identification {
  public:
-  /// All must outlive it. lasting: what data may be off by at all times. Throws InputError if the model has no
+  /// All must outlive it. lasting: what data may be off by. Throws InputError if the model has no
   /// observable that data are compared with.
   Identification(IdentificationPlan plan, const IdentifiedParameters& parameters, const DataPrecision& precision,
                  const Observations& observations, Ensemble& ensemble, LastingColumns lasting = {});
@@ -93,7 +96,7 @@ class Identification {
   void restore(IdentificationState state);
   const EstimateRecord& last() const { return state_.records.back(); }
   /// What the data may be off by at all times; state().lasting has what was found of it, in these deviations.
-  const std::vector<LastingError>& lasting_errors() const { return lasting_errors_; }
+  const std::vector<LastingError>& lasting_errors() const { return lasting_.errors(); }
   /// Called in each observed step if nothing is corrected.
   void report_sensitivities(std::function<void(const StepSensitivities&)> to) { report_ = std::move(to); }
 
@@ -110,6 +113,7 @@ class Identification {
   void correct(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
   void note_innovation(const VectorXd& mean, const DatumWeights& weights);
   void note_sensitivities(const std::vector<ParticleReport>& reports, double time, EstimateRecord& record);
+  void begin_errors_of_new_frames(double before, double end);
   MatrixXd covariance_left() const;
   void diffuse_and_forget();
 
@@ -119,7 +123,7 @@ class Identification {
   std::vector<const Measurement*> blood_;  ///< sources behind the samples of lumen data
   ModelMoment moment_;                     ///< with the names and points that they ask for
   Ensemble& ensemble_;
-  std::vector<LastingError> lasting_errors_;
+  LastingColumns lasting_;
   ReducedOrderFilter filter_;
   IdentificationState state_;
   std::function<void(const StepSensitivities&)> report_;

@@ -96,7 +96,7 @@ class Job {
                    {given.file.common().time.start, given.file.common().time.end}),
         plan_(plan_of(given, command)),
         filter_(plan_, parameters_, prepared(), data_, pool,
-                lasting_columns(data_, given.lumen(), pool.lumen(), given.identification.allowed, plan_.start)) {}
+                {data_, given.lumen(), pool.lumen(), given.identification.allowed, plan_.ends()}) {}
 
   void run() {
     begin();

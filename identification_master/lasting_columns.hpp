@@ -1,5 +1,6 @@
 #pragma once
 
+#include "identification_master/frame_sharing.hpp"
 #include "observation_manager/measurements/faults/allowance.hpp"
 #include "observation_manager/measurements/observations.hpp"
 
@@ -11,16 +12,39 @@ struct LastingError {
   double deviation = 0;      ///< that it may have before the data [length]
 };
 
-/// All that data may be off by at all times, and what each does to them.
-struct LastingColumns {
-  std::vector<LastingError> errors;
-  MatrixXd values;  ///< N of (K.8), of errors as large as their deviations [m x q, length]
-};
+/// What data may be off by beside their noise, and what each of these errors does to them: some are the same at all
+/// times, others as long as a frame is seen. Errors are numbered: first those of all times, then, of each series of
+/// frames, those of the frame with an even number and those of the one with an odd number, between which a time lies.
+class LastingColumns {
+ public:
+  /// Of no data.
+  LastingColumns() = default;
+  /// Of sources of places that are not held out, in the order of Observations::all(): the faults of the whole data that
+  /// are allowed (a bias, a displacement), and a distance of each region, by the model's own mesh and step, in all
+  /// frames alike and in each beside that. (K.8) imaged: the lumen. ends: of the steps that are corrected.
+  LastingColumns(const Observations& data, const LumenSurface& lumen, const Points& imaged,
+                 const LastingAllowance& allowed, const StepEnds& ends);
 
-/// Of sources of places that are not held out, in the order of Observations::all(): the faults of the whole data that
-/// are allowed (a bias, a displacement), and a distance of each region, by the model's own mesh and step. (K.8)
-/// imaged: the lumen. start: of the run.
-LastingColumns lasting_columns(const Observations& data, const LumenSurface& lumen, const Points& imaged,
-                               const LastingAllowance& allowed, double start);
+  /// q, of both kinds.
+  Eigen::Index count() const;
+  /// Those of all times.
+  const std::vector<LastingError>& errors() const { return errors_; }
+  /// N of (K.8), of errors as large as their deviations [m x q, length].
+  MatrixXd at(double time) const;
+  /// Those that are another frame's at a time than at an earlier one.
+  std::vector<Eigen::Index> renewed(double before, double time) const;
+
+ private:
+  /// Of frames that are seen together: what a distance of each region does [m x regions].
+  struct FrameColumns {
+    FrameSharing frames;
+    MatrixXd values;
+  };
+  class OfSource;
+
+  std::vector<LastingError> errors_;
+  MatrixXd values_;
+  std::vector<FrameColumns> of_frames_;
+};
 
 }  // namespace tether

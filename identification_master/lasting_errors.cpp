@@ -17,6 +17,16 @@ MatrixXd root_of(const MatrixXd& C) {
 
 }  // namespace
 
+void LastingErrors::renew(const std::vector<Eigen::Index>& errors) {
+  for (const Eigen::Index k : errors) {
+    mean(k) = 0;
+    slope.row(k).setZero();
+    covariance.row(k).setZero();
+    covariance.col(k).setZero();
+    covariance(k, k) = 1;
+  }
+}
+
 void LastingErrors::follow(const MatrixXd& T) {
   if (count() == 0) return;
   const MatrixXd whole = whole_covariance();

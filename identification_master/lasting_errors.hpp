@@ -1,10 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "common/base/types.hpp"
 
 namespace tether {
 
-/// What is known of errors of data that are the same at all times, N b: at the place xi among the particles (in their
+/// What is known of errors of data that last, N b: at the place xi among the particles (in their
 /// deviations) b is normal with the mean m + B xi and the covariance C. (K.8)
 struct LastingErrors {
   VectorXd mean;        ///< m [q]
@@ -18,6 +20,8 @@ struct LastingErrors {
   Eigen::Index count() const { return mean.size(); }
   /// Of b, whatever xi is.
   MatrixXd whole_covariance() const { return covariance + slope * slope.transpose(); }
+  /// Some begin anew, as before any data, whatever the parameters are: what was found of them is over.
+  void renew(const std::vector<Eigen::Index>& errors);
   /// The particles spread, or draw together, by T [p x p] and nothing else is learned: L_theta <- L_theta T.
   void follow(const MatrixXd& T);
 };

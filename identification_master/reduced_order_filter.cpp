@@ -64,6 +64,12 @@ void ReducedOrderFilter::restore(MatrixXd particles, LastingErrors lasting) {
   particles_ = std::move(particles);
 }
 
+void ReducedOrderFilter::errors_now(MatrixXd columns, const std::vector<Eigen::Index>& renewed) {
+  TETHER_ASSERT(columns.cols() == lasting_.count(), "{} of {} errors that last", columns.cols(), lasting_.count());
+  columns_ = std::move(columns);
+  lasting_.renew(renewed);
+}
+
 VectorXd ReducedOrderFilter::mean_of(const MatrixXd& columns) {
   return columns.rowwise().mean();
 }

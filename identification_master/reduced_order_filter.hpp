@@ -23,7 +23,7 @@ struct FilterCorrection {
 class ReducedOrderFilter {
  public:
   /// A normal distribution of theta: mean [p], covariance [p x p], positive definite. lasting: what errors of deviation
-  /// 1 that last do to the data [m x q]; none: no columns.
+  /// 1 that last do to the first data [m x q]; none: no columns.
   ReducedOrderFilter(const VectorXd& mean, const MatrixXd& covariance, MatrixXd lasting = {});
   /// From particles, one a column [p x (p+1)].
   explicit ReducedOrderFilter(MatrixXd particles);
@@ -36,6 +36,8 @@ class ReducedOrderFilter {
   MatrixXd covariance() const;
   const LastingErrors& lasting() const { return lasting_; }
   const MatrixXd& lasting_columns() const { return columns_; }
+  /// What they do to the data that come now [m x q]; renewed: those that are other errors than before.
+  void errors_now(MatrixXd columns, const std::vector<Eigen::Index>& renewed);
   /// Without the errors that last, as each particle has them [m x (p+1)].
   MatrixXd without_lasting(const MatrixXd& discrepancies) const;
   /// Variances of what the data may be off by the errors that last, the parameters given [m].

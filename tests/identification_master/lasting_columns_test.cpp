@@ -11,19 +11,19 @@ namespace lasting_columns_test {
 LastingColumns columns_of(const LastingAllowance& allowed) {
   static const Observations data = surfaces(24, 20, 0.3, -0.1, 12, 10);
   const LumenSurface model = lumen(BreathingTube::at(12, 10, 0, 0, 0));
-  return lasting_columns(data, model, model.points, allowed, 0);
+  return {data, model, model.points, allowed, {.start = 0, .dt = 0.02, .length = BreathingTube::beat}};
 }
 
 TEST(LastingColumns, AreABiasADisplacementAndADistanceOfEachRegion) {
   const LastingColumns found = columns_of({});
   const Points x = BreathingTube::at(12, 10, 0, 0, 0).points;
-  ASSERT_EQ(found.values.rows(), x.cols());
+  ASSERT_EQ(found.at(0).rows(), x.cols());
   const auto column = [&](const std::string& name) -> VectorXd {
-    for (std::size_t k = 0; k < found.errors.size(); ++k)
-      if (found.errors[k].name == name) return found.values.col(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < found.errors().size(); ++k)
+      if (found.errors()[k].name == name) return found.at(0).col(static_cast<Eigen::Index>(k));
     return VectorXd::Zero(x.cols());
   };
-  for (const LastingError& error : found.errors) {
+  for (const LastingError& error : found.errors()) {
     EXPECT_EQ(error.source, "observations.surfaces.data");
     EXPECT_NEAR(error.deviation, (error.name == "all" ? 0.25 : 0.5) * deviation, 1e-15) << error.name;
   }
@@ -34,11 +34,28 @@ TEST(LastingColumns, AreABiasADisplacementAndADistanceOfEachRegion) {
     EXPECT_NEAR(column("x")(i), 0.5 * deviation * x(0, i) / x.col(i).head<2>().norm(), facet);
 }
 
+/// Of two successive frames, as much of each as an interpolated datum has; then the later one stays and another comes.
+TEST(LastingColumns, AreADistanceOfEachRegionInEachFrame) {
+  const LastingColumns found = columns_of({});
+  const auto all_times = std::ssize(found.errors());
+  ASSERT_EQ(found.count(), all_times + 2);
+  const double gap = BreathingTube::beat / frames, a = 0.25 * deviation;
+  const auto of_frames = [&](double time) { return Eigen::Vector2d(found.at(time).topRightCorner(1, 2).transpose()); };
+  EXPECT_LT((of_frames(0.25 * gap) - Eigen::Vector2d(0.75 * a, 0.25 * a)).norm(), 1e-12);
+  EXPECT_LT((of_frames(1.25 * gap) - Eigen::Vector2d(0.25 * a, 0.75 * a)).norm(), 1e-12);
+  const MatrixXd columns = found.at(0.25 * gap).rightCols(2);
+  EXPECT_LT((columns.rowwise() - columns.row(0)).norm(), 1e-12);
+  EXPECT_TRUE(found.renewed(0.25 * gap, 0.75 * gap).empty());
+  EXPECT_EQ(found.renewed(0.75 * gap, 1.25 * gap), std::vector<Eigen::Index>{all_times});
+  EXPECT_EQ(found.renewed(1.75 * gap, 2.25 * gap), std::vector<Eigen::Index>{all_times + 1});
+  EXPECT_EQ(found.renewed(0.25 * gap, 2.25 * gap), (std::vector<Eigen::Index>{all_times, all_times + 1}));
+}
+
 TEST(LastingColumns, AreNoneIfNothingIsAllowed) {
-  EXPECT_EQ(columns_of(nothing_lasts).values.cols(), 0);
+  EXPECT_EQ(columns_of(nothing_lasts).count(), 0);
   const LastingColumns bias = columns_of({0, 0.02, 0});
-  ASSERT_EQ(bias.errors.size(), 1U);
-  EXPECT_EQ(bias.errors[0].deviation, 0.02);
+  ASSERT_EQ(bias.errors().size(), 1U);
+  EXPECT_EQ(bias.errors()[0].deviation, 0.02);
 }
 
 /// Surfaces that are drawn too large by 0.1 in all frames: counted as new in each frame, front and rear come out wrong
@@ -72,9 +89,8 @@ TEST(LastingErrors, AreAllowedForWhereNothingIsCorrected) {
   BreathingEnsemble ensemble(data, 24, 20);
   const IdentifiedParameters parameters = parameters_of_tube();
   const DataPrecision precision(data, ensemble.lumen(), 0.02, {0, BreathingTube::beat});
-  const LastingColumns lasting =
-      lasting_columns(data, lumen(BreathingTube::at(24, 20, 0, 0, 0)), ensemble.lumen(), {}, 0);
   IdentificationPlan plan{.start = 0, .dt = 0.02, .steps = 40, .largest_shift = 1e9};
+  const LastingColumns lasting(data, lumen(BreathingTube::at(24, 20, 0, 0, 0)), ensemble.lumen(), {}, plan.ends());
   Identification correcting(plan, parameters, precision, data, ensemble, lasting);
   plan.corrects = false;
   Identification watching(plan, parameters, precision, data, ensemble, lasting);

@@ -69,6 +69,17 @@ struct Twins {
     X = (X * done.mix.transpose()).eval();
     return done;
   }
+  void renew(const std::vector<Eigen::Index>& errors) {
+    for (const Eigen::Index error : errors) {
+      const Eigen::Index k = states + filter.parameters() + error;
+      b(error) = random_matrix(random, 1, 1)(0);
+      kalman.mean(k) = 0;
+      kalman.covariance.row(k).setZero();
+      kalman.covariance.col(k).setZero();
+      kalman.covariance(k, k) = 1;
+    }
+    filter.errors_now(N, errors);
+  }
   void walk(const VectorXd& variances) {
     filter.diffuse(variances);
     kalman.covariance.diagonal().segment(states, filter.parameters()) += variances;
@@ -101,6 +112,18 @@ TEST(LastingErrors, AreFoundAsTheKalmanFilterOfAllFindsThem) {
         twins.expect_equal(1e-9);
       }
     }
+}
+
+/// Those of single frames, of which others come in their place.
+TEST(LastingErrors, BeginAnewWithTheirFrame) {
+  Twins twins(3, 5);
+  for (int step = 0; step < 60; ++step) {
+    twins.predict();
+    if (step % 4 == 0) twins.renew({1, 2});
+    if (step % 6 == 2) twins.renew({4});
+    twins.correct();
+    twins.expect_equal(1e-9);
+  }
 }
 
 /// States and parameters part where parameters walk (K.6): compared is what the filter keeps, that of the parameters.

@@ -68,7 +68,7 @@ inline EstimateRecord identified(const Observations& data, int around, int along
                           .largest_shift = 1e9};
   const LumenSurface model = lumen(BreathingTube::at(around, along, 0, 0, 0));
   Identification filter(plan, parameters, precision, data, ensemble,
-                        lasting_columns(data, model, ensemble.lumen(), allowed, 0));
+                        {data, model, ensemble.lumen(), allowed, plan.ends()});
   while (!filter.is_done()) filter.advance();
   return filter.last();
 }
