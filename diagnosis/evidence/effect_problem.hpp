@@ -35,9 +35,9 @@ struct DataPlace {
   Vec3 middle{0, 0, 0};      ///< of the places that were compared [length]
 };
 
-/// Smallest and largest that an amplitude may be.
+/// Between which an amplitude is with a probability of 95 %, and what it is above as probably as below.
 struct AmplitudeInterval {
-  double least = 0, most = 0;
+  double least = 0, middle = 0, most = 0;
 };
 
 /// What may be missing or wrong: one effect at one place.

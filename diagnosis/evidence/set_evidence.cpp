@@ -30,6 +30,10 @@ double prior_density(const Amplitude& amplitude, double size, double scale) {
   return 1 / (std::numbers::pi * scale * (1 + std::pow(size / scale, 2)));
 }
 
+double normal_density(double size, double deviation) {
+  return std::exp(-0.5 * std::pow(size / deviation, 2)) / (std::sqrt(2 * std::numbers::pi) * deviation);
+}
+
 double log_sum(const VectorXd& logs) {
   const double most = logs.maxCoeff();
   return std::isfinite(most) ? most + std::log((logs.array() - most).exp().sum()) : most;
@@ -78,7 +82,7 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     const Index own = problem.candidates[c].amplitudes.front();
     curves_[c].resize(2);
     const auto add = [&](const AmplitudeCurve::Point& point) { curves_[c][point.size > 0 ? 0 : 1].add(point); };
-    if (const Amplitude& amplitude = amplitude_of(c); amplitude.step != 0)
+    if (const Amplitude& amplitude = amplitude_of({c}); amplitude.step != 0)
       add({amplitude.step, own, amplitude.step, amplitude.is_coarse});
     for (const ShownRun& run : runs)
       if (run.amplitudes(own) != 0 && (run.amplitudes.array() != 0).count() == 1 && run.residual.allFinite()) {
@@ -121,8 +125,9 @@ bool SetEvidence::is_scalar(std::size_t candidate) const {
   return problem_.candidates[candidate].amplitudes.size() == 1;
 }
 
-const Amplitude& SetEvidence::amplitude_of(std::size_t candidate) const {
-  return problem_.amplitudes[static_cast<std::size_t>(problem_.candidates[candidate].amplitudes.front())];
+const Amplitude& SetEvidence::amplitude_of(const Summand& summand) const {
+  const auto& own = problem_.candidates[summand.candidate].amplitudes;
+  return problem_.amplitudes[static_cast<std::size_t>(own[static_cast<std::size_t>(summand.number)])];
 }
 
 /// The residual is the last.
@@ -139,33 +144,36 @@ std::vector<Index> SetEvidence::columns_of(const Members& members) const {
   return columns;
 }
 
-/// To first order where no run was made; of several amplitudes the first.
-VectorXd SetEvidence::mix_at(std::size_t candidate, double size, const std::vector<Index>& columns) const {
+/// To first order where no run was made.
+VectorXd SetEvidence::mix_at(const Summand& summand, double size, const std::vector<Index>& columns) const {
   VectorXd mix = VectorXd::Zero(static_cast<Index>(columns.size()));
   const auto place_of = [&](Index column) {
     return std::find(columns.begin(), columns.end(), column) - columns.begin();
   };
-  const Index own = place_of(problem_.candidates[candidate].amplitudes.front());
-  if (!is_scalar(candidate)) return size * VectorXd::Unit(mix.size(), own);
-  const AmplitudeCurve& side = curves_[candidate][size > 0 ? 0 : 1];
+  const auto& all = problem_.candidates[summand.candidate].amplitudes;
+  const Index own = place_of(all[static_cast<std::size_t>(summand.number)]);
+  if (!is_scalar(summand.candidate)) return size * VectorXd::Unit(mix.size(), own);
+  const AmplitudeCurve& side = curves_[summand.candidate][size > 0 ? 0 : 1];
   if (side.points().empty()) mix(own) = size;
   for (const AmplitudeCurve::Share& part : side.at(size))
     mix(place_of(part.point->column)) += part.share * part.point->factor;
   return mix;
 }
 
-SetEvidence::Grid SetEvidence::grid_of(std::size_t candidate, const std::vector<Index>& columns,
+SetEvidence::Grid SetEvidence::grid_of(const Summand& summand, const std::vector<Index>& columns,
                                        const VectorXd& places) const {
-  const Amplitude& amplitude = amplitude_of(candidate);
+  const Amplitude& amplitude = amplitude_of(summand);
   const double assumed = scale_of(amplitude), scale = assumed / assumed_.sizes, between = places(1) - places(0);
   Grid grid{VectorXd(places.size()), VectorXd(places.size()), MatrixXd(places.size(), columns.size())};
   for (Index g = 0; g < places.size(); ++g) {
     const double size = scale * seen_from * std::sinh(places(g)), way = scale * seen_from * std::cosh(places(g));
     const bool admissible = size != 0 && std::abs(amplitude.limited(size) - size) <= 1e-9 * std::abs(size);
-    const double density = (amplitude.one_sided ? 2 : 1) * prior_density(amplitude, size, assumed);
+    const double density = summand.deviation > 0
+                               ? normal_density(size, summand.deviation)
+                               : (amplitude.one_sided ? 2 : 1) * prior_density(amplitude, size, assumed);
     grid.sizes(g) = size;
     grid.log_weight(g) = admissible ? std::log(density * way * between) : -infinite;
-    grid.mix.row(g) = mix_at(candidate, admissible ? size : scale, columns);
+    grid.mix.row(g) = mix_at(summand, admissible ? size : scale, columns);
   }
   return grid;
 }
@@ -231,14 +239,14 @@ Summed summed(const std::vector<VectorXd>& alone, const std::vector<std::vector<
 }  // namespace
 
 /// Of those of one amplitude, in their order.
-SetFit SetEvidence::over_scalars(const Members& scalars, const Products& products,
+SetFit SetEvidence::over_scalars(const Summands& scalars, const Products& products,
                                  const std::vector<Index>& columns) const {
   const Index r = products.gram.cols() - 1;
   SetFit fit{-0.5 * products.gram(r, r) - products.log_norm, std::vector<double>(scalars.size())};
   fit.densities.resize(scalars.size());
   if (scalars.empty()) return fit;
   std::vector<VectorXd> places;
-  for (const std::size_t c : scalars) places.push_back(all_places(amplitude_of(c), scalars.size() > 2));
+  for (const Summand& s : scalars) places.push_back(all_places(amplitude_of(s), scalars.size() > 2));
   Summed found;
   for (int round = 0; round < 2; ++round) {
     std::vector<VectorXd> alone;
@@ -264,21 +272,32 @@ SetFit SetEvidence::over_scalars(const Members& scalars, const Products& product
   return fit;
 }
 
+/// What is told of one of several is the last of what over_scalars tells.
 SetFit SetEvidence::over_vectors(const Members& vectors, std::size_t next, const Products& products,
-                                 const Members& scalars, const std::vector<Index>& columns) const {
+                                 const Summands& scalars, const std::vector<Index>& columns,
+                                 const OneOfSeveral* told) const {
   if (next == vectors.size()) return over_scalars(scalars, products, columns);
   std::vector<Index> own;
-  VectorXd scales(problem_.candidates[vectors[next]].amplitudes.size());
-  for (const Index amplitude : problem_.candidates[vectors[next]].amplitudes) {
-    scales(static_cast<Index>(own.size())) = scale_of(problem_.amplitudes[static_cast<std::size_t>(amplitude)]);
-    own.push_back(std::find(columns.begin(), columns.end(), amplitude) - columns.begin());
+  std::vector<double> scales_of_own;
+  Summands summed = scalars;
+  const Summand kept{vectors[next], told ? told->number : 0};
+  const bool keeps = told && told->candidate == vectors[next];
+  if (keeps) summed.push_back(kept);
+  const auto& amplitudes = problem_.candidates[vectors[next]].amplitudes;
+  for (std::size_t k = 0; k < amplitudes.size(); ++k) {
+    if (keeps && static_cast<Index>(k) == kept.number) continue;
+    scales_of_own.push_back(scale_of(problem_.amplitudes[static_cast<std::size_t>(amplitudes[k])]));
+    own.push_back(std::find(columns.begin(), columns.end(), amplitudes[k]) - columns.begin());
   }
+  const Eigen::Map<const VectorXd> scales(scales_of_own.data(), std::ssize(scales_of_own));
   SetFit best{-infinite, std::vector<double>(scalars.size(), undefined), {scalars.size(), AmplitudeDensity{}}};
   VectorXd logs(multiples.size());
   for (std::size_t k = 0; k < multiples.size(); ++k) {
     const Taken taken =
         take_out(products.gram, products.gram(own, own), products.gram(own, Eigen::all), multiples[k] * scales);
-    SetFit fit = over_vectors(vectors, next + 1, {taken.gram, products.log_norm + taken.log_norm}, scalars, columns);
+    if (keeps) summed.back().deviation = multiples[k] * scale_of(amplitude_of(kept));
+    SetFit fit =
+        over_vectors(vectors, next + 1, {taken.gram, products.log_norm + taken.log_norm}, summed, columns, told);
     logs(static_cast<Index>(k)) = fit.log_evidence;
     if (fit.log_evidence > best.log_evidence) best = std::move(fit);
   }
@@ -286,13 +305,27 @@ SetFit SetEvidence::over_vectors(const Members& vectors, std::size_t next, const
   return best;
 }
 
-SetFit SetEvidence::fit(const Members& members, std::size_t discrepancy) const {
-  Members scalars, vectors;
-  for (const std::size_t c : members) (is_scalar(c) ? scalars : vectors).push_back(c);
-  TETHER_ASSERT(scalars.size() <= 3, "{} amplitudes", scalars.size());
+SetFit SetEvidence::over_all(const Members& members, std::size_t discrepancy, const OneOfSeveral* told) const {
+  Summands scalars;
+  Members vectors;
+  for (const std::size_t c : members)
+    if (is_scalar(c))
+      scalars.push_back({c});
+    else
+      vectors.push_back(c);
+  TETHER_ASSERT(scalars.size() + (told ? 1 : 0) <= 3, "{} amplitudes", scalars.size());
   const std::vector<Index> columns = columns_of(members);
   const Products& all = products_[discrepancy];
-  SetFit fit = over_vectors(vectors, 0, {all.gram(columns, columns), all.log_norm}, scalars, columns);
+  return over_vectors(vectors, 0, {all.gram(columns, columns), all.log_norm}, scalars, columns, told);
+}
+
+AmplitudeDensity SetEvidence::density_of(const OneOfSeveral& told, const Members& members,
+                                         std::size_t discrepancy) const {
+  return over_all(members, discrepancy, &told).densities.back();
+}
+
+SetFit SetEvidence::fit(const Members& members, std::size_t discrepancy) const {
+  SetFit fit = over_all(members, discrepancy, nullptr);
   SetFit of_members{fit.log_evidence, {}, {}};
   std::size_t next = 0;
   for (const std::size_t c : members) {
@@ -313,7 +346,7 @@ double SetEvidence::log_evidence(const Members& members) const {
 
 void SetEvidence::suppose(std::size_t candidate, double amplitude, double share) {
   const std::vector<Index> columns = columns_of({candidate});
-  const VectorXd mix = share * mix_at(candidate, amplitude, columns);
+  const VectorXd mix = share * mix_at({candidate}, amplitude, columns);
   for (Products& products : products_) {
     const Index data = products.gram.cols() - 1;
     const VectorXd seen = products.gram(Eigen::all, columns) * mix;

@@ -27,6 +27,12 @@ struct AmplitudeDensity {
   VectorXd sizes, probabilities;
 };
 
+/// One of a candidate's several amplitudes.
+struct OneOfSeveral {
+  std::size_t candidate;
+  Eigen::Index number;  ///< among its amplitudes
+};
+
 /// A set's evidence with one size of discrepancy, and the most probable amplitudes of its members; of several
 /// amplitudes NaN, and no density.
 struct SetFit {
@@ -47,6 +53,10 @@ class SetEvidence {
 
   /// members: numbers of candidates, at most three of one amplitude. discrepancy: number of one of `discrepancies()`.
   SetFit fit(const std::vector<std::size_t>& members, std::size_t discrepancy) const;
+  /// How probable the values of one amplitude of a member of several are, by what it does to first order.
+  AmplitudeDensity density_of(const OneOfSeveral& told, const std::vector<std::size_t>& members,
+                              std::size_t discrepancy) const;
+  bool is_scalar(std::size_t candidate) const;
   /// Over all sizes of discrepancy.
   double log_evidence(const std::vector<std::size_t>& members) const;
   /// Takes for the data so much of what a candidate of that first amplitude does, and nothing else.
@@ -74,14 +84,23 @@ class SetEvidence {
     double log_norm = 0;
   };
 
-  bool is_scalar(std::size_t candidate) const;
-  const Amplitude& amplitude_of(std::size_t candidate) const;
+  /// An amplitude that is summed over; of one of several the deviation of its normal prior.
+  struct Summand {
+    std::size_t candidate;
+    Eigen::Index number = 0;
+    double deviation = 0;
+  };
+  using Summands = std::vector<Summand>;
+
+  const Amplitude& amplitude_of(const Summand& summand) const;
   std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;
-  Grid grid_of(std::size_t candidate, const std::vector<Eigen::Index>& columns, const VectorXd& places) const;
-  VectorXd mix_at(std::size_t candidate, double size, const std::vector<Eigen::Index>& columns) const;
+  Grid grid_of(const Summand& summand, const std::vector<Eigen::Index>& columns, const VectorXd& places) const;
+  VectorXd mix_at(const Summand& summand, double size, const std::vector<Eigen::Index>& columns) const;
+  SetFit over_all(const std::vector<std::size_t>& members, std::size_t discrepancy, const OneOfSeveral* told) const;
   SetFit over_vectors(const std::vector<std::size_t>& vectors, std::size_t next, const Products& products,
-                      const std::vector<std::size_t>& scalars, const std::vector<Eigen::Index>& columns) const;
-  SetFit over_scalars(const std::vector<std::size_t>& scalars, const Products& products,
+                      const Summands& scalars, const std::vector<Eigen::Index>& columns,
+                      const OneOfSeveral* told) const;
+  SetFit over_scalars(const Summands& scalars, const Products& products,
                       const std::vector<Eigen::Index>& columns) const;
 
   double scale_of(const Amplitude& amplitude) const;

@@ -57,8 +57,8 @@ class Mixture {
 };
 
 /// Of one set, at each size of the discrepancy.
-void add(Mixture& mixture, const SetEvidence& evidence, const EffectSet& set, std::size_t candidate) {
-  const auto place = std::find(set.members.begin(), set.members.end(), candidate) - set.members.begin();
+void add(Mixture& mixture, const SetEvidence& evidence, const EffectSet& set, const OneOfSeveral& told) {
+  const auto place = std::find(set.members.begin(), set.members.end(), told.candidate) - set.members.begin();
   const auto& sizes = evidence.discrepancies();
   std::vector<SetFit> fits;
   double best = -infinite;
@@ -71,23 +71,25 @@ void add(Mixture& mixture, const SetEvidence& evidence, const EffectSet& set, st
   for (std::size_t s = 0; s < sizes.size(); ++s)
     sums[is_more(s)] += sizes[s].prior * std::exp(fits[s].log_evidence - best);
   for (std::size_t s = 0; s < sizes.size(); ++s) {
-    const AmplitudeDensity& density = fits[s].densities[static_cast<std::size_t>(place)];
     const double all = is_more(s) ? set.with_more : set.probability + set.with_unseen,
                  share = sizes[s].prior * std::exp(fits[s].log_evidence - best) / sums[is_more(s)];
-    if (density.sizes.size() > 1 && all * share > 0) mixture.add(density, all * share);
+    if (!(all * share > 0)) continue;
+    mixture.add(evidence.is_scalar(told.candidate) ? fits[s].densities[static_cast<std::size_t>(place)]
+                                                   : evidence.density_of(told, set.members, s),
+                all * share);
   }
 }
 
 }  // namespace
 
 std::optional<AmplitudeInterval> amplitude_interval(const SetEvidence& evidence, const Posterior& posterior,
-                                                    std::size_t candidate) {
-  const double all = posterior.of(candidate);
+                                                    const OneOfSeveral& told) {
+  const double all = posterior.of(told.candidate);
   Mixture mixture;
   for (const EffectSet& set : posterior.sets)
-    if (set.has(candidate) && set.all() > negligible * all) add(mixture, evidence, set, candidate);
+    if (set.has(told.candidate) && set.all() > negligible * all) add(mixture, evidence, set, told);
   if (mixture.is_empty()) return std::nullopt;
-  return AmplitudeInterval{mixture.quantile(outside), mixture.quantile(1 - outside)};
+  return AmplitudeInterval{mixture.quantile(outside), mixture.quantile(0.5), mixture.quantile(1 - outside)};
 }
 
 void set_intervals(SearchResult& result, const EffectProblem& problem, const SearchSettings& settings,
@@ -97,7 +99,8 @@ void set_intervals(SearchResult& result, const EffectProblem& problem, const Sea
   const SetEvidence evidence(problem, shown);
   const Posterior posterior = posterior_of(problem, evidence, refused_in(problem, settings));
   for (TestedEffect& effect : result.effects)
-    if (effect.confirmed) effect.interval = amplitude_interval(evidence, posterior, effect.candidate);
+    for (Eigen::Index own = 0; effect.confirmed && own < effect.amplitudes.size(); ++own)
+      effect.intervals.push_back(amplitude_interval(evidence, posterior, {effect.candidate, own}));
 }
 
 }  // namespace tether

@@ -107,10 +107,21 @@ double does_at(double factor, double c) {
   return factor > 0 ? factor * (1 + c) / (1 + c * factor) : factor;
 }
 
+/// The factor of its amplitude at which the effect does so much of what it does as found.
+double factor_for(double does, double c) {
+  return does > 0 ? does / std::max(1 + c - c * does, does / at_most) : does;
+}
+
 AmplitudeRange range_of(const AmplitudeInterval& interval, double size, double saturation) {
   const auto [least, most] = std::minmax({interval.least / size, interval.most / size});
   const double lower = std::min(least, 1.0), upper = std::clamp(most, 1.0, at_most);
   return {lower, upper, does_at(lower, saturation), does_at(upper, saturation)};
+}
+
+/// Of one of several, known to first order.
+AmplitudeRange range_about(const AmplitudeInterval& interval, double saturation) {
+  const auto [least, most] = std::minmax({interval.least / interval.middle, interval.most / interval.middle});
+  return {factor_for(least, saturation), factor_for(most, saturation), least, most};
 }
 
 }  // namespace
@@ -122,14 +133,15 @@ AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect
   const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own) / std::abs(size);
   if (size == 0) return {};
   const double c = std::max(0.0, effect.saturation);
-  if (effect.interval) return range_of(*effect.interval, size, c);
+  const auto& interval = effect.intervals.empty() ? std::nullopt : effect.intervals[static_cast<std::size_t>(own)];
+  if (interval && effect.intervals.size() == 1) return range_of(*interval, size, c);
+  if (interval && interval->middle * size > 0) return range_about(*interval, c);
   if (!amplitude.one_sided) return {1 - half, 1 + half, 1 - half, 1 + half};
   const double least = std::max(0.0, 1 - half);
   if (!effect.confirmed) return {least, 1 + half, least, 1 + half};
   const double does = std::exp(half / (1 + c));
-  const auto at = [&](double does) { return does / std::max(1 + c - c * does, does / at_most); };
-  const double most = std::min(does, at(does) < at_most ? does : (1 + c) / (c + 1 / at_most));
-  return {at(1 / does), at(does), 1 / does, most};
+  const double most = std::min(does, factor_for(does, c) < at_most ? does : (1 + c) / (c + 1 / at_most));
+  return {factor_for(1 / does, c), factor_for(does, c), 1 / does, most};
 }
 
 std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double count) {

@@ -10,16 +10,17 @@ namespace tether {
 /// What the data say of one candidate.
 struct TestedEffect {
   std::size_t candidate = 0;
-  double gain = 0;                            ///< of the misfit, by its best amplitudes to first order (D.10)
-  double z = 0, p = 1, q = 1;                 ///< q: corrected for the number of candidates
-  VectorXd amplitudes, deviations;            ///< of its own; after confirmation at finite size
-  std::optional<AmplitudeInterval> interval;  ///< of its only amplitude, beside all that may be there too
-  double saturation = 0;                      ///< c f of f/(1 + c f), which it follows by runs (D.10); 0: in proportion
-  double retained = 0;                        ///< share of its information that errors allowed cannot explain as well
-  bool confirmed = false;                     ///< the amplitudes are those of runs
-  double confirmed_gain = 0;                  ///< of the misfit, by those runs
-  bool at_limit = false;                      ///< one of its amplitudes would have to be larger than it may be
-  VectorXd run;                               ///< amplitudes of all candidates in the best of those runs [q]
+  double gain = 0;                  ///< of the misfit, by its best amplitudes to first order (D.10)
+  double z = 0, p = 1, q = 1;       ///< q: corrected for the number of candidates
+  VectorXd amplitudes, deviations;  ///< of its own; after confirmation at finite size
+  /// Of each of its own, beside all that may be there too; those of several by what they do to first order.
+  std::vector<std::optional<AmplitudeInterval>> intervals;
+  double saturation = 0;      ///< c f of f/(1 + c f), which it follows by runs (D.10); 0: in proportion
+  double retained = 0;        ///< share of its information that errors allowed cannot explain as well
+  bool confirmed = false;     ///< the amplitudes are those of runs
+  double confirmed_gain = 0;  ///< of the misfit, by those runs
+  bool at_limit = false;      ///< one of its amplitudes would have to be larger than it may be
+  VectorXd run;               ///< amplitudes of all candidates in the best of those runs [q]
   std::optional<Gain> held_out;
   bool accepted = false;
   bool rival = false;    ///< by runs, these data cannot tell it from an accepted one
@@ -35,9 +36,10 @@ struct AmplitudeRange {
   double does_least = 1, does_most = 1;  ///< what the effect does with it, over what it does as found
 };
 
-/// 95 %, of one of the effect's own amplitudes: as its interval, where there is one. Else what runs showed is known in
-/// the logarithm of what the amplitude does: of one that saturates much larger ones do hardly more. It ends at a
-/// hundred times what was found. (D.10)
+/// 95 %, of one of the effect's own amplitudes: as its interval, where there is one; of one of several, what it does
+/// lies about what was found as the interval does about its middle. Else what runs showed is known in the logarithm of
+/// what the amplitude does: of one that saturates much larger ones do hardly more. It ends at a hundred times what was
+/// found. (D.10)
 AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
 
 /// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10)

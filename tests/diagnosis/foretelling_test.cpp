@@ -107,7 +107,7 @@ TEST(AmplitudeInterval, HoldsWhatIsHidden) {
         const TestedEffect& first = result.effects.front();
         if (!first.accepted || first.candidate != 2) return true;
         ++told;
-        const AmplitudeInterval interval = first.interval.value();
+        const AmplitudeInterval interval = first.intervals.front().value();
         return interval.least <= size && size <= interval.most;
       },
       100);

@@ -113,6 +113,28 @@ TEST(SetEvidence, OfAVectorIsThatOfWiderErrors) {
   EXPECT_NEAR(evidence.fit({2}, 0).log_evidence, std::log(sum), 1e-9);
 }
 
+/// The normal posterior of linear regression, with the multiple of its scale that is most probable.
+TEST(SetEvidence, TellsTheAmplitudesOfAVector) {
+  EffectProblem p = problem(6);
+  p.residual += 4 * p.changes.col(2) - 3 * p.changes.col(3);
+  const SetEvidence evidence(p, {});
+  const MatrixXd precision = errors(p, evidence.discrepancies()[1].size).inverse(), changes = p.changes.rightCols(2);
+  constexpr double multiple = 3;  // of the scale of 2
+  const MatrixXd covariance =
+      MatrixXd(changes.transpose() * precision * changes + std::pow(2 * multiple, -2) * MatrixXd::Identity(2, 2))
+          .inverse();
+  const VectorXd mean = covariance * (changes.transpose() * (precision * p.residual));
+  for (const Index number : {0, 1}) {
+    const AmplitudeDensity found = evidence.density_of({2, number}, {2}, 1);
+    const double middle = found.probabilities.dot(found.sizes),
+                 variance = found.probabilities.dot((found.sizes.array() - middle).square().matrix());
+    const double deviation = std::sqrt(covariance(number, number));
+    EXPECT_NEAR(found.probabilities.sum(), 1, 1e-9);
+    EXPECT_NEAR(middle, mean(number), 0.2 * deviation) << "14 places";
+    EXPECT_NEAR(std::sqrt(variance), deviation, 0.1 * deviation);
+  }
+}
+
 /// A number that may not be otherwise explains nothing, beside a vector either.
 TEST(SetEvidence, OfWhatCannotBeIsNone) {
   EffectProblem p = problem(9);
