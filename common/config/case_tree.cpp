@@ -31,12 +31,20 @@ void merge(YamlNode& under, const YamlNode& over) {
     if (!known) {
       under.entries.push_back(entry);
     } else if (entry.value.kind == Kind::empty) {
-      std::erase_if(under.entries, [&](const auto& e) { return e.key == entry.key; });
+      known->value = entry.value;
+      known->is_removed = true;
     } else {
       known->place = entry.place;
+      known->is_removed = false;
       merge(known->value, entry.value);
     }
   }
+}
+
+/// What a file removed may be removed again, or given anew, by those that build on it: only then it is left out.
+void leave_out_removed(YamlNode& node) {
+  std::erase_if(node.entries, [](const auto& entry) { return entry.is_removed; });
+  for (auto& entry : node.entries) leave_out_removed(entry.value);
 }
 
 /// Bare numbers of the base would be taken in the other unit.
@@ -97,6 +105,7 @@ YamlNode read_case_tree(const fs::path& file) {
     check_units(tree, over);
     merge(tree, over);
   }
+  leave_out_removed(tree);
   return tree;
 }
 

@@ -39,6 +39,7 @@ struct YamlNode::Entry {
   std::string key;
   YamlPlace place;
   YamlNode value;
+  bool is_removed = false;  ///< by a file that builds on this one
 };
 
 /// Throws InputError "file:line: ..." for a file that cannot be read, bad syntax, a key given twice, several documents,

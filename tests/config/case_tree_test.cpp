@@ -67,6 +67,18 @@ class CaseTree : public ::testing::Test {
   static inline const std::string head = "base: ../base/case.yaml\nname: other\n";
 };
 
+TEST_F(CaseTree, MayRemoveWhatWasRemovedAndGiveItAnew) {
+  over("fluid: {patches: {left: ~}}\n");
+  const auto upon = [](const std::string& text) {
+    return write_file("third.yaml", "base: over/case.yaml\nname: third\n" + text);
+  };
+  EXPECT_EQ(read(upon("fluid: {patches: {left: ~}}\n")).patches.size(), 1u);
+  const Blood again = read(upon("fluid: {patches: {left: {type: warm, heat: 5}}}\n"));
+  ASSERT_EQ(again.patches.size(), 2u);
+  const YamlNode tree = read_case_tree(upon("fluid: {patches: {left: {type: warm, heat: 5}}}\n"));
+  EXPECT_EQ(tree.find("fluid")->find("patches")->find("left")->find("area"), nullptr) << "nothing of what was removed";
+}
+
 TEST_F(CaseTree, MergesSectionsAndKeepsPathsWhereTheyStand) {
   const fs::path path = over(
       "time: {end: 2}\nfluid:\n  table: other.csv\n  angles: [9]\n  patches: {left: {heat: 4}, top: {type: cold}}\n");
