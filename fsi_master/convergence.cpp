@@ -1,6 +1,7 @@
 #include "fsi_master/convergence.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace tether {
 namespace {
@@ -9,18 +10,13 @@ constexpr double just_enough = 0.3;        // share of what will be left anyway,
 constexpr double useful = 0.1;             // most that a linear solve may leave for its answer to be taken
 constexpr double correction_share = 0.01;  // of r, that the correction will at least have
 
+/// One that is not finite, if there is any; none if none is finite, which says nothing of a place.
 int largest_node(const VectorXd& values) {
-  int node = -1;
-  double largest = -1.0;
-  for (Eigen::Index a = 0; a < values.size() / 3; ++a) {
-    const double length = values.segment<3>(3 * a).norm();
-    if (!std::isfinite(length)) return static_cast<int>(a);
-    if (length > largest) {
-      largest = length;
-      node = static_cast<int>(a);
-    }
-  }
-  return node;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Eigen::ArrayXd lengths = values.reshaped(3, values.size() / 3).colwise().norm();
+  Eigen::Index largest = -1;
+  if (lengths.isFinite().any()) lengths.isFinite().select(lengths, infinite).maxCoeff(&largest);
+  return static_cast<int>(largest);
 }
 
 }  // namespace

@@ -182,6 +182,20 @@ TEST(Coupling, NumbersThatAreNotFiniteEndTheLoopAndNameTheNode) {
   }
 }
 
+TEST(Convergence, NamesANodeUnlessAllAreLost) {
+  const StepStart start{0, 0, dt, VectorXd::Zero(12), VectorXd::Zero(12)};
+  const auto worst = [&](const VectorXd& residual) {
+    Convergence convergence({}, start);
+    convergence.reached(VectorXd::Ones(12), residual);
+    return std::move(convergence).result({}).worst_node;
+  };
+  VectorXd residual = VectorXd::LinSpaced(12, 0, 1);
+  EXPECT_EQ(worst(residual), 3);
+  residual(4) = std::nan("");
+  EXPECT_EQ(worst(residual), 1);
+  EXPECT_EQ(worst(VectorXd::Constant(12, std::nan(""))), -1);
+}
+
 TEST(Coupling, NotConvergingIsAResultWithItsHistory) {
   CouplingOptions options;
   options.max_iterations = 3;
