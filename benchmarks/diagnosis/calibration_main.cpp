@@ -12,7 +12,7 @@
 ///     member    share of a named group's first   it is the hidden one
 ///     nothing   probability of nothing           nothing is hidden
 ///     verdict   the word                         as benchmarks/diagnosis/run judges
-///     interval  error over the half interval      the hidden value is inside
+///     interval  error over the half interval      the hidden value is inside; `interval of`: which, and its numbers
 ///     z         of a candidate, nothing hidden   0
 ///     power     size over what is detectable     its group is named
 #include <fmt/format.h>
@@ -139,6 +139,11 @@ class Calibration {
     const auto [least, most] = std::minmax(found.lower, found.upper);
     const double half = value > found.value ? most - found.value : found.value - least;
     print("interval", (value - found.value) / half, least <= value && value <= most);
+    std::string others;
+    for (const std::size_t c : draw.hidden)
+      if (c != effect.candidate) others += " beside " + name_of(surrogate_.problem.candidates[c]);
+    print("interval of", name_of(surrogate_.problem.candidates[effect.candidate]) + others,
+          fmt::format("{:.4g}: {:.4g} ({:.4g} .. {:.4g})", value, found.value, least, most));
   }
   /// With the model as far off as it may be.
   void tell_scores(const VectorXd& errors) const {

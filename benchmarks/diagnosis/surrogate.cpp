@@ -124,9 +124,18 @@ VectorXd Surrogate::amplitudes(const Hidden& hidden) const {
   return all;
 }
 
+/// Sizes at which the changes per unit were found; 0: of an infinitesimal one.
+Eigen::ArrayXd Surrogate::first_runs() const {
+  Eigen::ArrayXd sizes(std::ssize(problem.amplitudes));
+  for (std::size_t k = 0; k < problem.amplitudes.size(); ++k)
+    sizes(static_cast<Index>(k)) = std::abs(problem.amplitudes[k].step);
+  return sizes;
+}
+
 VectorXd Surrogate::effect_of(const VectorXd& amplitudes, const DrawnOtherwise& how) const {
   if (!how.flattens) {
-    const VectorXd saturated = amplitudes.array() / (1 + amplitudes.array().abs() / saturation.array());
+    const Eigen::ArrayXd as_known = 1 + first_runs() / saturation.array();  // that run showed the model what it does
+    const VectorXd saturated = amplitudes.array() * as_known / (1 + amplitudes.array().abs() / saturation.array());
     return problem.changes * saturated;
   }
   VectorXd all = VectorXd::Zero(as_measured.residual.size());

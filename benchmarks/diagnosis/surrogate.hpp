@@ -53,6 +53,7 @@ struct Surrogate {
  private:
   VectorXd noise(std::uint64_t seed, const DrawnOtherwise& how) const;
   VectorXd discrepancy(std::uint64_t seed, bool lasting) const;
+  Eigen::ArrayXd first_runs() const;
 };
 
 /// What a trial came to: right, alike (the hidden one is in the group that is named), careful (names nothing, or an

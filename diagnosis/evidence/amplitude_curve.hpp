@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/base/effect.hpp"
 #include "common/base/types.hpp"
 
 namespace tether {
@@ -27,18 +28,23 @@ class AmplitudeCurve {
 
   /// Unless the same model was run at that size before.
   void add(const Point& point);
-  /// What a coarser model shows is scaled as runs of the model itself want it, and is left out near these. columns: of
-  /// all runs, each [n]; precision [n].
-  void trust_the_model(const MatrixXd& columns, const VectorXd& precision);
+  /// What a coarser model shows is scaled as runs of the model itself want it, and is left out near these; the smallest
+  /// and the largest run say how the effect saturates. columns: of all runs, each [n]; precision [n].
+  void settle(const MatrixXd& columns, const VectorXd& precision);
 
   /// By magnitude.
   const std::vector<Point>& points() const { return points_; }
-  /// Below the smallest run in proportion, between runs by the logarithm of the size, and beyond them as from the first
-  /// to the last. Empty if no run was made.
+  /// In proportion to size/(size + s) up to the smallest run, linear in it between runs, and beyond them as from the
+  /// first to the last. Empty if no run was made.
   std::vector<Share> at(double size) const;
 
  private:
+  void scale_coarse(const MatrixXd& columns, const VectorXd& precision);
+  void note_saturation(const MatrixXd& columns, const VectorXd& precision);
+  double saturated(double size) const;
+
   std::vector<Point> points_;
+  double half_at_ = infinite;  ///< s, at which the effect does half of what it ever does; infinite: in proportion
 };
 
 }  // namespace tether

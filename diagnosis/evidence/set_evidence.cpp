@@ -89,7 +89,7 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
         add({run.amplitudes(own), columns.cols(), 1, run.is_coarse});
         append(problem.residual - run.residual);
       }
-    for (AmplitudeCurve& side : curves_[c]) side.trust_the_model(columns, problem.precision(rows));
+    for (AmplitudeCurve& side : curves_[c]) side.settle(columns, problem.precision(rows));
   }
   append(problem.residual);
 

@@ -177,13 +177,33 @@ TEST(AmplitudeCurve, TakesItsFormFromACoarserModelAndItsSizeFromTheModel) {
   }
   columns.col(3) = seen(4.2);
   curve.add({4.2, 3, 1, false});
-  curve.trust_the_model(columns, VectorXd::Ones(5));
+  curve.settle(columns, VectorXd::Ones(5));
   ASSERT_EQ(curve.points().size(), 3U) << "the coarse run next to it is not needed";
-  for (const double size : {1.0, 4.2, 16.0}) {
+  for (const double size : {0.3, 1.0, 2.0, 4.2, 8.0, 16.0, 100.0}) {
     VectorXd sum = VectorXd::Zero(5);
     for (const AmplitudeCurve::Share& part : curve.at(size))
       sum += part.share * part.point->factor * columns.col(part.point->column);
     EXPECT_NEAR((sum - seen(size)).norm() / seen(size).norm(), 0, 0.02) << size;
+  }
+}
+
+/// Two runs say how an effect saturates; one that does not is told in proportion, also beyond them.
+TEST(AmplitudeCurve, FollowsWhatSaturates) {
+  for (const double half : {0.5, 4.0, 1e6}) {
+    const auto does = [&](double a) { return a / (1 + a / half); };
+    MatrixXd columns(5, 2);
+    AmplitudeCurve curve;
+    for (const Index k : {0, 1}) {
+      const double size = k == 0 ? 1 : 5;
+      columns.col(k) = does(size) * VectorXd::LinSpaced(5, 1, 2);
+      curve.add({size, k});
+    }
+    curve.settle(columns, VectorXd::Ones(5));
+    for (const double size : {0.2, 1.0, 2.0, 5.0, 40.0}) {
+      double sum = 0;
+      for (const AmplitudeCurve::Share& part : curve.at(size)) sum += part.share * columns(0, part.point->column);
+      EXPECT_NEAR(sum / does(size), 1, 1e-6) << size << " of " << half;
+    }
   }
 }
 
