@@ -48,6 +48,9 @@ void OutletsCase::declare(Fields& f) {
          "the periodic state");
   f.group("flow", flow, "into all outlets over a beat; default: that of the case's only inlet");
   f.number("mean_flow", mean_flow, dimension::flow, range::positive, "the flow is scaled to this mean");
+  f.number("vessel_compliance", vessel_compliance, dimension::compliance, range::not_negative,
+           "of the vessel itself, which takes up its part of a beat: how much larger its volume is in a run where its "
+           "pressure is larger by one");
   f.group("pressure", pressure, "that the outlets are to make");
   f.group("split", split, "of the flow");
   f.groups("outlets", outlets, "by name; none: those of the case");

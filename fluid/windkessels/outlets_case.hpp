@@ -51,6 +51,7 @@ struct OutletsCase {
   std::filesystem::path case_file;  ///< empty: no case is made
   std::optional<FlowCurveCase> flow;
   std::optional<double> mean_flow;
+  double vessel_compliance = 0;
   TargetPressureCase pressure;
   SplitCase split;
   Named<TargetOutletCase> outlets;
