@@ -30,7 +30,7 @@ struct Checkpoint {
   RunStatistics statistics;
   std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
   std::string coupling;       ///< how its steps were coupled: the section of the case, JSON
-  StateOrigin origin;
+  StateOrigin origin{};
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed

@@ -208,6 +208,7 @@ Overlay overlay_of(const OutletsCase& asked, const OutletsBase& base, const Aske
                    const FittedOutlets& result, const fs::path& folder) {
   Overlay overlay{asked.case_file, asked.name, {}, {}};
   const auto set = [&](const std::string& field, const std::string& text) { overlay.values.push_back({field, text}); };
+  if (asked.pressure.image) set("image.pressure", elements_text(base.image_pressure, "mmHg"));
   if (base.inlets.size() == 1 && (asked.flow || flow.factor != 1)) {
     const std::string inlet = "fluid.inlets." + base.inlets.front() + ".flow.";
     if (asked.flow) {
@@ -238,6 +239,7 @@ Overlay overlay_of(const OutletsCase& asked, const OutletsBase& base, const Aske
 OutletsFit fit_outlets(const OutletsCase& asked, const fs::path& folder) {
   std::optional<OutletsBase> base;
   if (!asked.case_file.empty()) base = read_outlets_base(asked.case_file);
+  if (base && asked.pressure.image) base->image_pressure = mmhg(*asked.pressure.image);
   const Named<TargetOutletCase> outlets = outlets_of(asked, base);
   const AskedFlow flow = flow_of(asked, base);
   const std::vector<double> areas = areas_of(asked, outlets), shares = shares_of(asked, outlets, areas);

@@ -12,6 +12,8 @@ void TargetPressureCase::declare(Fields& f) {
   f.number("pulse", pulse, dimension::pressure, range::positive, "largest less smallest of the beat");
   f.group("curve", curve, "measured over a beat, absolute, instead of mean and pulse: the elements are fitted to it");
   f.number("venous", venous, dimension::pressure, range::any, "behind the distal resistances; absolute");
+  f.number("image", image, dimension::pressure, range::not_negative,
+           "in the image, to which pressures of the new case are relative: the new case gets it; default: the case's");
   f.check(curve ? !mean && !pulse : mean && pulse, "mean", "give mean and pulse, or a curve");
   f.check(!mean || *mean > venous, "mean", "must be above venous");
 }

@@ -22,6 +22,7 @@ struct TargetPressureCase {
   std::optional<double> mean, pulse;
   std::optional<PressureCurveCase> curve;
   double venous = 0;
+  std::optional<double> image;
   void declare(Fields& f);
 };
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "solid/initial_stress.hpp"
 #include "solid/materials/registry.hpp"
 #include "solid/prestress.hpp"
@@ -15,10 +17,17 @@ namespace branching_test {
 
 constexpr double pressure = 80 * 1333.22, radius = Bifurcation::trunk_radius;
 
+constexpr double flatter = 0.92;
+
+/// Tension alone is the same all around a tube, p over the mean curvature; the curvature of the ellipse
+/// r (1 + d cos 2 theta), d = (1 - flatter)/(1 + flatter), is (1 + 3 d cos 2 theta)/r. What is left is 3 d cos 2 theta
+/// of the pressure.
+constexpr double share_of_an_elliptic_tube = 3 * (1 - flatter) / (1 + flatter) * 2 / std::numbers::pi;
+
 /// The trunk an ellipse of axes 8 % apart.
 WallMesh vessel(double thickness) {
   LabelledSurface lumen = closed_bifurcation(0.4);
-  lumen.points.row(1) *= 0.92;
+  lumen.points.row(1) *= flatter;
   VolumeCase study;
   study.wall.thickness.thickness = thickness;
   study.wall.least_share = 0.5;
@@ -42,7 +51,7 @@ TEST(BranchingWall, ThatIsStiffHasAStressFreeShapeWhichInflatesToTheImage) {
   const double error = (inflated - wall.points).cwiseAbs().maxCoeff() / radius;
   report("branching_stress_free_then_inflated", error);
   report("branching_stress_free_moved", (found.positions - wall.points).colwise().norm().maxCoeff() / radius);
-  EXPECT_LE(error, 1e-6);
+  EXPECT_LE(error, 1e-8) << "ten times what the search leaves of a correction";
 }
 
 /// As thin and as soft as an artery: the search says how far it came and why no farther; the prestress needs no shape.
@@ -67,8 +76,8 @@ TEST(BranchingWall, LikeAnArterysHasNone) {
   EXPECT_LE(rest.residual.value(), 1e-10);
   ASSERT_TRUE(rest.held.has_value());
   report("branching_held_share", rest.held->share);
-  EXPECT_GT(rest.held->share, 0.02);
-  EXPECT_LT(rest.held->share, 0.25);
+  EXPECT_GT(rest.held->share, 0.9 * share_of_an_elliptic_tube);
+  EXPECT_LT(rest.held->share, 1.5 * share_of_an_elliptic_tube) << "the crotch adds some";
   EXPECT_GT(rest.held->largest, rest.held->share) << "the largest of a mean";
 }
 

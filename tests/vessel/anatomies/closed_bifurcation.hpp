@@ -9,7 +9,7 @@ namespace tether {
 /// The bifurcation with flat caps.
 inline LabelledSurface closed_bifurcation(double edge) {
   const Bifurcation vessel = bifurcation(edge);
-  inline LabelledSurface closed{vessel.points, vessel.triangles, std::vector<int>(vessel.triangles.size(), 0), {}, 0};
+  LabelledSurface closed{vessel.points, vessel.triangles, std::vector<int>(vessel.triangles.size(), 0), {}, 0};
   for (const std::vector<int>& rim : rims(vessel.triangles)) {
     const Vec3 centre = vessel.points(Eigen::all, rim).rowwise().mean();
     const int middle = static_cast<int>(closed.points.cols());
