@@ -42,6 +42,20 @@ Checkpoint read_folder(const fs::path& folder) {
   return c;
 }
 
+/// The folder of the last checkpoint that is whole.
+fs::path newest_in(const fs::path& output) {
+  fs::path folder = output / "checkpoint";
+  if (!fs::exists(folder)) folder = output / "checkpoint.previous";  // stopped between the two renames
+  if (!fs::exists(folder)) throw input_error("{}: holds no checkpoint to resume from", output.string());
+  return folder;
+}
+
+void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
+  if (!checkpoint.without_state.empty())
+    throw input_error("{}: cannot be continued: {} announced no state to be saved", output.string(),
+                      checkpoint.without_state);
+}
+
 }  // namespace
 
 void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
@@ -68,23 +82,20 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
 }
 
 Checkpoint read_checkpoint(const fs::path& output) {
-  fs::path folder = output / "checkpoint";
-  if (!fs::exists(folder)) folder = output / "checkpoint.previous";  // stopped between the two renames
-  if (!fs::exists(folder)) throw input_error("{}: holds no checkpoint to resume from", output.string());
-  Checkpoint checkpoint = read_folder(folder);
-  if (!checkpoint.without_state.empty())
-    throw input_error("{}: cannot be continued: {} announced no state to be saved", folder.string(),
-                      checkpoint.without_state);
+  Checkpoint checkpoint = read_folder(newest_in(output));
+  check_has_states(checkpoint, output);
   return checkpoint;
 }
 
 Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
-  Checkpoint checkpoint = read_checkpoint(output);
+  const fs::path folder = newest_in(output);
+  Checkpoint checkpoint = read_folder(folder);
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
         "{}: is a checkpoint of another case or mesh; give the case as it was, or start anew without --resume, or let "
         "the case begin with that state (initial_state)",
-        (output / "checkpoint").string());
+        folder.string());
+  check_has_states(checkpoint, output);
   return checkpoint;
 }
 
