@@ -99,6 +99,8 @@ FluidSolver::FluidSolver(FluidMesh mesh, const FluidSettings& settings)
   accepted_.volume = domain_.volume(accepted_.on_sigma);
   store_initial_pressures();
   derive(accepted_);
+  nodes_ = Mark().add(domain_.mesh().points.reshaped());
+  beyond_ = mark_of_openings();
 }
 
 void FluidSolver::begin_step(double time, double dt, const Points& predicted) {

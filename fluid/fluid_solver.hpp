@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/mark.hpp"
 #include "common/base/parameter_table.hpp"
 #include "fluid/advection_diffusion.hpp"
 #include "fluid/fluid_domain.hpp"
@@ -55,7 +56,9 @@ class FluidSolver {
   /// (F.15). Throws RunError if the mesh would fold; nothing has changed then.
   void move_interface(const Points& change);
 
-  /// Everything needed to continue, bit for bit.
+  /// Everything needed to continue, bit for bit. A state of the same nodes with other openings, whose length may be
+  /// another, is taken but for the pressures stored beyond them, which are the initial ones. Throws InputError for one
+  /// of other nodes.
   VectorXd state() const;
   void set_state(const VectorXd& values);
 
@@ -112,6 +115,7 @@ class FluidSolver {
   void declare_parameters();
   void declare_observables();
   void store_initial_pressures();
+  Mark mark_of_openings() const;
 
   void move_mesh();
   void predict_velocity();
@@ -138,6 +142,7 @@ class FluidSolver {
   AdvectionDiffusion advection_diffusion_;
   Projection projection_;
 
+  Mark nodes_, beyond_;  ///< of the mesh, and of what kind is beyond which opening
   Accepted accepted_;
   Trial trial_;
   bool begun_ = false, evaluated_ = false;

@@ -28,28 +28,34 @@ class Cursor {
 
 VectorXd FluidSolver::state() const {
   const Accepted& a = accepted_;
-  VectorXd values(2 + a.velocity.size() + a.pressure.size() + a.on_sigma.size() + a.stored.size());
+  const Eigen::Vector2d marks(nodes_.value(), beyond_.value());
+  VectorXd values(2 + a.velocity.size() + a.pressure.size() + a.on_sigma.size() + marks.size() + a.stored.size());
   values[0] = a.impulse;
   values[1] = a.volume;
   Cursor cursor(2);
   cursor.write(values, a.velocity);
   cursor.write(values, a.pressure);
   cursor.write(values, a.on_sigma);
+  cursor.write(values, marks);
   cursor.write(values, a.stored);
   return values;
 }
 
 void FluidSolver::set_state(const VectorXd& values) {
-  if (const auto size = state().size(); values.size() != size)
-    throw input_error("a state of the fluid has {} numbers, not {}: it belongs to another mesh or case", size,
-                      values.size());
+  const Eigen::Index size = state().size(), marks = size - 2 - accepted_.stored.size();
+  if (values.size() < marks + 2 || !nodes_.is(values[marks]))
+    throw input_error("a state of {} numbers belongs to another mesh of the blood: one with these {} nodes has {}",
+                      values.size(), domain_.node_count(), size);
   accepted_.impulse = values[0];
   accepted_.volume = values[1];
   Cursor cursor(2);
   cursor.read(values, accepted_.velocity);
   cursor.read(values, accepted_.pressure);
   cursor.read(values, accepted_.on_sigma);
-  cursor.read(values, accepted_.stored);
+  if (values.size() == size && beyond_.is(values[marks + 1]))
+    accepted_.stored = values.tail(accepted_.stored.size());
+  else
+    store_initial_pressures();
   derive(accepted_);
   rewind();
 }
@@ -74,6 +80,12 @@ void FluidSolver::store_initial_pressures() {
   accepted_.stored.resize(static_cast<Eigen::Index>(openings_.size()));
   for (std::size_t i = 0; i < openings_.size(); ++i)
     accepted_.stored[static_cast<Eigen::Index>(i)] = openings_[i].beyond->initial();
+}
+
+Mark FluidSolver::mark_of_openings() const {
+  Mark mark;
+  for (const Opening& opening : openings_) mark.add(opening.face().name).add(opening.beyond.declaration().name);
+  return mark;
 }
 
 void FluidSolver::declare_parameters() {

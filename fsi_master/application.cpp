@@ -6,6 +6,7 @@
 #include <functional>
 #include <sstream>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/child_process.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
@@ -69,7 +70,7 @@ void remove_what_was_made_of_runs(const fs::path& output) {
 /// Without --resume nothing of an earlier run may be either.
 void remove_old_results(const fs::path& output) {
   for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "blood.velocity", "fluid.pvd", "solid.pvd",
-                           "vtk", "checkpoint", "checkpoint.new", "checkpoint.previous"})
+                           "rest.json", "vtk", "checkpoint", "checkpoint.new", "checkpoint.previous"})
     fs::remove_all(output / name);
   remove_what_was_made_of_runs(output);
 }
@@ -87,6 +88,7 @@ std::string own_sections(MasterCase& master) {
   CommonCase common = master.file.common();
   common.declare(echo);
   echo.group("coupling", master.coupling, {});
+  echo.group("initial_state", master.initial_state, {});
   return echo.json();
 }
 
@@ -110,6 +112,7 @@ std::vector<std::string> notices_of(std::span<Partner> partners, const RunPlan& 
       all.push_back(fmt::format("{} ({}) announces no state: this run cannot be resumed, nor used for identification",
                                 partner.role(), hello.program));
   }
+  if (plan.initial && !plan.resume) all.push_back(plan.initial->notice);
   if (!plan.quiet)
     for (const std::string& notice : all) fmt::print("{}\n", notice);
   return all;
@@ -178,12 +181,28 @@ std::vector<std::string> cases_of(std::span<Partner> processes, const CaseFile& 
   return all;
 }
 
+/// The same with the state that the run began with.
+std::uint64_t with_initial_state(std::uint64_t model, const fs::path& case_file) {
+  for (const InputFile& input : input_files(case_file))
+    if (input.field.starts_with("initial_state.")) model = hash_bytes(&input.content, sizeof input.content, model);
+  return model;
+}
+
+/// What the wall's code has written of how it rests, if it does.
+std::optional<RestState> rest_in(const fs::path& output) {
+  if (!fs::exists(output / "rest.json")) return std::nullopt;
+  return read_record<RestState>(output / "rest.json");
+}
+
 /// A direct run.
 void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
-  const std::vector<std::string> notices = notices_of(processes, plan);
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
-  plan.fingerprint = fingerprint(cases_of(processes, master.file), plan.dt, codes.interface().points);
+  const std::uint64_t model = fingerprint(cases_of(processes, master.file), plan.dt, codes.interface().points);
+  plan.fingerprint = with_initial_state(model, master.file.path());
+  plan.origin = origin_of(master.file, codes.interface().points, model);
+  if (master.initial_state) plan.initial = initial_state_of(*master.initial_state, master.file, plan.origin);
+  const std::vector<std::string> notices = notices_of(processes, plan);
   Crew crew = codes.crew();
   crew.usage = [&crew, processes] { return costs(crew, processes); };
   for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
@@ -206,7 +225,8 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<
       master.file.common().observer.largest_gain(),
       notices,
       from,
-      periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start, plan.image_pressure, plan.units)};
+      periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start, plan.image_pressure, plan.units),
+      rest_in(plan.output)};
   check_held(plan.output);
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }
@@ -216,6 +236,7 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   MasterCase master(command.case_file);
   RunPlan plan = plan_of(master, command);
   plan.output = fs::absolute(claim_output(command, master.file));
+  if (master.initial_state) check_is_not_own(*master.initial_state, master.file, plan.output);
   const MadeFrom from = made_from(command.case_file);
   if (!plan.resume) {
     remove_old_results(plan.output);
@@ -281,8 +302,10 @@ void validate_by(const protocol::Program& partner) {
 void validate(const CommandLine& command) {
   CaseFile file(command.case_file);
   CouplingCase coupling;
+  std::optional<InitialStateCase> initial_state;
   ObservationsCase observations;
   file.read("coupling", coupling);
+  file.read("initial_state", initial_state);
   file.read("observations", observations);
   const auto program = [&](const char* role, const char* field, const std::string& executable) {
     const std::string where = file.where(std::string("coupling.programs.") + field);
@@ -292,6 +315,7 @@ void validate(const CommandLine& command) {
   findings.of([&] {
     file.finish();
     load_flow_observations(observations, file);
+    if (initial_state) check_initial_state(*initial_state, file);
   });
   findings.of([&] { validate_by(program("fluid", "fluid", coupling.programs.fluid)); });
   findings.of([&] { validate_by(program("solid", "solid", coupling.programs.solid)); });
@@ -309,6 +333,8 @@ Program fsi_master_program() {
   program.declare = [](Fields& fields) {
     CouplingCase coupling;
     fields.group("coupling", coupling, meaning_of_section("coupling"));
+    std::optional<InitialStateCase> initial_state;
+    fields.group("initial_state", initial_state, meaning_of_section("initial_state"));
   };
   program.validate = validate;
   program.run = run;

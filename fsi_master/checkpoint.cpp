@@ -30,7 +30,7 @@ Checkpoint read_folder(const fs::path& folder) {
   c.fingerprint = master.fingerprint;
   std::vector<double> numbers;
   unpack(master, c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method, c.snapshot.coupling, numbers,
-         c.without_state, c.coupling);
+         c.without_state, c.coupling, c.origin);
   auto next = numbers.begin();
   c.statistics.numbers([&](double& value) { value = next != numbers.end() ? *next++ : 0.0; });
   for (const auto& [name, state] :
@@ -40,6 +40,20 @@ Checkpoint read_folder(const fs::path& folder) {
     unpack(content, *state);
   }
   return c;
+}
+
+/// The folder of the last checkpoint that is whole.
+fs::path newest_in(const fs::path& output) {
+  fs::path folder = output / "checkpoint";
+  if (!fs::exists(folder)) folder = output / "checkpoint.previous";  // stopped between the two renames
+  if (!fs::exists(folder)) throw input_error("{}: holds no checkpoint to resume from", output.string());
+  return folder;
+}
+
+void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
+  if (!checkpoint.without_state.empty())
+    throw input_error("{}: cannot be continued: {} announced no state to be saved", output.string(),
+                      checkpoint.without_state);
 }
 
 }  // namespace
@@ -57,7 +71,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
     write_checked(fresh / name, checkpoint.fingerprint, checkpoint.step, bytes);
   };
   write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state,
-                             checkpoint.coupling));
+                             checkpoint.coupling, checkpoint.origin));
   write("fluid.bin", packed(s.fluid));
   write("solid.bin", packed(s.solid));
   flush_to_disk(fresh);
@@ -67,18 +81,21 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   flush_to_disk(output);
 }
 
+Checkpoint read_checkpoint(const fs::path& output) {
+  Checkpoint checkpoint = read_folder(newest_in(output));
+  check_has_states(checkpoint, output);
+  return checkpoint;
+}
+
 Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
-  fs::path folder = output / "checkpoint";
-  if (!fs::exists(folder)) folder = output / "checkpoint.previous";  // stopped between the two renames
-  if (!fs::exists(folder)) throw input_error("{}: holds no checkpoint to resume from", output.string());
+  const fs::path folder = newest_in(output);
   Checkpoint checkpoint = read_folder(folder);
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
-        "{}: is a checkpoint of another case or mesh; give the case as it was, or start anew without --resume",
+        "{}: is a checkpoint of another case or mesh; give the case as it was, or start anew without --resume, or let "
+        "the case begin with that state (initial_state)",
         folder.string());
-  if (!checkpoint.without_state.empty())
-    throw input_error("{}: cannot be continued: {} announced no state to be saved", folder.string(),
-                      checkpoint.without_state);
+  check_has_states(checkpoint, output);
   return checkpoint;
 }
 

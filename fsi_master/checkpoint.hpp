@@ -9,6 +9,19 @@
 
 namespace tether {
 
+/// What another run must have in common with this one to begin with its state, and what it asks of it.
+struct StateOrigin {
+  std::string units;          ///< their system
+  double image_pressure = 0;  ///< to which its pressures are relative
+  double time = 0;            ///< of the state
+  std::int64_t nodes = 0;     ///< of the interface,
+  std::int64_t places = 0;    ///< and where they are in the image: a hash
+  std::int64_t model = 0;     ///< a hash of all that the codes are told
+
+  void fields(auto& archive) { archive(units, image_pressure, time, nodes, places, model); }
+  void fields(auto& archive) const { archive(units, image_pressure, time, nodes, places, model); }
+};
+
 /// All that a run needs to go on from the end of a step as if it had never stopped.
 struct Checkpoint {
   std::int64_t step = 0;          ///< steps done; also the rows of timeseries.csv
@@ -17,6 +30,7 @@ struct Checkpoint {
   RunStatistics statistics;
   std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
   std::string coupling;       ///< how its steps were coupled: the section of the case, JSON
+  StateOrigin origin{};
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed
@@ -26,6 +40,8 @@ void write_checkpoint(const std::filesystem::path& output, const Checkpoint& che
 /// The newest complete checkpoint in OUTPUT. Throws InputError: none, damaged, of another case or mesh (fingerprint),
 /// or without a code's state.
 Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
+/// The same of any case.
+Checkpoint read_checkpoint(const std::filesystem::path& output);
 
 /// Names a case and its mesh: the codes' effective cases (JSON) and the interface. What may change between a run and
 /// its continuation does not count: folders of files, the end of the run, output, coupling.

@@ -18,6 +18,7 @@ namespace tether {
 struct MasterCase {
   explicit MasterCase(const std::filesystem::path& path) : file(path) {
     file.read("coupling", coupling);
+    file.read("initial_state", initial_state);
     ObservationsCase observations;
     file.read("observations", observations);
     file.finish();
@@ -26,6 +27,7 @@ struct MasterCase {
   }
   CaseFile file;
   CouplingCase coupling;
+  std::optional<InitialStateCase> initial_state;
   FlowObservations flow;  ///< to record the velocity where it was measured
   bool measures_lumen = false;
 };

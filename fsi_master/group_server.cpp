@@ -51,6 +51,19 @@ std::unique_ptr<RunGuide> guide_of(const protocol::Simulate& m, double dt) {
   return std::make_unique<RunGuide>(m.guide, role, dt);
 }
 
+/// The plan with the state that the case begins with.
+RunPlan beginning(RunPlan plan, const MasterCase& master, const CoupledCodes& codes) {
+  plan.origin = origin_of(master.file, codes.interface().points, 0);
+  if (master.initial_state) plan.initial = initial_state_of(*master.initial_state, master.file, plan.origin);
+  return plan;
+}
+
+/// Runs that begin elsewhere are others.
+std::string begun_from(const Snapshot& state) {
+  const std::uint64_t hash = hash_values(state.solid, hash_values(state.fluid, 0));
+  return fmt::format(R"({{"begun_from": {{"state": "{:x}"}}}})", hash);
+}
+
 /// Where runs record the velocity: others, of the same codes, do not show what was measured.
 std::string recorded_points(const Points& points) {
   return fmt::format(R"({{"recorded": {{"velocity_points": "{:x}"}}}})", hash_values(points, 0));
@@ -60,11 +73,13 @@ std::string recorded_points(const Points& points) {
 
 GroupServer::GroupServer(std::unique_ptr<MasterCase> master, RunPlan plan, std::span<Partner> processes)
     : master_(std::move(master)),
-      plan_(std::move(plan)),
       codes_(std::make_unique<CoupledCodes>(*master_, processes)),
+      plan_(beginning(std::move(plan), *master_, *codes_)),
       loop_(make_loop(*codes_, master_->coupling.halvings)),
-      initial_(loop_->snapshot()),
-      present_{announced(processes[0]), announced(processes[1])} {}
+      present_{announced(processes[0]), announced(processes[1])} {
+  if (plan_.initial) plan_.initial->put(*loop_);
+  initial_ = loop_->snapshot();
+}
 
 protocol::Hello GroupServer::hello() const {
   protocol::Hello hello;
@@ -86,6 +101,10 @@ protocol::Hello GroupServer::hello() const {
       hello.observables.push_back({partner.role() + "." + info.name, info.unit});
   }
   if (plan_.velocity_points.cols() > 0) cases.push_back(recorded_points(plan_.velocity_points));
+  if (plan_.initial) {
+    cases.push_back(begun_from(plan_.initial->snapshot));
+    hello.notices.push_back(plan_.initial->notice);
+  }
   hello.effective_case = merged_json(cases);
   return hello;
 }

@@ -37,8 +37,8 @@ class GroupServer {
   std::vector<double> packed(const Snapshot& snapshot) const;
 
   std::unique_ptr<MasterCase> master_;
-  RunPlan plan_;
   std::unique_ptr<CoupledCodes> codes_;
+  RunPlan plan_;
   std::unique_ptr<TimeLoop> loop_;
   Snapshot initial_;
   std::array<protocol::SetParameters, 2> present_;  ///< all parameters of fluid and solid as they are now

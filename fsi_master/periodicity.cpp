@@ -46,7 +46,11 @@ double change_of(const BeatingRun& run, const std::vector<double>& values, doubl
                  : std::numeric_limits<double>::infinity();
 }
 
-/// Of all curves of the inlets; nothing if one has none or another.
+const YamlNode* inlets_of(const YamlNode& tree) {
+  const YamlNode* fluid = tree.find("fluid");
+  return fluid ? fluid->find("inlets") : nullptr;
+}
+
 std::optional<double> period_of(const YamlNode* inlets, const UnitSystem& units) {
   std::optional<double> common;
   if (!inlets) return common;
@@ -82,11 +86,15 @@ std::optional<Periodicity> periodicity_of(const BeatingRun& run, double period) 
   return found.beats.empty() ? std::nullopt : std::optional(found);
 }
 
+std::optional<double> period_of_inlets(const std::filesystem::path& case_file, const UnitSystem& units) {
+  const YamlNode tree = read_case_tree(case_file);
+  return period_of(inlets_of(tree), units);
+}
+
 std::optional<Periodicity> periodicity_of(const std::filesystem::path& table, const std::filesystem::path& case_file,
                                           double start, double image_pressure, const UnitSystem& units) {
   const YamlNode tree = read_case_tree(case_file);
-  const YamlNode* fluid = tree.find("fluid");
-  const YamlNode* inlets = fluid ? fluid->find("inlets") : nullptr;
+  const YamlNode* inlets = inlets_of(tree);
   const std::optional<double> period = period_of(inlets, units);
   if (!period) return std::nullopt;
   const CsvTable rows(table);

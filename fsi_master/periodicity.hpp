@@ -23,6 +23,9 @@ struct BeatingRun {
 /// Nothing if there are not two, or a mean pressure or volume is not positive.
 std::optional<Periodicity> periodicity_of(const BeatingRun& run, double period);
 
+/// Of all curves of a case's inlets; nothing if one has none, or another.
+std::optional<double> period_of_inlets(const std::filesystem::path& case_file, const UnitSystem& units);
+
 /// The same of a run's table, timeseries.csv, with the inlets and the period of the case. Nothing also if its inlets'
 /// curves have no period, or not the same, or the blood's code does not tell pressures and volume.
 /// image_pressure: to which the table's pressures are relative, in the case's units.

@@ -52,6 +52,7 @@ void Simulation::run() {
 
 void Simulation::begin() {
   if (!plan_.resume) {
+    if (plan_.initial) plan_.initial->put(loop_);
     count_costs(false);
     series_.start();
     motion_.start();
@@ -181,7 +182,10 @@ void Simulation::save(std::int64_t step) {
   if (!crew_.fluid.has_state()) without_state = crew_.fluid.name();
   if (!crew_.solid.has_state()) without_state += (without_state.empty() ? "" : " and ") + crew_.solid.name();
   const std::string coupling = coupled_otherwise_ ? "several" : plan_.coupling;
-  write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling});
+  StateOrigin origin = plan_.origin;
+  origin.time = plan_.time_at(step);
+  write_checkpoint(plan_.output,
+                   {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling, origin});
   saved_step_ = step;
 }
 

@@ -8,7 +8,7 @@
 #include "common/config/fields.hpp"
 #include "common/io/lumen_motion.hpp"
 #include "common/protocol/messages.hpp"
-#include "fsi_master/checkpoint.hpp"
+#include "fsi_master/initial_state.hpp"
 #include "fsi_master/progress.hpp"
 #include "fsi_master/time_series.hpp"
 
@@ -22,7 +22,9 @@ struct RunPlan {
   int write_every = 10, checkpoint_every = 50;
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
-  std::string coupling;  ///< the section of the case, JSON; it may change at a continuation
+  std::string coupling;                 ///< the section of the case, JSON; it may change at a continuation
+  StateOrigin origin;                   ///< of its states
+  std::optional<InitialState> initial;  ///< none: at rest
   bool resume = false, quiet = false;
   bool write_series = true;               ///< the codes' files for viewing
   double image_pressure = 0;              ///< to which the run's pressures are relative

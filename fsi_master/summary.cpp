@@ -83,6 +83,7 @@ RunSummary summary_of(const Simulation& simulation, const RunFacts& facts) {
   summary.notices = facts.notices;
   summary.effective_case.text = facts.effective_case;
   summary.periodicity = facts.periodicity;
+  summary.rest = facts.rest;
   summary.made_from = facts.made_from;
   summary.made_from.coupled_otherwise = simulation.coupled_otherwise();
   return summary;

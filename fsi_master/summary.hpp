@@ -23,6 +23,7 @@ struct RunFacts {
   std::vector<std::string> notices;
   MadeFrom made_from;
   std::optional<Periodicity> periodicity;
+  std::optional<RestState> rest;
 };
 
 /// What was run, how it went and what it cost, in the case's units and in mmHg and mm.

@@ -39,6 +39,8 @@ class TimeLoop {
   /// codes back at `time`.
   StepRecord advance(std::int64_t step, double time, double dt);
 
+  /// Whether both codes can go on from a state.
+  bool keeps_state() const { return fluid_.has_state() && solid_.has_state(); }
   const VectorXd& displacement() const { return y_; }
   Snapshot snapshot();
   void restore(const Snapshot& snapshot);

@@ -1,9 +1,11 @@
 #include "report/collect.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/base/base64.hpp"
 #include "common/base/error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -14,6 +16,7 @@
 #include "identification_master/results/estimate.hpp"
 #include "report/estimate_table.hpp"
 #include "report/provenance.hpp"
+#include "report/run_sentences.hpp"
 #include "report/wall.hpp"
 
 namespace tether {
@@ -25,6 +28,16 @@ using Json = nlohmann::ordered_json;
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// By name.
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".png") found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 /// A result as its schema has it; null if there is no such file. Throws InputError if it is another one.
@@ -89,6 +102,7 @@ class Collector {
                  {"diagnoses", Json::array()},
                  {"estimates", Json::array()},
                  {"force", nullptr},
+                 {"plots", Json::array()},
                  {"wall", nullptr},
                  {"provenance", nullptr},
                  {"notes", Json::array()}};
@@ -101,7 +115,7 @@ class Collector {
     else
       take_explained(explain);
     if (document_["kind"].is_null())
-      throw input_error("{}: holds no explain.json, comparison.json, diagnosis.json or estimate.json",
+      throw input_error("{}: holds no explain.json, comparison.json, diagnosis.json, estimate.json or summary.json",
                         folder_.string());
     if (!shown_.empty()) document_["wall"] = wall();
     document_["provenance"] = provenance();
@@ -114,7 +128,19 @@ class Collector {
     take_estimate("", "");
     take_diagnosis("", "");
     take_run("the model", "");
+    if (document_["kind"].is_null()) take_simulation();
     case_file_ = case_of_results(folder_);
+  }
+
+  /// A run that was compared with nothing.
+  void take_simulation() {
+    if (!fs::is_regular_file(folder_ / "summary.json")) return;
+    const auto run = read_record<RunSummary>(folder_ / "summary.json");
+    introduce("simulation", {{"title", run.title}, {"case", run.case_name}, {"sentences", sentences_of(run)}});
+    for (const fs::path& plot : pictures_in(folder_ / "plots")) {
+      const std::string bytes = text_of(plot);
+      document_["plots"].push_back({{"name", plot.stem().string()}, {"png", base64(bytes.data(), bytes.size())}});
+    }
   }
 
   void take_explained(const Json& explain) {

@@ -8,6 +8,7 @@
 #include "solid/lumen_regions.hpp"
 #include "solid/materials/registry.hpp"
 #include "solid/prestress.hpp"
+#include "solid/rest.hpp"
 #include "solid/supports/registry.hpp"
 
 namespace tether {
@@ -112,26 +113,22 @@ Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const
   const Configured<Material> material(materials(), solid.material.type, solid.material.values);
   StressFreeResult found =
       stress_free_configuration(mesh, *material, file.common().image.pressure, unknowns_of(clamped));
+  const double pressure = file.units().to_mmhg(file.common().image.pressure);
   if (!found.converged)
     throw run_error(
-        "{}: no stress-free shape was found in {} iterations (last correction {:.2g} of the size): the wall is too "
-        "soft "
-        "for this pressure, or the lumen not round enough for a thin wall; 'image.wall: prestressed' needs no such "
-        "shape",
-        file.where("image.pressure"), found.iterations, found.residual);
+        "{}: there is no stress-free shape for {:.4g} mmHg, or none that was found in {} iterations: up to {:.3g} mmHg "
+        "there is one; beyond, {}. The wall is too soft for this pressure, or the lumen not round enough for a thin "
+        "wall; 'image.wall: prestressed' needs no such shape",
+        file.where("image.pressure"), pressure, found.iterations, found.reached * pressure, found.failure);
   return std::move(found.positions);
 }
 
-/// Gives the wall its initial stress; says what the surroundings hold.
-std::string prestress(WallModel& wall, double pressure) {
-  const InitialStress initial = find_initial_stress(wall.mesh(), wall.material(), pressure);
+/// Gives the wall its initial stress, if the image asks for one.
+RestState prestress(WallModel& wall, const ImageCase& image) {
+  if (!image.loads_wall() || image.wall != "prestressed") return rest_of(wall, image, nullptr);
+  const InitialStress initial = find_initial_stress(wall.mesh(), wall.material(), image.pressure);
   wall.set_initial_stress(initial);
-  return fmt::format(
-      "prestress: in the imaged shape the wall's tension carries the image's pressure but for {:.1f} % of its forces, "
-      "which "
-      "the surroundings hold as a dead load{}",
-      100 * initial.held_share,
-      initial.held_share > 0.25 ? "; that is much: is the lumen's surface rough, or the pressure too high?" : "");
+  return rest_of(wall, image, &initial);
 }
 
 bool nothing_holds(const std::vector<SurfaceSupport>& supports) {
@@ -230,7 +227,8 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
   wall.model =
       std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local));
   wall.model->drive(std::move(driven));
-  if (image.loads_wall() && image.wall == "prestressed") wall.notices.push_back(prestress(*wall.model, image.pressure));
+  wall.rest = prestress(*wall.model, image);
+  if (wall.rest.held) wall.notices.push_back(describe(*wall.rest.held));
   return wall;
 }
 

@@ -5,6 +5,7 @@
 #include "common/config/case_file.hpp"
 #include "solid/effects_case.hpp"
 #include "solid/motion_case.hpp"
+#include "solid/results/rest_state.hpp"
 #include "solid/wall_model.hpp"
 
 namespace tether {
@@ -45,6 +46,7 @@ void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const Case
 /// A wall ready to move, and what a person should know of it.
 struct PreparedWall {
   std::unique_ptr<WallModel> model;
+  RestState rest;          ///< how it begins
   VectorXd observer_gain;  ///< of each interface node [1/time]; empty: no state observer
   std::vector<std::string> notices;
 };

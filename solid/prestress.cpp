@@ -1,5 +1,7 @@
 #include "solid/prestress.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <deque>
@@ -36,6 +38,16 @@ class Anderson {
   VectorXd last_x_, last_g_;
 };
 
+/// Factors the tangent.
+bool is_stable(Cholesky& cholesky, const SparseMatrix& tangent) {
+  try {
+    cholesky.factor(tangent);
+  } catch (const RunError&) {
+    return false;
+  }
+  return true;
+}
+
 double size_of(const Points& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff();
 }
@@ -57,7 +69,10 @@ StressFreeResult search(const WallMesh& mesh, const Material& material, const Ve
     wall->static_force(mesh.points, material, out_of_balance, &tangent);
     constrain(tangent, fixed, tangent.coeff(0, 0));
     if (result.iterations == 0) cholesky.analyze(tangent, 3);
-    cholesky.factor(tangent);
+    if (!is_stable(cholesky, tangent)) {
+      result.failure = "the wall is not stable under tension and bending as they would have to be: it buckles";
+      return result;
+    }
     out_of_balance = load - out_of_balance;
     for (int unknown : fixed) out_of_balance[unknown] = 0;
     const VectorXd step = -cholesky.solve(out_of_balance);
@@ -68,6 +83,11 @@ StressFreeResult search(const WallMesh& mesh, const Material& material, const Ve
     const VectorXd next = anderson.next(result.positions.reshaped(), step);
     result.positions.reshaped() = next;
   }
+  if (!result.converged)
+    result.failure = std::isfinite(result.residual)
+                         ? fmt::format("{} iterations end with corrections of {:.2g} of the size", result.iterations,
+                                       result.residual)
+                         : "the corrections grow without bound";
   return result;
 }
 
@@ -88,24 +108,30 @@ StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material&
   const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
   StressFreeResult result;
   result.positions = mesh.points;
-  double reached = 0, increment = 0.125;
-  while (reached < 1 && increment >= smallest_increment) {
-    const double target = std::min(1.0, reached + increment);
+  if (fixed.empty()) {
+    result.failure =
+        "no end of the wall is clamped or driven, so that nothing carries what the pressure exerts along it";
+    return result;
+  }
+  double increment = 0.125;
+  while (result.reached < 1 && increment >= smallest_increment) {
+    const double target = std::min(1.0, result.reached + increment);
     StressFreeResult next;
     try {
       next =
           search(mesh, material, target * load, fixed, result.positions, target < 1 ? tolerance_on_the_way : tolerance);
-    } catch (const RunError&) {  // an element without volume, or a wall that is not stable: the step was too long
-      next.converged = false;
+    } catch (const RunError& error) {  // an element without volume: the step was too long
+      next.failure = error.what();
     }
     result.iterations += next.iterations;
     result.residual = next.residual;
+    result.failure = next.failure;
     increment *= next.converged ? 1.5 : 0.5;
     if (!next.converged) continue;
     result.positions = next.positions;
-    reached = target;
+    result.reached = target;
   }
-  result.converged = reached >= 1;
+  result.converged = result.reached >= 1;
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "solid/server.hpp"
 
 #include "common/base/error.hpp"
+#include "common/io/record_file.hpp"
 #include "common/protocol/announce.hpp"
 #include "solid/lumen_regions.hpp"
 #include "solid/wall_series.hpp"
@@ -31,7 +32,9 @@ SolidServer::SolidServer(PreparedWall wall, const UnitSystem& units, std::string
       units_(units),
       effective_case_(std::move(effective_case)),
       notices_(std::move(wall.notices)),
-      series_(std::make_unique<WallSeries>(std::move(output))) {
+      rest_(std::move(wall.rest)),
+      output_(std::move(output)),
+      series_(std::make_unique<WallSeries>(output_)) {
   if (wall.observer_gain.size() > 0) observer_ = std::make_unique<StateObserver>(*model_, wall.observer_gain);
 }
 
@@ -86,8 +89,9 @@ protocol::State SolidServer::operator()(const protocol::GetState&) {
 protocol::Ready SolidServer::operator()(const protocol::SetState& m) {
   const VectorXd values = as_vector(m.values);
   const Eigen::Index more = observer_ ? observer_->state_size() : 0;
-  solver_->set_state(values.head(std::max<Eigen::Index>(0, values.size() - more)));
-  if (observer_) observer_->set_state(values.tail(more));
+  const bool is_whole = values.size() == solver_->state_size() + more;  // another run may have had no observer
+  solver_->set_state(is_whole ? values.head(solver_->state_size()) : values);
+  if (observer_ && is_whole) observer_->set_state(values.tail(more));
   return {};
 }
 
@@ -111,6 +115,7 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
 }
 
 protocol::Ready SolidServer::operator()(const protocol::Write& m) {
+  if (m.step == 0) write_record(output_ / "rest.json", rest_);
   series_->write(*model_, *solver_, static_cast<int>(m.step), m.time);
   return {};
 }

@@ -50,6 +50,8 @@ class SolidServer {
   UnitSystem units_;
   std::string effective_case_;
   std::vector<std::string> notices_;
+  RestState rest_;
+  std::filesystem::path output_;
   std::unique_ptr<WallSeries> series_;
 };
 

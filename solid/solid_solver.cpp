@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/base/error.hpp"
-#include "solid/mark.hpp"
 
 namespace tether {
 namespace {
@@ -25,6 +24,7 @@ constexpr int most_newton_iterations = 15, most_linear_iterations = 200;
 
 SolidSolver::SolidSolver(WallModel& model)
     : model_(model),
+      nodes_(Mark().add(model.mesh().points.reshaped())),
       displacement_(Points::Zero(3, model.mesh().points.cols())),
       velocity_(displacement_),
       mean_velocity_(displacement_),
@@ -224,39 +224,46 @@ bool SolidSolver::FactorOrigin::makes_same_factor_as(const FactorOrigin& other) 
   return dt == other.dt && displacement == other.displacement && parameters == other.parameters;
 }
 
-double SolidSolver::FactorOrigin::mark() const {
-  return Mark().add(displacement.reshaped()).add(parameters).add(std::array{dt}).value();
+double SolidSolver::mark_of(const FactorOrigin& origin) const {
+  Mark mark;
+  mark.add(origin.displacement.reshaped()).add(origin.parameters).add(std::array{origin.dt});
+  for (const ParameterTable::Entry& entry : model_.parameters().entries()) mark.add(entry.name);
+  return mark.value();
 }
 
 Eigen::Index SolidSolver::state_size() const {
-  return 4 * displacement_.size() + 6 + static_cast<Eigen::Index>(origin_.parameters.size());
+  return 4 * displacement_.size() + 7 + static_cast<Eigen::Index>(origin_.parameters.size());
 }
 
 VectorXd SolidSolver::state() const {
   VectorXd state(state_size());
-  state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), origin_.displacement.reshaped(),
-      origin_.dt, origin_.steps, origin_.calls, origin_.decades, origin_.lost, origin_.mark(),
+  state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), nodes_.value(),
+      origin_.displacement.reshaped(), origin_.dt, origin_.steps, origin_.calls, origin_.decades, origin_.lost,
+      mark_of(origin_),
       Eigen::Map<const VectorXd>(origin_.parameters.data(), static_cast<Eigen::Index>(origin_.parameters.size()));
   return state;
 }
 
 void SolidSolver::set_state(const VectorXd& state) {
-  if (state.size() != state_size())
-    throw input_error("a solid state of {} numbers was set, expected {}", state.size(), state_size());
-  const Eigen::Index n = displacement_.size();
+  const Eigen::Index n = displacement_.size(), factor = 3 * n + 1;
+  if (state.size() < factor || !nodes_.is(state[3 * n]))
+    throw input_error("a state of {} numbers belongs to another wall: one with these {} nodes has {}", state.size(),
+                      displacement_.cols(), state_size());
   displacement_.reshaped() = state.head(n);
   velocity_.reshaped() = state.segment(n, n);
   mean_velocity_.reshaped() = state.segment(2 * n, n);
   iterate_ = mean_velocity_;
+  if (state.size() != state_size()) return;
   FactorOrigin origin;
-  origin.displacement = Eigen::Map<const Points>(state.data() + 3 * n, 3, displacement_.cols());
-  origin.dt = state[4 * n];
-  origin.steps = state[4 * n + 1];
-  origin.calls = state[4 * n + 2];
-  origin.decades = state[4 * n + 3];
-  origin.lost = state[4 * n + 4];
-  origin.parameters.assign(state.data() + 4 * n + 6, state.data() + state.size());
-  if (origin.mark() == state[4 * n + 5]) restore_factor(origin);
+  origin.displacement = Eigen::Map<const Points>(state.data() + factor, 3, displacement_.cols());
+  const double* numbers = state.data() + factor + n;
+  origin.dt = numbers[0];
+  origin.steps = numbers[1];
+  origin.calls = numbers[2];
+  origin.decades = numbers[3];
+  origin.lost = numbers[4];
+  origin.parameters.assign(numbers + 6, state.data() + state.size());
+  if (mark_of(origin) == numbers[5]) restore_factor(origin);
 }
 
 /// The factor of that origin, made if it is not at hand; none if there was none.

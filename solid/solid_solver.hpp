@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/base/mark.hpp"
 #include "common/linalg/cholesky.hpp"
 #include "common/linalg/krylov.hpp"
 #include "solid/wall_model.hpp"
@@ -55,7 +56,9 @@ class SolidSolver {
   double largest_displacement() const { return displacement_.colwise().norm().maxCoeff(); }
 
   /// Everything needed to continue bit for bit: y, u, V of the last step, and what the kept factor was made from, with
-  /// a mark by which a mixture of states is told from a state: it is continued with the factor at hand, at no cost.
+  /// a mark by which a mixture of states is told from a state: it is continued with the factor at hand, at no cost. So
+  /// is the state of a wall of the same nodes with other parameters, whose length may be another. Throws InputError for
+  /// one of other nodes.
   VectorXd state() const;
   Eigen::Index state_size() const;
   void set_state(const VectorXd& state);
@@ -71,9 +74,10 @@ class SolidSolver {
     double lost = 0;                ///< calls more than those needed for as much, since
     void count(int calls, double decades);
     bool makes_same_factor_as(const FactorOrigin& other) const;
-    double mark() const;  ///< differs for any other displacement, dt or parameters
   };
 
+  /// Differs for any other displacement, dt, parameters or names of them.
+  double mark_of(const FactorOrigin& origin) const;
   void place_driven();
   /// load - forces at the iterate, zero on clamped unknowns.
   VectorXd out_of_balance(const Points& load, bool renew_tangent);
@@ -87,6 +91,7 @@ class SolidSolver {
   Points drifted_start() const;
 
   WallModel& model_;
+  Mark nodes_;                                      ///< of the mesh
   Points displacement_, velocity_, mean_velocity_;  ///< y, u at the start of the step; V of the last accepted step
   Points drift_;
   Points iterate_;  ///< V

@@ -1,10 +1,10 @@
 #include "solid/state_observer.hpp"
 
 #include "common/base/error.hpp"
+#include "common/base/mark.hpp"
 #include "common/linalg/krylov.hpp"
 #include "common/mesh/surface.hpp"
 #include "solid/inflation_stiffness.hpp"
-#include "solid/mark.hpp"
 
 #include <algorithm>
 

@@ -15,6 +15,7 @@
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
 #include "solid/results/effects_list.hpp"
+#include "solid/results/rest_state.hpp"
 #include "twin/score.hpp"
 #include "vessel/model/model_quality.hpp"
 #include "vessel/ring/tracked_ring.hpp"
@@ -48,6 +49,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"quality.json", schema<ModelQuality>},
       {"outlets.json", schema<FittedOutlets>},
       {"ring.json", schema<TrackedRing>},
+      {"rest.json", schema<RestState>},
   };
   return all;
 }

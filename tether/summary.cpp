@@ -34,6 +34,15 @@ std::string coupling(const RunSummary& s) {
                      s.coupling_iterations.max, s.coupling_method);
 }
 
+std::string rest(const std::optional<RestState>& rest) {
+  if (!rest || !rest->held) return "";
+  return fmt::format(
+      "  in the image   the surroundings hold {:.1f} % of the pressure's forces; most, {:.2g} of the pressure, in "
+      "region "
+      "{}\n",
+      100 * rest->held->share, rest->held->largest, rest->held->region);
+}
+
 std::string periodicity(const std::optional<Periodicity>& p) {
   if (!p || p->beats.empty()) return "";
   const BeatChange& last = p->beats.back();
@@ -47,7 +56,7 @@ std::string periodicity(const std::optional<Periodicity>& p) {
 
 std::string text_of(const RunSummary& s) {
   return cost(s) + pressure(s.pressure) + fmt::format("  displacement   at most {:.3g} mm\n", s.max_displacement_mm) +
-         coupling(s) + periodicity(s.periodicity) + observer(s.observer) +
+         coupling(s) + rest(s.rest) + periodicity(s.periodicity) + observer(s.observer) +
          fmt::format("  mass balance   off by at most {:.1e} {}\n", s.mass_balance_error_max, s.units.flow);
 }
 

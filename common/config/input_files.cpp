@@ -72,9 +72,15 @@ std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) 
   return hash;
 }
 
+/// The codes' states in a checkpoint, not what the run has cost.
+std::uint64_t hash_state(const fs::path& checkpoint) {
+  return hash_file(checkpoint / "solid.bin", hash_file(checkpoint / "fluid.bin", begin_of_hash));
+}
+
 /// Of a folder that the case stands in, which may hold results as well, the files alone.
 std::uint64_t content_for(const fs::path& path, const fs::path& case_folder) {
   std::error_code none;
+  if (fs::is_directory(path / "checkpoint", none)) return hash_content(path);
   const fs::path from_it = fs::canonical(case_folder, none).lexically_relative(fs::canonical(path, none));
   const bool holds_case = fs::is_directory(path, none) && !from_it.empty() && *from_it.begin() != "..";
   return holds_case ? hash_folder(path, begin_of_hash, 0) : hash_content(path);
@@ -113,6 +119,7 @@ std::string essence(const std::string& effective_case) {
 
 std::uint64_t hash_content(const fs::path& path) {
   std::error_code none;
+  if (fs::is_directory(path / "checkpoint", none)) return hash_state(path / "checkpoint");
   if (fs::is_directory(path, none)) return hash_folder(path, begin_of_hash, folders_deep);
   if (!fs::is_regular_file(path, none)) return 0;
   std::uint64_t hash = hash_file(path, begin_of_hash);

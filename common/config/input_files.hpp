@@ -10,7 +10,8 @@
 namespace tether {
 
 /// A hash of what a file holds, and of what the files hold that a table (.csv) or series (.pvd) names; of a folder: of
-/// the names and contents of the files in it and in its folders. The hash of nothing if there is no such file.
+/// the names and contents of the files in it and in its folders; of the output folder of a run: of the state that it
+/// saved last. The hash of nothing if there is no such file.
 std::uint64_t hash_content(const std::filesystem::path& path);
 
 /// A file or folder that a value of a case names.

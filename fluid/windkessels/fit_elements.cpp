@@ -37,7 +37,7 @@ double compliance_for(std::vector<Windkessel> outlets, const OutletTargets& targ
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     set_compliance(outlets, std::exp(middle), targets.shares);
-    (periodic_beat(outlets, flow).pulse_pressure() > targets.pulse_pressure ? low : high) = middle;
+    (periodic_beat(outlets, flow, targets.vessel).pulse_pressure() > targets.pulse_pressure ? low : high) = middle;
   }
   return std::exp(0.5 * (low + high));
 }
@@ -66,7 +66,15 @@ std::vector<double> resistances(double mean_pressure, const std::vector<double>&
   return all;
 }
 
-ReachablePulse reachable_pulse(std::span<const Windkessel> outlets, const PeriodicFlow& flow) {
+ReachablePulse reachable_pulse(std::span<const Windkessel> outlets, const PeriodicFlow& flow, double vessel) {
+  if (vessel > 0) {
+    const auto pulse = [&](double factor) {
+      std::vector<Windkessel> scaled(outlets.begin(), outlets.end());
+      for (Windkessel& one : scaled) one.compliance *= factor;
+      return periodic_beat(scaled, flow, vessel).pulse_pressure();
+    };
+    return {pulse(1e6), pulse(1e-6)};
+  }
   double proximal = 0, whole = 0;
   for (const Windkessel& one : outlets) proximal += 1 / one.proximal, whole += 1 / one.resistance();
   const double swing = flow.most() - flow.least();
@@ -75,24 +83,27 @@ ReachablePulse reachable_pulse(std::span<const Windkessel> outlets, const Period
 
 std::vector<Windkessel> fit_to_pulse(const OutletTargets& targets, const PeriodicFlow& flow) {
   std::vector<Windkessel> outlets = resistive(targets, flow);
-  const ReachablePulse reachable = reachable_pulse(outlets, flow);
+  set_compliance(outlets, 1, targets.shares);
+  const ReachablePulse reachable = reachable_pulse(outlets, flow, targets.vessel);
   if (targets.pulse_pressure <= reachable.least * 1.001 || targets.pulse_pressure >= reachable.most * 0.999)
     throw input_error(
         "a pulse pressure of {:.4g} mmHg cannot be reached: with this flow and mean pressure it is {:.4g} mmHg without "
-        "any compliance, and {:.4g} mmHg with an infinite one, which is what the proximal resistances leave",
-        targets.pulse_pressure, reachable.most, reachable.least);
+        "any compliance of outlets{}, and {:.4g} mmHg with an infinite one, which is what the proximal resistances "
+        "leave",
+        targets.pulse_pressure, reachable.most, targets.vessel > 0 ? " beside that of the vessel" : "",
+        reachable.least);
   const PeriodicFlow fine = flow.refined({}, pieces_of_a_beat);
   set_compliance(outlets, compliance_for(outlets, targets, fine), targets.shares);
   return outlets;
 }
 
-CurveFit fit_to_curve(const MeasuredPressure& measured, const PeriodicFlow& flow) {
+CurveFit fit_to_curve(const MeasuredPressure& measured, const PeriodicFlow& flow, double vessel) {
   const PeriodicFlow fine = flow.refined(measured.times, 2);
   const std::vector<Eigen::Index> at = indices_of(measured.times, fine);
   const Eigen::Map<const Eigen::VectorXd> values(measured.values.data(), static_cast<Eigen::Index>(at.size()));
   const auto misfit = [&](const Eigen::Vector3d& x) -> Eigen::VectorXd {
     const Windkessel one = of_logarithms(x);
-    return periodic_beat({&one, 1}, fine).pressure(at) - values;
+    return periodic_beat({&one, 1}, fine, vessel).pressure(at) - values;
   };
   const double resistance = values.mean() / flow.mean();
   Eigen::Vector3d x{std::log(0.05 * resistance), std::log(0.95 * resistance), std::log(flow.period() / resistance)};

@@ -20,6 +20,11 @@ double mmhg(double dyn_per_cm2) {
   return UnitSystem::cgs().to_mmhg(dyn_per_cm2);
 }
 
+/// [ml/mmHg]
+double vessel_of(const OutletsCase& asked) {
+  return asked.vessel_compliance / mmhg(1);
+}
+
 /// The outlets in the order of the case, or of the file, without one that the case has not, or with all of them.
 Named<TargetOutletCase> outlets_of(const OutletsCase& asked, const std::optional<OutletsBase>& base) {
   if (!base) return asked.outlets;
@@ -127,6 +132,7 @@ std::vector<Windkessel> by_pulse(const OutletsCase& asked, const Named<TargetOut
   targets.mean_pressure = mmhg(*asked.pressure.mean - asked.pressure.venous);
   targets.pulse_pressure = mmhg(*asked.pressure.pulse);
   targets.shares = shares;
+  targets.vessel = vessel_of(asked);
   targets.proximals = proximals_of(asked.proximal, resistances(targets.mean_pressure, shares, flow), areas);
   result.target_mean = mmhg(*asked.pressure.mean);
   result.target_pulse = targets.pulse_pressure;
@@ -147,7 +153,7 @@ std::vector<Windkessel> by_curve(const OutletsCase& asked, const std::vector<dou
     throw input_error("{}: the mean pressure must be above the venous one, {:.4g} mmHg", curve.file.string(), venous);
   if (measured.values.size() < 4)
     throw input_error("{}: {} pressures do not tell three elements", curve.file.string(), measured.values.size());
-  const CurveFit found = fit_to_curve(measured, flow);
+  const CurveFit found = fit_to_curve(measured, flow, vessel_of(asked));
   const auto [least, most] = std::minmax_element(measured.values.begin(), measured.values.end());
   fit.result.measured = BeatPressures{mean + venous, *most + venous, *least + venous, *most - *least};
   fit.result.misfit = found.misfit;
@@ -202,6 +208,7 @@ Overlay overlay_of(const OutletsCase& asked, const OutletsBase& base, const Aske
                    const FittedOutlets& result, const fs::path& folder) {
   Overlay overlay{asked.case_file, asked.name, {}, {}};
   const auto set = [&](const std::string& field, const std::string& text) { overlay.values.push_back({field, text}); };
+  if (asked.pressure.image) set("image.pressure", elements_text(base.image_pressure, "mmHg"));
   if (base.inlets.size() == 1 && (asked.flow || flow.factor != 1)) {
     const std::string inlet = "fluid.inlets." + base.inlets.front() + ".flow.";
     if (asked.flow) {
@@ -232,6 +239,7 @@ Overlay overlay_of(const OutletsCase& asked, const OutletsBase& base, const Aske
 OutletsFit fit_outlets(const OutletsCase& asked, const fs::path& folder) {
   std::optional<OutletsBase> base;
   if (!asked.case_file.empty()) base = read_outlets_base(asked.case_file);
+  if (base && asked.pressure.image) base->image_pressure = mmhg(*asked.pressure.image);
   const Named<TargetOutletCase> outlets = outlets_of(asked, base);
   const AskedFlow flow = flow_of(asked, base);
   const std::vector<double> areas = areas_of(asked, outlets), shares = shares_of(asked, outlets, areas);
@@ -246,13 +254,15 @@ OutletsFit fit_outlets(const OutletsCase& asked, const fs::path& folder) {
   const std::vector<Windkessel> elements = asked.has_curve()
                                                ? by_curve(asked, shares, flow.flow, fit)
                                                : by_pulse(asked, outlets, shares, areas, flow.flow, result);
-  const ReachablePulse reachable = reachable_pulse(elements, flow.flow);
+  result.vessel_compliance = vessel_of(asked);
+  const PeriodicFlow fine = flow.flow.refined({&result.start, 1}, pieces_of_a_beat);
+  const ReachablePulse reachable = reachable_pulse(elements, fine, result.vessel_compliance);
   result.least_pulse = reachable.least, result.most_pulse = reachable.most;
-  result.proximal_share = reachable.least / reachable.most;
-  result.resistance = 0;
-  for (const Windkessel& one : elements) result.resistance += 1 / one.resistance();
-  result.resistance = 1 / result.resistance;
-  fit.beat = periodic_beat(elements, flow.flow.refined({&result.start, 1}, pieces_of_a_beat));
+  double whole = 0, proximal = 0;  // conductances
+  for (const Windkessel& one : elements) whole += 1 / one.resistance(), proximal += 1 / one.proximal;
+  result.resistance = 1 / whole;
+  result.proximal_share = whole / proximal;
+  fit.beat = periodic_beat(elements, fine, result.vessel_compliance);
   fill(result, outlets, shares, areas, elements, fit.beat);
   fit.beat.pressure.array() += result.venous_pressure;
   fit.beat.stored.array() += result.venous_pressure;

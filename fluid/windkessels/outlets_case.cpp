@@ -12,6 +12,8 @@ void TargetPressureCase::declare(Fields& f) {
   f.number("pulse", pulse, dimension::pressure, range::positive, "largest less smallest of the beat");
   f.group("curve", curve, "measured over a beat, absolute, instead of mean and pulse: the elements are fitted to it");
   f.number("venous", venous, dimension::pressure, range::any, "behind the distal resistances; absolute");
+  f.number("image", image, dimension::pressure, range::not_negative,
+           "in the image, to which pressures of the new case are relative: the new case gets it; default: the case's");
   f.check(curve ? !mean && !pulse : mean && pulse, "mean", "give mean and pulse, or a curve");
   f.check(!mean || *mean > venous, "mean", "must be above venous");
 }
@@ -48,6 +50,9 @@ void OutletsCase::declare(Fields& f) {
          "the periodic state");
   f.group("flow", flow, "into all outlets over a beat; default: that of the case's only inlet");
   f.number("mean_flow", mean_flow, dimension::flow, range::positive, "the flow is scaled to this mean");
+  f.number("vessel_compliance", vessel_compliance, dimension::compliance, range::not_negative,
+           "of the vessel itself, which takes up its part of a beat: how much larger its volume is in a run where its "
+           "pressure is larger by one");
   f.group("pressure", pressure, "that the outlets are to make");
   f.group("split", split, "of the flow");
   f.groups("outlets", outlets, "by name; none: those of the case");

@@ -22,6 +22,7 @@ struct TargetPressureCase {
   std::optional<double> mean, pulse;
   std::optional<PressureCurveCase> curve;
   double venous = 0;
+  std::optional<double> image;
   void declare(Fields& f);
 };
 
@@ -51,6 +52,7 @@ struct OutletsCase {
   std::filesystem::path case_file;  ///< empty: no case is made
   std::optional<FlowCurveCase> flow;
   std::optional<double> mean_flow;
+  double vessel_compliance = 0;
   TargetPressureCase pressure;
   SplitCase split;
   Named<TargetOutletCase> outlets;

@@ -51,7 +51,7 @@ struct FittedOutlets {
   std::optional<BeatPressures> measured;
   BeatPressures reached;
   double least_pulse = 0, most_pulse = 0, initial_inlet_pressure = 0;
-  double resistance = 0, compliance = 0, proximal_share = 0;
+  double resistance = 0, compliance = 0, vessel_compliance = 0, proximal_share = 0;
   std::vector<FittedOutlet> outlets;
 
   static void fields(auto& self, auto&& field) {
@@ -71,6 +71,7 @@ struct FittedOutlets {
     field("initial_inlet_pressure", self.initial_inlet_pressure, "at the beginning, absolute [mmHg]");
     field("resistance", self.resistance, "of all outlets [mmHg s/ml]");
     field("compliance", self.compliance, "of all outlets [ml/mmHg]");
+    field("vessel_compliance", self.vessel_compliance, "of the vessel itself, as it was given [ml/mmHg]");
     field("proximal_share", self.proximal_share, "of all outlets: proximal over whole resistance, joined");
     field("outlets", self.outlets, "");
   }

@@ -21,11 +21,20 @@ struct ModeStep {
   }
 };
 
-/// The modes of the pressures stored in outlets that leave one vessel.
+/// The modes of the pressures stored in outlets that leave one vessel, after that of the vessel itself if it stores
+/// any.
 struct Modes {
   Eigen::VectorXd rates, forcing;  ///< forcing: of each mode by a unit of flow
   Eigen::MatrixXd shapes;          ///< stored pressures of each mode, a column each
 };
+
+/// Of C dP/dt = -M P + f q, M symmetric: in C^(1/2) P.
+Modes modes_of(const Eigen::MatrixXd& M, const Eigen::VectorXd& compliances, const Eigen::VectorXd& f) {
+  const Eigen::VectorXd scale = compliances.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * M * scale.asDiagonal());
+  return {solver.eigenvalues(), solver.eigenvectors().transpose() * scale.asDiagonal() * f,
+          scale.asDiagonal() * solver.eigenvectors()};
+}
 
 Eigen::VectorXd conductances(std::span<const Windkessel> outlets) {
   Eigen::VectorXd g(static_cast<Eigen::Index>(outlets.size()));
@@ -33,22 +42,25 @@ Eigen::VectorXd conductances(std::span<const Windkessel> outlets) {
   return g;
 }
 
-/// C dP/dt = -M P + g q/G, M = diag(g + 1/R_d) - g g'/G: symmetric in C^(1/2) P (M.10).
-Modes modes_of(std::span<const Windkessel> outlets, const Eigen::VectorXd& g) {
+/// M = diag(g + 1/R_d) - g g'/G, f = g/G; or, with the vessel's pressure first, M = [G -g'; -g diag(g + 1/R_d)] and all
+/// of the flow into it (M.10).
+Modes modes_of(std::span<const Windkessel> outlets, const Eigen::VectorXd& g, double vessel) {
+  const Eigen::Index n = g.size(), own = vessel > 0 ? 1 : 0;
   const double G = g.sum();
-  Eigen::MatrixXd M = -g * g.transpose() / G;
-  Eigen::VectorXd scale(g.size());
-  for (Eigen::Index i = 0; i < g.size(); ++i) {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(own + n, own + n);
+  Eigen::VectorXd compliances(own + n), f = Eigen::VectorXd::Zero(own + n);
+  for (Eigen::Index i = 0; i < n; ++i) {
     const Windkessel& one = outlets[static_cast<std::size_t>(i)];
-    M(i, i) += g[i] + 1 / one.distal;
-    scale[i] = 1 / std::sqrt(one.compliance);
+    M(own + i, own + i) = g[i] + 1 / one.distal;
+    compliances[own + i] = one.compliance;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * M * scale.asDiagonal());
-  Modes modes;
-  modes.rates = solver.eigenvalues();
-  modes.forcing = solver.eigenvectors().transpose() * scale.asDiagonal() * g / G;
-  modes.shapes = scale.asDiagonal() * solver.eigenvectors();
-  return modes;
+  if (own == 0) return modes_of(M - g * g.transpose() / G, compliances, g / G);
+  M(0, 0) = G;
+  M.row(0).tail(n) = -g;
+  M.col(0).tail(n) = -g;
+  compliances[0] = vessel;
+  f[0] = 1;
+  return modes_of(M, compliances, f);
 }
 
 /// A mode's values over a beat that ends as it begins.
@@ -132,16 +144,21 @@ double PeriodicBeat::mean_pressure() const {
   return integral(times, {pressure.data(), times.size()}) / (times.back() - times.front());
 }
 
-PeriodicBeat periodic_beat(std::span<const Windkessel> outlets, const PeriodicFlow& flow) {
+PeriodicBeat periodic_beat(std::span<const Windkessel> outlets, const PeriodicFlow& flow, double vessel) {
   const Eigen::VectorXd g = conductances(outlets);
-  const Modes modes = modes_of(outlets, g);
-  Eigen::MatrixXd values(g.size(), static_cast<Eigen::Index>(flow.times.size()));
-  for (Eigen::Index k = 0; k < g.size(); ++k) values.row(k) = periodic_mode(modes.rates[k], modes.forcing[k], flow);
+  const Modes modes = modes_of(outlets, g, vessel);
+  Eigen::MatrixXd values(modes.rates.size(), static_cast<Eigen::Index>(flow.times.size()));
+  for (Eigen::Index k = 0; k < values.rows(); ++k)
+    values.row(k) = periodic_mode(modes.rates[k], modes.forcing[k], flow);
+  const Eigen::MatrixXd pressures = modes.shapes * values;
   PeriodicBeat beat;
   beat.times = flow.times;
   beat.inlet_flow = Eigen::Map<const Eigen::VectorXd>(flow.values.data(), values.cols());
-  beat.stored = modes.shapes * values;
-  beat.pressure = (beat.inlet_flow + beat.stored.transpose() * g) / g.sum();
+  beat.stored = pressures.bottomRows(g.size());
+  if (vessel > 0)
+    beat.pressure = pressures.row(0);
+  else
+    beat.pressure = (beat.inlet_flow + beat.stored.transpose() * g) / g.sum();
   beat.flow = g.asDiagonal() * (beat.pressure.transpose().replicate(g.size(), 1) - beat.stored);
   return beat;
 }

@@ -29,14 +29,14 @@ struct PeriodicFlow {
 /// A beat in which the vessel and all outlets end as they began. Pressures are relative to that behind the outlets.
 struct PeriodicBeat {
   std::vector<double> times;
-  Eigen::VectorXd inlet_flow, pressure;  ///< into all outlets; of the vessel, where they are joined
+  Eigen::VectorXd inlet_flow, pressure;  ///< into the vessel; there, where outlets are joined
   Eigen::MatrixXd stored, flow;          ///< an outlet a row, a time a column
   double mean_pressure() const;
   double pulse_pressure() const { return pressure.maxCoeff() - pressure.minCoeff(); }
 };
 
 /// The periodic state of Windkessels that leave one vessel, into which `flow` goes (M.10, M.11): exact at the flow's
-/// times. Elements must be positive.
-PeriodicBeat periodic_beat(std::span<const Windkessel> outlets, const PeriodicFlow& flow);
+/// times. Elements must be positive. vessel: its own compliance; with 0 it stores nothing.
+PeriodicBeat periodic_beat(std::span<const Windkessel> outlets, const PeriodicFlow& flow, double vessel = 0);
 
 }  // namespace tether

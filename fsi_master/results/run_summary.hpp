@@ -8,6 +8,7 @@
 
 #include "common/io/record.hpp"
 #include "fsi_master/results/periodicity.hpp"
+#include "solid/results/rest_state.hpp"
 
 namespace tether {
 
@@ -132,6 +133,7 @@ struct RunSummary {
   std::optional<PressureRange> pressure;
   double max_displacement = 0, max_displacement_mm = 0;
   std::map<std::string, FollowedPoint> points;
+  std::optional<RestState> rest;
   std::optional<Periodicity> periodicity;
   std::optional<ObserverWork> observer;
   std::vector<std::string> notices;
@@ -164,6 +166,7 @@ struct RunSummary {
     field("max_displacement", self.max_displacement, "of the lumen [length]");
     field("max_displacement_mm", self.max_displacement_mm, "the same [mm]");
     field("points", self.points, "followed ones, by name");
+    field("rest", self.rest, "how the wall rests in the image; null: the wall's code does not say");
     field("periodicity", self.periodicity, "from beat to beat; null: there are not two, or no period");
     field("observer", self.observer, "null: none");
     field("notices", self.notices, "of the programs");

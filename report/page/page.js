@@ -12,6 +12,7 @@ import { lookAlikeSection } from "./parts/look_alikes.js";
 import { estimateSection } from "./parts/estimates.js";
 import { forceSection } from "./parts/force.js";
 import { modelsSection } from "./parts/path.js";
+import { plotSection } from "./parts/plots.js";
 import { provenanceSection } from "./parts/provenance.js";
 import { publishedSection } from "./parts/published.js";
 import { rankingSection } from "./parts/ranking.js";
@@ -22,6 +23,7 @@ import { wallSection } from "./wall/section.js";
 function parts(report) {
   const runs = report.runs;
   return [
+    () => plotSection(report),
     runs.length ? () => errorSection(runs) : null,
     () => wallSection(report),
     runs.length ? () => heatSection(runs) : null,

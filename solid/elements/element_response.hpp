@@ -74,6 +74,16 @@ struct PointStrains {
   }
 };
 
+/// Of an element's quadrature points, without its enhanced mode. Samples themselves are no strains: they have the
+/// squares of the element's lengths in them.
+template <class Element>
+double largest_strain(const Element& element, const Eigen::Matrix<double, Element::samples, 1>& s, const WallLaw& law) {
+  double largest = 0;
+  for (int q = 0; q < static_cast<int>(Element::points); ++q)
+    largest = std::max(largest, (element.map(q, law.thickness_variation) * s).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 template <class Element>
 double sample_energy(const Element& element, const Eigen::Matrix<double, Element::samples, 1>& s, const WallLaw& law) {
   const PointStrains<Element> at(element, s, law);

@@ -316,10 +316,12 @@ void ElementsOf<Element>::set_initial_stress(const Points& u, const Material& ma
   constexpr double small = 0.01;  // the law is linear, but a strain that no body can have would have no square root
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     const Samples all = elements_[e].strains().rates(unstressed_[e]).transpose() * gather(u, e).reshaped();
-    const double share = small / std::max(small, all.cwiseAbs().maxCoeff());
+    const double share = small / std::max(small, largest_strain(elements_[e], all, law));
     const Samples s = share * all;
     initial_[e] = sample_stress(elements_[e], s, law) / share;
     initial_mean_[e] = mean_stress(elements_[e], PointStrains<Element>(elements_[e], s, law).strain, law) / share;
+    TETHER_ASSERT(initial_[e].allFinite(), "the initial stress of element {} is not finite: strain {}", e,
+                  largest_strain(elements_[e], all, law));
   }
 }
 

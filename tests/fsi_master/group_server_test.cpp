@@ -26,11 +26,23 @@ class Group : public ::testing::Test {
   std::shared_ptr<fakes::FakeFluid> fluid = std::make_shared<fakes::FakeFluid>();
   std::shared_ptr<FirmSolid> solid = std::make_shared<FirmSolid>();
   std::vector<protocol::Partner> processes = partners();
-  GroupServer group{std::make_unique<MasterCase>(folder.file("case.yaml",
-                                                             "name: fake\nunits: cgs\n"
-                                                             "time: {step: 0.01, end: 0.08}\n")),
-                    {},
-                    processes};
+  GroupServer group = group_of("");
+
+  GroupServer group_of(const std::string& more) {
+    const std::string text = "name: fake\nunits: cgs\ntime: {step: 0.01, end: 0.08}\n" + more;
+    return {std::make_unique<MasterCase>(folder.file("case.yaml", text)), {}, processes};
+  }
+  /// The output of a run of this vessel, after two steps of which the fluid knows the time.
+  void save(const Checkpoint& checkpoint) const { write_checkpoint(folder / "run", checkpoint); }
+  Checkpoint state_at(double time, double displacement) const {
+    const std::vector<double> all(solid->y0.size(), displacement), none(solid->y0.size(), 0.0);
+    std::vector<double> of_solid = all;
+    of_solid.insert(of_solid.end(), none.begin(), none.end());
+    const Points interface = Eigen::Map<const Points>(solid->surface.points.data(), 3,
+                                                      static_cast<Eigen::Index>(solid->surface.points.size() / 3));
+    const StateOrigin origin = origin_of(CaseFile(folder / "case.yaml"), interface, 1);
+    return {2, 0, {{time}, of_solid, all, none, "newton_krylov", {}}, {}, "", "", origin};
+  }
 
  private:
   std::vector<protocol::Partner> partners() const {
@@ -60,6 +72,39 @@ TEST_F(Group, WhatTheSolidRefusesLeavesTheFluidAsItWas) {
   EXPECT_EQ(fluid->pressure, 4);
   EXPECT_EQ(fluid->added_mass, 0.5);
   EXPECT_EQ(solid->stiffness, 50);
+}
+
+TEST_F(Group, BeginsItsParticlesAndRunsWithTheStateThatTheCaseNames) {
+  save(state_at(0.02, 0.5));
+  GroupServer begun = group_of("initial_state: {from: run}\n");
+  EXPECT_EQ(fluid->time, 0.02);
+  EXPECT_EQ(solid->y0, std::vector<double>(solid->y0.size(), 0.5));
+  EXPECT_EQ(begun(protocol::GetState{}).values.front(), 0.02);
+  ASSERT_EQ(begun.hello().notices.size(), 1U);
+  EXPECT_NE(begun.hello().notices[0].find("after 2 steps"), std::string::npos) << begun.hello().notices[0];
+
+  const std::string model = begun.hello().effective_case;
+  EXPECT_NE(model, group.hello().effective_case) << "runs that begin elsewhere are others";
+  solid->y0.assign(solid->y0.size(), 0.0);
+  begun(protocol::Simulate{{}, {}, 1, (folder / "whole").string(), ""});
+  const LumenMotion motion(folder / "whole/lumen.motion");
+  EXPECT_NEAR((motion.at(0) - motion.imaged()).minCoeff(), 0.5, 1e-6) << "a whole run too";
+  EXPECT_EQ(solid->y0, std::vector<double>(solid->y0.size(), 0.5)) << "and the group is back there";
+
+  save(state_at(0.02, 0.25));
+  EXPECT_NE(group_of("initial_state: {from: run}\n").hello().effective_case, model) << "as do those of another state";
+}
+
+TEST_F(Group, RefusesAStateOfAnotherLumen) {
+  Checkpoint other = state_at(0.02, 0.5);
+  other.origin.nodes += 1;
+  save(other);
+  EXPECT_THROW(group_of("initial_state: {from: run}\n"), InputError);
+  other = state_at(0.02, 0.5);
+  other.snapshot.solid.pop_back();
+  save(other);
+  EXPECT_NE(message_of([&] { group_of("initial_state: {from: run}\n"); }).find("a state has 107 entries"),
+            std::string::npos);
 }
 
 }  // namespace

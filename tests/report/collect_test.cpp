@@ -74,6 +74,17 @@ ExplainedModel model(int number, const std::string& name, const char* diagnosis,
 
 const std::string comparison = comparison_text(), diagnosis = diagnosis_text(), estimate = estimate_text();
 
+std::string summary_text() {
+  RunSummary run;
+  run.case_name = "tube";
+  run.title = "A tube";
+  run.steps = 100;
+  run.time = {0, 0.2};
+  run.periodicity = Periodicity{0.1, 5e-3, {{2, 0.004, 0.001}}, 2};
+  run.rest = RestState{"prestressed", 1e-12, HeldBySurroundings{0.066, 0.4, {1, 2, 3}, "arch"}};
+  return json_of(run);
+}
+
 class Collect : public ::testing::Test {
  protected:
   Json document() const { return Json::parse(collected(folder.path())); }
@@ -100,6 +111,22 @@ TEST_F(Collect, AComparison) {
   ASSERT_EQ(report["notes"].size(), 1U);
   EXPECT_EQ(report["notes"][0],
             "The moving wall is not shown: " + (folder / "wall.json").string() + ": cannot be read");
+}
+
+TEST_F(Collect, ARunThatWasComparedWithNothing) {
+  write("summary.json", summary_text());
+  write("plots/pressures.png", "PNG");
+  write("plots/flows.txt", "no picture");
+  const Json report = document();
+  EXPECT_EQ(report["kind"], "simulation");
+  EXPECT_EQ(report["title"], "A tube");
+  EXPECT_EQ(report["sentences"][0], "0.2 s of blood and wall in 100 steps, the lumen moved by at most 0 mm");
+  EXPECT_NE(report["sentences"][1].get<std::string>().find("periodic since beat 2"), std::string::npos);
+  EXPECT_NE(report["sentences"][2].get<std::string>().find("6.6 % of its forces"), std::string::npos);
+  EXPECT_EQ(report["plots"], Json::parse(R"([{"name": "pressures", "png": "UE5H"}])"));
+  EXPECT_EQ(report["provenance"]["runs"].size(), 1U);
+  write("comparison.json", comparison);
+  EXPECT_EQ(document()["kind"], "comparison") << "of a run that was, its comparison";
 }
 
 TEST_F(Collect, AnIdentificationThinnedOut) {
@@ -170,7 +197,8 @@ TEST_F(Collect, AnExplanation) {
 
 TEST_F(Collect, WhatCannotBeReported) {
   EXPECT_EQ(message_of([&] { collected(folder.path()); }),
-            folder.path().string() + ": holds no explain.json, comparison.json, diagnosis.json or estimate.json");
+            folder.path().string() +
+                ": holds no explain.json, comparison.json, diagnosis.json, estimate.json or summary.json");
   write("comparison.json", "{");
   EXPECT_TRUE(message_of([&] { collected(folder.path()); }).starts_with((folder / "comparison.json").string() + ": "));
   write("comparison.json", "{}");

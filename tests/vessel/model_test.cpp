@@ -5,34 +5,13 @@
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
 #include "common/io/record_file.hpp"
-#include "common/mesh/topology.hpp"
 #include "tests/io/temporary_folder.hpp"
-#include "tests/vessel/anatomies/bifurcation.hpp"
-#include "tests/vessel/anatomies/remesh.hpp"
+#include "tests/vessel/anatomies/closed_bifurcation.hpp"
 #include "vessel/check.hpp"
 #include "vessel/volume/tetrahedra.hpp"
 
 namespace tether {
 namespace model_test {
-
-/// The bifurcation with flat caps.
-LabelledSurface closed_bifurcation(double edge) {
-  const Bifurcation vessel = bifurcation(edge);
-  LabelledSurface closed{vessel.points, vessel.triangles, std::vector<int>(vessel.triangles.size(), 0), {}, 0};
-  for (const std::vector<int>& rim : rims(vessel.triangles)) {
-    const Vec3 centre = vessel.points(Eigen::all, rim).rowwise().mean();
-    const int middle = static_cast<int>(closed.points.cols());
-    closed.points.conservativeResize(3, middle + 1);
-    closed.points.col(middle) = centre;
-    closed.openings.push_back(centre[0] > 2 ? "side" : centre[2] < 1 ? "inlet" : "outlet");
-    if (closed.openings.back() == "inlet") closed.inlet = static_cast<int>(closed.openings.size()) - 1;
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-      closed.triangles.push_back({rim[(i + 1) % rim.size()], rim[i], middle});
-      closed.label.push_back(static_cast<int>(closed.openings.size()));
-    }
-  }
-  return remeshed(closed, edge);
-}
 
 VolumeCase study_of_regions() {
   VolumeCase study;

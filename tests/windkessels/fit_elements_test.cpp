@@ -58,6 +58,21 @@ TEST(FitToPulse, TakesProximalResistancesOfEachOutlet) {
   EXPECT_NEAR(beat.mean_pressure() / flow.mean(), 0.046, 1e-6);
 }
 
+/// A vessel that stores by itself leaves less to its outlets, down to nothing.
+TEST(FitToPulse, LeavesTheVesselItsPart) {
+  const PeriodicFlow flow = testing::beat_of_a_heart();
+  OutletTargets targets = targets_of(93, 40, 0.03);
+  const double alone = fit_to_pulse(targets, flow)[0].compliance;
+  targets.vessel = 0.5;
+  const std::vector<Windkessel> outlets = fit_to_pulse(targets, flow);
+  const PeriodicBeat beat = periodic_beat(outlets, flow.refined({}, 1000), 0.5);
+  EXPECT_NEAR(beat.mean_pressure(), 93, 1e-2);
+  EXPECT_NEAR(beat.pulse_pressure(), 40, 1e-3);
+  EXPECT_LT(outlets[0].compliance, alone);
+  targets.vessel = 50;
+  EXPECT_NE(refusal(targets).find("beside that of the vessel"), std::string::npos) << refusal(targets);
+}
+
 /// The pulse pressure falls as the compliance grows: bisection finds the only one.
 TEST(FitToPulse, PulseFallsWithCompliance) {
   const PeriodicFlow flow = testing::beat_of_a_heart().refined({}, 500);

@@ -101,6 +101,20 @@ TEST(FitOutlets, GivesTheOutletOfTheDescendingAorta) {
   EXPECT_EQ(outlet.find("initial_pressure")->text, fmt::format("{:.6g} mmHg", made.initial_pressure - 70.9));
 }
 
+/// The new case has the image's pressure that its outlets are relative to, whatever the old case has.
+TEST(FitOutlets, GivesTheCaseTheImagesPressure) {
+  const std::string base = "case: " + (fs::path(TETHER_SOURCE) / "configs/tube/case.yaml").string() + "\n";
+  const fs::path folder = asked(base + "pressure: {mean: 93 mmHg, pulse: 50 mmHg, venous: 5 mmHg, image: 45 mmHg}\n");
+  const ChildEnd end = fitted(folder);
+  ASSERT_EQ(end.exit_code, exit_done) << end.errors;
+  const FittedOutlet made = read_record<FittedOutlets>(folder / "out" / "outlets.json").outlets.at(0);
+  const YamlNode tree = read_case_tree(folder / "out" / "case.yaml");
+  EXPECT_EQ(tree.find("image")->find("pressure")->text, "45 mmHg");
+  const YamlNode outlet = *tree.find("fluid")->find("outlets")->find("outlet");
+  EXPECT_EQ(outlet.find("initial_pressure")->text, fmt::format("{:.6g} mmHg", made.initial_pressure - 45));
+  EXPECT_EQ(outlet.find("distal_pressure")->text, "-40 mmHg");
+}
+
 TEST(FitOutlets, RefusesWhatCannotBe) {
   EXPECT_NE(refusal_of(flow + targets + "outlets: {left: {share: 0.3}, right: {share: 0.6}}\n").find("sum to 0.9 and"),
             std::string::npos);

@@ -82,6 +82,23 @@ TEST(PeriodicBeat, OfUnlikeOutletsIsWhereManyBeatsEnd) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.15);
 }
 
+/// A vessel that stores hardly anything is one that stores nothing; before a reservoir without resistance between, its
+/// compliance is the reservoir's.
+TEST(PeriodicBeat, OfAVesselThatStores) {
+  const std::vector<Windkessel> unlike{{0.5, 6, 0.1}, {0.2, 9, 0.3}, {0.1, 1.6, 0.9}};
+  const PeriodicFlow flow = testing::beat_of_a_heart();
+  const PeriodicBeat none = periodic_beat(unlike, flow), hardly = periodic_beat(unlike, flow, 1e-9);
+  EXPECT_LT((hardly.stored - none.stored).cwiseAbs().maxCoeff(), 1e-6 * none.stored.maxCoeff());
+  EXPECT_LT((hardly.pressure - none.pressure).cwiseAbs().maxCoeff(), 1e-4 * none.pressure.maxCoeff());
+
+  const Windkessel near{1e-7, 1.1, 0.5}, whole{1e-7, 1.1, 1.3};
+  const PeriodicBeat parted = periodic_beat({&near, 1}, flow, 0.8), joined = periodic_beat({&whole, 1}, flow);
+  EXPECT_LT((parted.stored - joined.stored).cwiseAbs().maxCoeff(), 1e-5 * joined.stored.maxCoeff());
+  const Eigen::RowVectorXd leaves = joined.stored.row(0) / 1.1, filling = joined.inlet_flow.transpose() - leaves;
+  EXPECT_LT((parted.flow.row(0) - leaves - near.compliance / whole.compliance * filling).cwiseAbs().maxCoeff(),
+            1e-3 * joined.inlet_flow.maxCoeff());
+}
+
 TEST(PeriodicBeat, DoesNotDependOnFurtherTimes) {
   const PeriodicFlow flow = testing::beat_of_a_heart();
   const std::vector<double> more{0.1234, 0.777};

@@ -100,15 +100,16 @@ class CapAt {
 };
 
 /// Parts with edges of one length each. A part's border is split and collapsed as the part wants it, which changes
-/// triangles beside it: parts are found anew each time. Three passes, with borders at other places.
-void remesh_by_radius(CgalMesh& mesh, const EdgeLength& length, const std::vector<double>& radius,
-                      const CapAt& cap_at) {
+/// triangles beside it: parts are found anew each time. Three passes, with borders at other places; `first`: of which,
+/// as a share of a step.
+void remesh_by_radius(CgalMesh& mesh, const EdgeLength& length, const std::vector<double>& radius, const CapAt& cap_at,
+                      double first) {
   const RadiusAt radius_at(mesh, radius);
   // first all alike and fine: parts of the slivers that cuts leave have borders on which CGAL's remeshing fails
   remesh_part(mesh, {mesh.faces().begin(), mesh.faces().end()}, length.least);
   mesh.collect_garbage();
   FaceNumbers ids = ids_of(mesh);
-  for (const double shift : {0.0, 0.5, 0.0}) {
+  for (const double shift : {first, first + 0.5, first}) {
     const auto part_of = [&](CgalMesh::Face_index face) {
       const auto x = corners_of(mesh, face);
       const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
@@ -130,13 +131,26 @@ void remesh_by_radius(CgalMesh& mesh, const EdgeLength& length, const std::vecto
   }
 }
 
+/// On some borders of parts CGAL's remeshing stops at an assertion; where they lie is a matter of choice.
+CgalMesh remeshed_by_radius(const CgalMesh& surface, const EdgeLength& length, const std::vector<double>& radius,
+                            const CapAt& cap_at) {
+  constexpr double last = 0.75;
+  for (double first = 0;; first += 0.25) try {
+      CgalMesh mesh = surface;
+      remesh_by_radius(mesh, length, radius, cap_at, first);
+      return mesh;
+    } catch (const CGAL::Failure_exception&) {
+      if (first >= last) throw;
+    }
+}
+
 }  // namespace
 
 LabelledSurface remeshed(const LabelledSurface& surface, const EdgeLength& length, const std::vector<double>& radius) {
   CgalMesh mesh = cgal_mesh({surface.points, surface.triangles, surface.label});
   try {
     if (length.per_radius > 0)
-      remesh_by_radius(mesh, length, radius, CapAt(surface));
+      mesh = remeshed_by_radius(mesh, length, radius, CapAt(surface));
     else
       remesh_part(mesh, {mesh.faces().begin(), mesh.faces().end()}, length.most);
   } catch (const CGAL::Failure_exception& failure) {

@@ -9,6 +9,7 @@ const kindNames = {
   comparison: "comparison",
   diagnosis: "diagnosis",
   estimate: "identification",
+  simulation: "simulation",
 };
 
 /** What an identification says of itself, in sentences. */
