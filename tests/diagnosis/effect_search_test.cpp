@@ -310,7 +310,7 @@ TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
   EffectProblem problem = band();
   add_candidate(problem, "other", problem.changes.col(2));
   problem.residual = noise(generator) + 8 * problem.changes.col(6) + 5 * problem.changes.col(2);
-  const VectorXd bend = 0.3 * response(1, 3, beat);
+  const VectorXd bend = 0.35 * response(1, 3, beat);
   const ResidualAt runs = [&](const MatrixXd& amplitudes) {
     MatrixXd all = linear_residual(problem)(amplitudes);
     for (Index k = 0; k < all.cols(); ++k)
