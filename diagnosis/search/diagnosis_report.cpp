@@ -147,7 +147,8 @@ FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, In
     return {amplitude.value(0), amplitude.value(amplitude.one_sided ? 0 : -half), amplitude.value(half)};
   }
   const AmplitudeRange range = range_of(problem, effect, own);
-  return {amplitude.value(size), amplitude.value(size * range.lower), amplitude.value(size * range.upper)};
+  const auto [lower, upper] = std::minmax({amplitude.value(size * range.lower), amplitude.value(size * range.upper)});
+  return {amplitude.value(size), lower, upper};
 }
 
 Diagnosis diagnosis_of(const DiagnosisReport& report) {

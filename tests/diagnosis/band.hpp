@@ -72,7 +72,7 @@ inline EffectProblem band(bool naive = false) {
     }
   problem.pattern_deviation = VectorXd::Constant(regions * moments, 0.25);
   for (int b = 0; b < regions * moments; ++b)
-    problem.pattern_names.push_back({std::to_string(b % regions), 1.0 * (b / regions)});
+    problem.pattern_names.push_back({std::to_string(b % regions), static_cast<double>(b / regions)});
   for (int r = 0; r < regions; ++r) {
     add_candidate(problem, "spring_" + std::to_string(r), response(r, 8, beat));
     add_candidate(problem, "mass_" + std::to_string(r),

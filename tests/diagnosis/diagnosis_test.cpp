@@ -103,6 +103,24 @@ TEST_F(WholeDiagnosis, SaysWhatItChangesInPublishedQuantities) {
   EXPECT_NEAR(after.upper.value(), 20 - 5 * stiffness.lower, 1e-6);
 }
 
+/// Of an amplitude that falls in powers of two, more of it is a smaller value.
+TEST(FoundValue, LiesBetweenItsEndsWhereTheAmplitudeIsNegative) {
+  EffectProblem problem;
+  problem.amplitudes.push_back({"factor", "factor", "1", false, 1.0, 1, true});
+  Candidate softer;
+  softer.amplitudes = {0};
+  problem.candidates.push_back(softer);
+  TestedEffect effect;
+  effect.confirmed = true;
+  effect.amplitudes = VectorXd::Constant(1, -1.0);
+  effect.deviations = VectorXd::Constant(1, 0.1);
+  effect.intervals = {AmplitudeInterval{-1.2, -1, -0.9}};
+  const FoundValue found = value_of(problem, effect, 0);
+  EXPECT_NEAR(found.value, 0.5, 1e-12);
+  EXPECT_NEAR(found.lower, std::pow(2, -1.2), 1e-12);
+  EXPECT_NEAR(found.upper, std::pow(2, -0.9), 1e-12);
+}
+
 /// A unit of spring holds a third of the lumen back by half a millimetre.
 TEST_F(WholeDiagnosis, SaysHowFarItMovesTheLumen) {
   const DiagnosisReport found = report();

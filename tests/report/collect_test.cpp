@@ -151,7 +151,7 @@ TEST_F(Collect, ADiagnosisAndItsCase) {
   write("case_as_run.yaml", fmt::format("# case_file: {}\nname: tube\n", (folder / "tube/case.yaml").string()));
   const Json report = document();
   EXPECT_EQ(report["verdict"], "nothing_missing");
-  const Json provenance = report["provenance"];
+  const Json& provenance = report["provenance"];
   EXPECT_NE(provenance["cases"][0]["text"].get<std::string>().find("name: tube"), std::string::npos);
   ASSERT_EQ(provenance["files"].size(), 1U);
   EXPECT_EQ(provenance["files"][0]["field"], "fluid.curve");

@@ -160,7 +160,8 @@ const Mistake mistakes[] = {
      "case.yaml:15: fluid.viscosty: unknown field; known here: density, rheology, mesh_motion, backflow_stabilisation, "
      "inlets, outlets, probes, sections"},
     {"UnknownSection", In::the_case, "solid:", "tissue: {}\nsolid:",
-     "case.yaml:21: tissue: unknown section; known are base, name, title, units, time, image, mesh, fluid, solid, "
+     "case.yaml:21: tissue: unknown section; known are base, name, title, units, time, image, initial_state, mesh, "
+     "fluid, solid, "
      "coupling, "
      "observations, observer, identification, diagnosis, twin, output"},
     {"MissingField", In::the_case, "  density: 1.06\n", "",
