@@ -43,7 +43,8 @@ std::string what_time_changes(double time, double start, const std::optional<dou
   if (!period) return start == time ? "time goes on" : "what depends on time begins anew";
   const double jump = std::remainder(start - time, *period);
   if (std::abs(jump) <= 1e-6 * *period) return fmt::format("the phase of the beat of {:.4g} s is the same", *period);
-  return fmt::format("inflows and motions jump by {:.4g} s of their beat of {:.4g} s", jump, *period);
+  return fmt::format("inflows and motions jump by {:.4g} s of their beat of {:.4g} s (time.start: {:.6g} goes on)",
+                     jump, *period, time);
 }
 
 }  // namespace

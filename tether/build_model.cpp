@@ -64,6 +64,19 @@ std::string model_text(const ModelQuality& quality) {
   return text;
 }
 
+/// What the study asks of a model that cannot be is told with the study's file, and its places are marked.
+VesselModel model_of(const BuiltSurface& built, const VolumeCase& asked, const UnitSystem& units, const fs::path& study,
+                     const fs::path& places) {
+  try {
+    return build_model(built.surface, built.tree, asked, units);
+  } catch (const PlacedError& error) {
+    write_vtp(places, crosses(error.places));
+    throw input_error("{}: {} (marked in {})", study.string(), error.what(), places.string());
+  } catch (const InputError& error) {
+    throw input_error("{}: {}", study.string(), error.what());
+  }
+}
+
 }  // namespace
 
 Made<SurfaceSummary> build_model(const CommandLine& command) {
@@ -88,8 +101,8 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
         text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
     if (study.model) {
       const UnitSystem units = UnitSystem::cgs();
-      const VesselModel model = build_model(built.surface, built.tree, *study.model, units);
-      write_model(folder / "model", model, built.tree, *study.model, units);
+      const VesselModel model = model_of(built, *study.model, units, command.case_file, places);
+      write_model(folder / "model", study.name + "_model", model, built.tree, *study.model, units);
       told += model_text(model.quality) +
               fmt::format("In {0}: meshes, quality.json, case.yaml: tether simulate {0}/case.yaml\n",
                           (folder / "model").string());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "common/base/error.hpp"
+#include "common/base/placed_error.hpp"
 #include "common/mesh/surface.hpp"
 #include "common/mesh/topology.hpp"
 #include "vessel/coordinates.hpp"
@@ -130,13 +130,12 @@ void require_thick(const OuterSurface& outer, const InterfaceSurface& surface, c
   Eigen::Index at = 0;
   const double share = outer.aim.cwiseQuotient(outer.asked).minCoeff(&at);
   if (share < settings.least_share * (1 - 1e-9))
-    throw input_error(
-        "{}: the wall has room for {:.3g} of {:.3g} only near {} without folding over itself or meeting itself: ask "
-        "for "
-        "less there (a branch may have a thickness of its own), allow it to be thinner (least_share), smooth the "
-        "lumen's "
-        "surface, or give it shorter edges there",
-        settings.field, outer.aim[at], outer.asked[at], coordinates(surface.points.col(at)));
+    throw PlacedError(
+        fmt::format("{}: the wall has room for {:.3g} of {:.3g} only near {} without folding over itself or meeting "
+                    "itself: ask for less there (a branch may have a thickness of its own), allow it to be thinner "
+                    "(least_share), smooth the lumen's surface, or give it shorter edges there",
+                    settings.field, outer.aim[at], outer.asked[at], coordinates(surface.points.col(at))),
+        {surface.points.col(at)});
 }
 
 OuterSurface outer_surface(const InterfaceSurface& surface, const Points& directions, const std::vector<Rim>& rims,
@@ -145,8 +144,8 @@ OuterSurface outer_surface(const InterfaceSurface& surface, const Points& direct
   const VectorXd asked = asked_thickness(surface, settings);
   try {
     return grow_outer_surface(base, asked);
-  } catch (const InputError& error) {
-    throw input_error("{}: {}", settings.field, error.what());
+  } catch (const PlacedError& error) {
+    throw PlacedError(fmt::format("{}: {}", settings.field, error.what()), error.places);
   }
 }
 

@@ -33,7 +33,7 @@ int main(int argc, char** argv) try {
   const auto begin = std::chrono::steady_clock::now();
   const VesselModel model = build_model(surface, tree, study, UnitSystem::cgs());
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  write_model(argv[7], model, tree, study, UnitSystem::cgs());
+  write_model(argv[7], "model", model, tree, study, UnitSystem::cgs());
   std::cout << json_of(model.quality) << "\n" << taken.count() << " s\n";
   return 0;
 } catch (const std::exception& error) {

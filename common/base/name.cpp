@@ -79,4 +79,10 @@ bool is_name(std::string_view text) {
   return true;
 }
 
+bool is_file_name(std::string_view text) {
+  return !text.empty() && text.front() != '.' && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  });
+}
+
 }  // namespace tether

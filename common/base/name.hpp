@@ -11,6 +11,10 @@ inline constexpr std::string_view name_rule = "a name consists of letters, digit
 /// Whether a text is such a name: not empty, of at most 100 bytes, without a space at either end, valid UTF-8.
 bool is_name(std::string_view text);
 
+/// The rule for names of cases and studies, after which folders are named.
+inline constexpr std::string_view file_name_rule = "must consist of letters, digits, '_', '-' and '.'";
+bool is_file_name(std::string_view text);
+
 /// Whether a text is valid UTF-8, as all files of results must be (RFC 3629: no overlong forms, no surrogates).
 bool is_utf8(std::string_view text);
 

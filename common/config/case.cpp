@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 
 namespace tether {
 namespace {
@@ -28,12 +29,6 @@ constexpr std::array sections{
     TopLevelSection{"twin", "data to be made from a run with a hidden effect"},
     TopLevelSection{"output", "what is written, and how often"},
 };
-
-bool is_file_name(const std::string& text) {
-  return !text.empty() && text.front() != '.' && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '-' || c == '.';
-  });
-}
 
 }  // namespace
 
@@ -104,7 +99,7 @@ void OutputCase::declare(Fields& f) {
 
 void CommonCase::declare(Fields& f) {
   f.text("name", name, "short name of the case, also of its output folder", Need::required);
-  f.check(is_file_name(name), "name", "must consist of letters, digits, '_', '-' and '.'");
+  f.check(is_file_name(name), "name", std::string(file_name_rule));
   f.text("title", title, "one line for reports");
   f.choice("units", units,
            {{"cgs", "cm, g, s: pressures in dyn/cm2"},

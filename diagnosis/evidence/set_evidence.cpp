@@ -18,7 +18,9 @@ using Members = std::vector<std::size_t>;
 constexpr double farthest_place = 9, apart = 0.2, seen_from = 0.02;
 /// Of a logarithm of evidence: what is less probable than the best by this does not count.
 constexpr double negligible = 10;
-constexpr Index across = 14;  ///< places across what counts
+constexpr Index across = 14;    ///< places across what counts
+constexpr Index resolved = 5;   ///< places that count: fewer, and the density is theirs and not that of the data
+constexpr int most_rounds = 5;  ///< each with places some six times as close
 /// Multiples of the scale that amplitudes of a vector may have, alike probable.
 constexpr std::array multiples{0.3, 1.0, 3.0, 10.0};
 constexpr double anything = 1e4;  ///< of an amplitude without prior, over what the data tell of it
@@ -187,6 +189,10 @@ VectorXd all_places(const Amplitude& amplitude, bool few) {
   return amplitude.one_sided ? VectorXd::LinSpaced(half, between, end) : VectorXd::LinSpaced(2 * half + 1, -end, end);
 }
 
+bool is_resolved(const VectorXd& logs) {
+  return (logs.array() > logs.maxCoeff() - negligible).count() >= resolved;
+}
+
 /// Places across those whose logarithms are near the largest.
 VectorXd where_it_counts(const VectorXd& places, const VectorXd& logs) {
   const double least = logs.maxCoeff() - negligible, between = places(1) - places(0);
@@ -248,7 +254,7 @@ SetFit SetEvidence::over_scalars(const Summands& scalars, const Products& produc
   std::vector<VectorXd> places;
   for (const Summand& s : scalars) places.push_back(all_places(amplitude_of(s), scalars.size() > 2));
   Summed found;
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     std::vector<VectorXd> alone;
     std::vector<Grid> grids;
     std::vector<std::vector<MatrixXd>> together(scalars.size(), std::vector<MatrixXd>(scalars.size()));
@@ -260,6 +266,7 @@ SetFit SetEvidence::over_scalars(const Summands& scalars, const Products& produc
     }
     found = summed(alone, together);
     if (!std::isfinite(found.all)) break;
+    const bool is_last = round > 0 && std::all_of(found.each.begin(), found.each.end(), is_resolved);
     for (std::size_t i = 0; i < scalars.size(); ++i) {
       Index best = 0;
       found.each[i].maxCoeff(&best);
@@ -267,6 +274,7 @@ SetFit SetEvidence::over_scalars(const Summands& scalars, const Products& produc
       fit.densities[i] = {grids[i].sizes, (found.each[i].array() - found.all).exp()};
       places[i] = where_it_counts(places[i], found.each[i]);
     }
+    if (is_last) break;
   }
   fit.log_evidence += found.all;
   return fit;

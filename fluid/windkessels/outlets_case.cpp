@@ -1,6 +1,7 @@
 #include "fluid/windkessels/outlets_case.hpp"
 
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/describe.hpp"
 #include "common/config/reader.hpp"
@@ -45,6 +46,7 @@ void TargetOutletCase::declare(Fields& f) {
 
 void OutletsCase::declare(Fields& f) {
   f.text("name", name, "of the fit; results go to out/NAME", Need::required);
+  f.check(is_file_name(name), "name", std::string(file_name_rule));
   f.path("case", case_file,
          "case file whose outlets these are: a case with the elements is written that builds on it, which begins in "
          "the periodic state");

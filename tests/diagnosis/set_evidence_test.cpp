@@ -113,6 +113,24 @@ TEST(SetEvidence, OfAVectorIsThatOfWiderErrors) {
   EXPECT_NEAR(evidence.fit({2}, 0).log_evidence, std::log(sum), 1e-9);
 }
 
+/// However well the data know it: a thousandth of itself, where places are a fifth of it apart at first.
+TEST(SetEvidence, TellsAnAmplitudeAsSharplyAsTheDataDo) {
+  EffectProblem p = problem(7);
+  p.changes.col(1) *= 500;
+  p.residual += 4 * p.changes.col(1);
+  const SetEvidence evidence(p, {});
+  const MatrixXd precision = errors(p, evidence.discrepancies()[0].size).inverse();
+  const VectorXd change = p.changes.col(1);
+  const double deviation = 1 / std::sqrt(change.dot(precision * change)),
+               mean = std::pow(deviation, 2) * change.dot(precision * p.residual);
+  ASSERT_LT(deviation, 4e-3);
+  const AmplitudeDensity found = evidence.fit({1}, 0).densities[0];
+  const double middle = found.probabilities.dot(found.sizes),
+               variance = found.probabilities.dot((found.sizes.array() - middle).square().matrix());
+  EXPECT_NEAR(middle, mean, 0.2 * deviation);
+  EXPECT_NEAR(std::sqrt(variance), deviation, 0.1 * deviation);
+}
+
 /// The normal posterior of linear regression, with the multiple of its scale that is most probable.
 TEST(SetEvidence, TellsTheAmplitudesOfAVector) {
   EffectProblem p = problem(6);

@@ -47,11 +47,12 @@ TEST(VesselModel, IsBuiltFromASurfaceAndReadBackByACase) {
   EXPECT_EQ(q.regions[1].name, "spine");
 
   const TemporaryFolder folder;
-  write_model(folder.path() / "model", model, tree, study_of_regions(), UnitSystem::cgs());
+  write_model(folder.path() / "model", "arch_model", model, tree, study_of_regions(), UnitSystem::cgs());
   std::ifstream text(folder / "model/case.yaml");
   const std::string content((std::istreambuf_iterator<char>(text)), {});
   EXPECT_EQ(content.find(folder.path().string()), std::string::npos);  // it can be moved
   CaseFile file(folder / "model/case.yaml");
+  EXPECT_EQ(file.common().name, "arch_model");
   MeshCase mesh;
   file.read("mesh", mesh);
   const VesselMesh again = load_mesh(mesh, file, WallElement::prism);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/base/error.hpp"
+#include "common/base/placed_error.hpp"
 #include "common/mesh/mesh.hpp"
 #include "common/mesh/triangle_locator.hpp"
 #include "vessel/growth/crossings.hpp"
@@ -211,12 +211,12 @@ class Growth {
 
   [[noreturn]] void refuse(int node) const {
     const Vec3 at = base_.points.col(node);
-    throw input_error(
-        "a wall of thickness {:.3g} folds over itself or meets itself near ({:.4g}, {:.4g}, {:.4g}), and so does one "
-        "of "
-        "{:.3g}: ask for less there (a branch may have a thickness of its own), smooth the lumen's surface, or give "
-        "it shorter edges there",
-        asked_[node], at[0], at[1], at[2], aim_[node]);
+    throw PlacedError(
+        fmt::format("a wall of thickness {:.3g} folds over itself or meets itself near ({:.4g}, {:.4g}, {:.4g}), and "
+                    "so does one of {:.3g}: ask for less there (a branch may have a thickness of its own), smooth the "
+                    "lumen's surface, or give it shorter edges there",
+                    asked_[node], at[0], at[1], at[2], aim_[node]),
+        {at});
   }
 
   const GrowthBase& base_;

@@ -59,10 +59,11 @@ std::string rings(const WallMesh& wall) {
 
 }  // namespace
 
-std::string ready_case(const VesselModel& model, const std::string& mesh_section, const UnitSystem& units) {
+std::string ready_case(const std::string& name, const VesselModel& model, const std::string& mesh_section,
+                       const UnitSystem& units) {
   return fmt::format(
       "# To begin from: flow, pressures, wall and support are an adult's, not this patient's.\n"
-      "name: model\n"
+      "name: {}\n"
       "title: A vessel meshed from its surface\n"
       "units: {}\n\n"
       "time: {{step: 2e-3, end: {:g}}}\n\n"
@@ -85,7 +86,7 @@ std::string ready_case(const VesselModel& model, const std::string& mesh_section
       "    regions:\n{}"
       "  rings:\n{}"
       "\noutput: {{write_every: 20, checkpoint_every: 100}}\n",
-      units.name(), beat, diastolic_pressure, mesh_section, units.from_si(1060, dimension::density),
+      name, units.name(), beat, diastolic_pressure, mesh_section, units.from_si(1060, dimension::density),
       units.from_si(0.004, dimension::viscosity), model.mesh.fluid.inlets.front().name, beat, outlets(model, units),
       units.from_si(1200, dimension::density), units.from_si(4e5, dimension::pressure),
       supports(model.mesh.wall, units), rings(model.mesh.wall));

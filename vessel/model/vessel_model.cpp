@@ -26,7 +26,7 @@ ExtrusionSettings extrusion_of(const GrownWallCase& given, const Anatomy& anatom
   settings.layers = given.layers;
   settings.smoothing = given.smoothing;
   settings.least_share = given.least_share;
-  settings.field = "wall.thickness";
+  settings.field = "model.wall.thickness";
   settings.varying = [tree, &anatomy](const Points& places) { return thickness_at(places, tree, anatomy); };
   return settings;
 }
@@ -128,7 +128,8 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
   if (!study.regions.empty())
     wall.outside = divide_by_rules(
         wall.points, wall.outside.front().triangles,
-        rules_of(study.regions, &anatomy, units, [](const std::string& name) { return "regions." + name; }), &anatomy);
+        rules_of(study.regions, &anatomy, units, [](const std::string& name) { return "model.regions." + name; }),
+        &anatomy);
   check(model.mesh, units);
   model.quality = quality_of(model, units);
   return model;

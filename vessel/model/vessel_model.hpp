@@ -31,8 +31,9 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
                         const UnitSystem& units);
 
 /// Writes FOLDER/lumen.vtu, lumen_faces.vtu, wall.vtu (with the arrays asked_thickness and thickness), wall_faces.vtu,
-/// centreline.csv, quality.json, and case.yaml with flow.csv: a case that runs (see `ready_case`). Throws RunError.
-void write_model(const std::filesystem::path& folder, const VesselModel& model, const CentrelineTree& tree,
-                 const VolumeCase& study, const UnitSystem& units);
+/// centreline.csv, quality.json, and case.yaml with flow.csv: a case of that name that runs (see `ready_case`). Throws
+/// RunError.
+void write_model(const std::filesystem::path& folder, const std::string& name, const VesselModel& model,
+                 const CentrelineTree& tree, const VolumeCase& study, const UnitSystem& units);
 
 }  // namespace tether

@@ -91,15 +91,15 @@ MeshCase write_meshes(const fs::path& folder, const VesselModel& model, const Vo
 
 }  // namespace
 
-void write_model(const fs::path& folder, const VesselModel& model, const CentrelineTree& tree, const VolumeCase& study,
-                 const UnitSystem& units) {
+void write_model(const fs::path& folder, const std::string& name, const VesselModel& model, const CentrelineTree& tree,
+                 const VolumeCase& study, const UnitSystem& units) {
   const fs::path place = fs::absolute(folder).lexically_normal();
   fs::create_directories(place);
   write_centreline(place / "centreline.csv", tree, units.symbol(dimension::length));
   write_record(place / "quality.json", model.quality);
   const MeshCase mesh = write_meshes(place, model, study);
   const std::string section = mesh_section(mesh, place);
-  write_text(place / "case.yaml", ready_case(model, section, units));
+  write_text(place / "case.yaml", ready_case(name, model, section, units));
   write_text(place / "flow.csv", ready_flow(model, units));
 }
 

@@ -1,6 +1,7 @@
 #include "vessel/ring/ring_case.hpp"
 
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/columns.hpp"
 #include "common/config/describe.hpp"
@@ -39,6 +40,7 @@ void LandmarkCase::declare(Fields& f) {
 
 void RingTrackCase::declare(Fields& f) {
   f.text("name", name, "of what is tracked; results go to out/NAME", Need::required);
+  f.check(is_file_name(name), "name", std::string(file_name_rule));
   f.group("frames", frames, "surfaces of the lumen over time");
   f.group("ring", ring, "which opening; default: the largest");
   f.group("landmark", landmark, "a point that goes with the ring; absent: no turn about the ring's own axis is seen");

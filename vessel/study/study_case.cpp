@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/describe.hpp"
 #include "common/config/reader.hpp"
@@ -50,6 +51,7 @@ void EdgeCase::declare(Fields& f) {
 
 void StudyCase::declare(Fields& f) {
   f.text("name", name, "of the study; results go to out/NAME", Need::required);
+  f.check(is_file_name(name), "name", std::string(file_name_rule));
   f.group("surface", surface, "of the lumen, as a file; or:");
   f.group("image", image, "a volume that shows the lumen");
   f.group("repair", repair, "what is mended of it");

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/error.hpp"
-#include "common/base/types.hpp"
+#include "common/base/placed_error.hpp"
 #include "common/io/record.hpp"
 
 namespace tether {
@@ -14,12 +13,6 @@ struct RawSurface {
   Points points;                    ///< [cm]
   std::vector<Triangle> triangles;  ///< outward once oriented
   std::vector<int> face_id;         ///< per triangle: the file's label, 0 where it has none
-};
-
-/// An input that is wrong at places that can be shown.
-struct PlacedError : InputError {
-  PlacedError(const std::string& message, std::vector<Vec3> at) : InputError(message), places(std::move(at)) {}
-  std::vector<Vec3> places;  ///< [cm]
 };
 
 /// How many cm the word for a unit of length is: "mm", "cm", "m".
