@@ -70,12 +70,10 @@ void IdentificationCase::declare(Fields& f) {
   f.check(fault.empty(), "parameters", fault);
   f.path("prior_from", prior_from,
          "estimate.json of an earlier identification: mean and covariance that it ended with are the prior of "
-         "parameters of "
-         "the same name, and of parts");
-  f.group(
-      "allowed", allowed,
-      "standard deviations of what the data may be off by in all frames alike, which is found beside the parameters "
-      "(K.8); 0: nothing");
+         "parameters of the same name, and of parts");
+  f.group("allowed", allowed,
+          "standard deviations of what the data may be off by in all frames alike, a region (model) once more in each "
+          "frame, which is found beside the parameters (K.8); 0: nothing");
   f.choice("observe", observe,
            {{"every_step", "data are interpolated between frames, each frame counting once in all"},
             {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"},

@@ -23,8 +23,7 @@ std::string beats(const Periodicity& p) {
 std::string rest(const HeldBySurroundings& held) {
   return fmt::format(
       "in the image the wall's tension carries the pressure but for {:.1f} % of its forces, which the surroundings "
-      "hold; "
-      "most, {:.2g} of the pressure, in region {}",
+      "hold; most, {:.2g} of the pressure, in region {}",
       100 * held.share, held.largest, held.region);
 }
 

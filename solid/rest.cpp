@@ -10,7 +10,7 @@ namespace tether {
 namespace {
 
 double largest(const VectorXd& forces) {
-  return forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
+  return forces.size() > 0 ? forces.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
 }
 
 }  // namespace

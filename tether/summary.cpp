@@ -38,8 +38,7 @@ std::string rest(const std::optional<RestState>& rest) {
   if (!rest || !rest->held) return "";
   return fmt::format(
       "  in the image   the surroundings hold {:.1f} % of the pressure's forces; most, {:.2g} of the pressure, in "
-      "region "
-      "{}\n",
+      "region {}\n",
       100 * rest->held->share, rest->held->largest, rest->held->region);
 }
 

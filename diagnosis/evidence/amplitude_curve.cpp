@@ -24,7 +24,7 @@ void AmplitudeCurve::add(const Point& point) {
   points_.insert(after, point);
 }
 
-/// Over what it would be at any size, were it not to saturate: size/(size + s) times s.
+/// The size that would do as much if the effect went on as it begins: size/(1 + size/s).
 double AmplitudeCurve::saturated(double size) const {
   return std::abs(size) / (1 + std::abs(size) / half_at_);
 }

@@ -34,7 +34,7 @@ class AmplitudeCurve {
 
   /// By magnitude.
   const std::vector<Point>& points() const { return points_; }
-  /// In proportion to size/(size + s) up to the smallest run, linear in it between runs, and beyond them as from the
+  /// In proportion to size/(1 + size/s) up to the smallest run, linear in it between runs, and beyond them as from the
   /// first to the last. Empty if no run was made.
   std::vector<Share> at(double size) const;
 

@@ -161,9 +161,7 @@ const Mistake mistakes[] = {
      "inlets, outlets, probes, sections"},
     {"UnknownSection", In::the_case, "solid:", "tissue: {}\nsolid:",
      "case.yaml:21: tissue: unknown section; known are base, name, title, units, time, image, initial_state, mesh, "
-     "fluid, solid, "
-     "coupling, "
-     "observations, observer, identification, diagnosis, twin, output"},
+     "fluid, solid, coupling, observations, observer, identification, diagnosis, twin, output"},
     {"MissingField", In::the_case, "  density: 1.06\n", "",
      "case.yaml:13: fluid.density: missing: must be given in g/cm3 (density of the blood)"},
     {"NegativeStiffness", In::the_case, "stiffness: 1e6", "stiffness: -3",
