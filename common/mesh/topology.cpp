@@ -1,6 +1,7 @@
 #include "common/mesh/topology.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 
@@ -62,17 +63,23 @@ std::vector<Quadrilateral> boundary_sides(const std::vector<Prism>& prisms) {
 }
 
 std::vector<Edge> open_edges(const std::vector<Triangle>& triangles) {
-  std::map<Edge, std::pair<Edge, int>> uses;
+  // An edge as one number, for speed: its lower node, its upper one, and in the last bit whether it runs upward.
+  std::vector<std::uint64_t> uses;
+  uses.reserve(3 * triangles.size());
   for (const Triangle& t : triangles)
     for (std::size_t i = 0; i < 3; ++i) {
-      const Edge edge{t[i], t[(i + 1) % 3]};
-      auto& [directed, count] = uses[{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}];
-      directed = edge;
-      ++count;
+      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+      uses.push_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high) << 1 |
+                     static_cast<std::uint64_t>(t[i] == low));
     }
+  std::sort(uses.begin(), uses.end());
   std::vector<Edge> open;
-  for (const auto& [key, use] : uses)
-    if (use.second == 1) open.push_back(use.first);
+  for (auto first = uses.begin(), last = first; first != uses.end(); first = last) {
+    last = std::find_if(first, uses.end(), [&](std::uint64_t use) { return use >> 1 != *first >> 1; });
+    if (last - first > 1) continue;
+    const auto low = static_cast<int>(*first >> 32), high = static_cast<int>(*first >> 1 & 0x7fffffff);
+    open.push_back((*first & 1) != 0 ? Edge{low, high} : Edge{high, low});
+  }
   return open;
 }
 

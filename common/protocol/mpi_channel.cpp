@@ -1,5 +1,6 @@
 #include "common/protocol/mpi_channel.hpp"
 
+#include "common/protocol/bell.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/messages.hpp"
 
@@ -32,12 +33,16 @@ void MpiChannel::send(Packet packet) {
   check_mpi(MPI_Isend(outgoing_.data(), static_cast<int>(outgoing_.size()), MPI_BYTE, 0, packet.kind, communicator_,
                       &sending_),
             "MPI_Isend");
+  rings_ = Bell::own().ring(peer());
 }
 
 Packet MpiChannel::receive(double limit) {
   MPI_Message message = MPI_MESSAGE_NULL;
   MPI_Status status;
-  if (!wait_until([&] { return probe(MPI_ANY_TAG, message, status); }, limit)) throw PeerSilent(peer(), limit);
+  // A long packet leaves only while this process looks after it.
+  const auto will_ring = [this] { return rings_ && is_finished(sending_); };
+  if (!wait_until([&] { return probe(MPI_ANY_TAG, message, status); }, limit, will_ring))
+    throw PeerSilent(peer(), limit);
   return take(message, status);
 }
 
@@ -86,22 +91,24 @@ void MpiChannel::flush() {
   wait(sending_, infinite);
 }
 
-bool MpiChannel::wait_until(const std::function<bool()>& done, double limit) const {
+bool MpiChannel::is_finished(MPI_Request& request) {
+  int flag = 0;
+  check_mpi(MPI_Test(&request, &flag, MPI_STATUS_IGNORE), "MPI_Test");
+  return flag != 0;
+}
+
+bool MpiChannel::wait_until(const std::function<bool()>& done, double limit,
+                            const std::function<bool()>& will_ring) const {
   return protocol::wait_until(
       done,
       [this] {
         if (to_ == To::partner) watch_.check_partners();
       },
-      limit);
+      limit, will_ring);
 }
 
 void MpiChannel::wait(MPI_Request& request, double limit) {
-  const auto finished = [&] {
-    int flag = 0;
-    check_mpi(MPI_Test(&request, &flag, MPI_STATUS_IGNORE), "MPI_Test");
-    return flag != 0;
-  };
-  if (!wait_until(finished, limit)) throw PeerSilent(peer(), limit);
+  if (!wait_until([&] { return is_finished(request); }, limit)) throw PeerSilent(peer(), limit);
 }
 
 }  // namespace tether::protocol

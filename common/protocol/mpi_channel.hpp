@@ -26,7 +26,8 @@ class MpiChannel final : public Channel {
  private:
   bool probe(int tag, MPI_Message& message, MPI_Status& status) const;
   Packet take(MPI_Message message, const MPI_Status& status);
-  bool wait_until(const std::function<bool()>& done, double limit) const;
+  static bool is_finished(MPI_Request& request);
+  bool wait_until(const std::function<bool()>& done, double limit, const std::function<bool()>& will_ring = {}) const;
   void wait(MPI_Request& request, double limit);
   void hear_failure();
 
@@ -35,6 +36,7 @@ class MpiChannel final : public Channel {
   Watch& watch_;
   Bytes outgoing_;
   MPI_Request sending_ = MPI_REQUEST_NULL;
+  bool rings_ = false;  ///< the peer, when it has sent something
 };
 
 }  // namespace tether::protocol

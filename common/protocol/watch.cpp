@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/base/process.hpp"
+#include "common/protocol/bell.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/signals.hpp"
 
@@ -17,16 +18,24 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto spin_time = std::chrono::microseconds(30);
-constexpr Clock::duration first_nap = std::chrono::microseconds(10);
+constexpr Clock::duration first_nap = std::chrono::microseconds(10), rung_nap = std::chrono::milliseconds(1);
 constexpr auto look_every = std::chrono::milliseconds(200);
 constexpr double follow_every = 0.1, follow_after = 0.5;  // seconds
 
-/// An eighth of the time waited so far, up to 0.3 ms; in long waits 4 % of it, up to 5 ms.
-Clock::duration nap_after(Clock::duration waited) {
+/// An eighth of the time waited so far, up to 0.3 ms; in long waits 4 % of it, up to 5 ms. At least 1 ms if a ring will
+/// end it: so much is lost with a ring that comes before its message.
+Clock::duration nap_after(Clock::duration waited, bool will_ring) {
   using std::chrono::microseconds;
   const Clock::duration short_wait = std::min<Clock::duration>(waited / 8, microseconds(300)),
                         long_wait = std::min<Clock::duration>(waited / 25, microseconds(5000));
-  return std::max({first_nap, short_wait, long_wait});
+  return std::max({will_ring ? rung_nap : first_nap, short_wait, long_wait});
+}
+
+/// Whether it is done within the first moment.
+bool comes_at_once(const std::function<bool()>& done) {
+  for (const auto start = Clock::now(); Clock::now() - start < spin_time; std::this_thread::yield())
+    if (done()) return true;
+  return false;
 }
 
 }  // namespace
@@ -71,16 +80,14 @@ void Watch::follow(const Peer& master) {
   });
 }
 
-bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit) {
+bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit,
+                const std::function<bool()>& will_ring) {
   prctl(PR_SET_TIMERSLACK, 1000UL);  // [ns]: naps last 50 us longer without
   const auto start = Clock::now();
-  auto next_look = start + look_every, now = start;
-  for (; now - start < spin_time; now = Clock::now()) {
-    if (done()) return true;
-    std::this_thread::yield();
-  }
+  if (comes_at_once(done)) return true;
+  auto now = Clock::now(), next_look = start + look_every;
   while (!done()) {
-    std::this_thread::sleep_for(nap_after(now - start));
+    if (Bell::own().sleep(nap_after(now - start, will_ring && will_ring())) && comes_at_once(done)) return true;
     now = Clock::now();
     if (now >= next_look || interrupted()) {
       try {

@@ -52,9 +52,11 @@ class Watch {
 /// Whether the peer is known to be gone: its pid does not run on this host. What other hosts do is mpirun's to notice.
 bool is_dead(const Peer& peer);
 
-/// Waits until `done` without burning a core: tries for 0.1 ms, then naps of 10 us, doubling up to 0.5 ms, in long
-/// waits 1 % of the time waited (at most 5 ms). Calls `look` every 0.2 s, and all the time after a signal; what it
-/// throws ends the wait, but not PeerDied if `done` comes true after all. False if `limit` seconds passed.
-bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit = infinite);
+/// Waits until `done` without burning a core: tries for 0.03 ms, then naps (watch.cpp says how long), which a ring of
+/// the bell ends. While `will_ring`, naps are long: what is waited for comes with a ring. Calls `look` every 0.2 s, and
+/// all the time after a signal; what it throws ends the wait, but not PeerDied if `done` comes true after all. False if
+/// `limit` seconds passed.
+bool wait_until(const std::function<bool()>& done, const std::function<void()>& look, double limit = infinite,
+                const std::function<bool()>& will_ring = {});
 
 }  // namespace tether::protocol

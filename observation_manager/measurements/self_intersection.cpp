@@ -22,6 +22,9 @@ bool passes_through(const Vec3& p, const Vec3& q, const CornerColumns& t) {
   return u > inside && v > inside && u + v < 1 - inside && at > inside && at < 1 - inside;
 }
 
+/// Boxes that are compared in a row instead of in a tree: least time for lumen surfaces of 50,000 triangles.
+constexpr std::ptrdiff_t scan_below = 400;
+
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
 class Finder {
@@ -33,11 +36,16 @@ class Finder {
   /// Compares triangles whose boxes overlap (Zomorodian and Edelsbrunner 2002, of CGAL).
   std::vector<bool> find() const {
     std::vector<bool> hit(corners_.size(), false);
-    std::vector<Box> boxes = this->boxes();
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& one, const Box& other) {
-      const std::size_t a = one.info(), b = other.info();
-      if (cross(a, b)) hit[a] = hit[b] = true;
-    });
+    const std::vector<Box> boxes = this->boxes();
+    std::vector<const Box*> order;  // to sort pointers is cheaper
+    for (const Box& box : boxes) order.push_back(&box);
+    CGAL::box_self_intersection_d(
+        order.begin(), order.end(),
+        [&](const Box* one, const Box* other) {
+          const std::size_t a = one->info(), b = other->info();
+          if (cross(a, b)) hit[a] = hit[b] = true;
+        },
+        scan_below);
     return hit;
   }
 
