@@ -29,55 +29,62 @@ double AmplitudeCurve::saturated(double size) const {
   return std::abs(size) / (1 + std::abs(size) / half_at_);
 }
 
-std::vector<AmplitudeCurve::Share> AmplitudeCurve::at(double size) const {
-  if (points_.empty()) return {};
+std::vector<AmplitudeCurve::Share> AmplitudeCurve::along(const Points& points, double size) const {
+  if (points.empty()) return {};
   std::size_t after = 0;
-  while (after < points_.size() && std::abs(points_[after].size) < std::abs(size)) ++after;
+  while (after < points.size() && std::abs(points[after].size) < std::abs(size)) ++after;
   const double does = saturated(size);
-  if (after == 0 || points_.size() == 1) return {{&points_[0], does / saturated(points_[0].size)}};
-  const std::size_t to = std::min(after, points_.size() - 1), from = after == points_.size() ? 0 : to - 1;
-  const double least = saturated(points_[from].size), share = (does - least) / (saturated(points_[to].size) - least);
-  return {{&points_[from], 1 - share}, {&points_[to], share}};
+  if (after == 0 || points.size() == 1) return {{&points[0], does / saturated(points[0].size)}};
+  const std::size_t to = std::min(after, points.size() - 1), from = after == points.size() ? 0 : to - 1;
+  const double least = saturated(points[from].size), share = (does - least) / (saturated(points[to].size) - least);
+  return {{&points[from], 1 - share}, {&points[to], share}};
+}
+
+std::vector<AmplitudeCurve::Share> AmplitudeCurve::at(double size) const {
+  if (fine_.empty()) return along(points_, size);
+  std::vector<Share> all = along(coarse_, size);
+  const double within = std::min(std::abs(size), std::abs(fine_.back().size));
+  for (const Share& own : along(fine_, std::copysign(within, size))) {
+    all.push_back(own);
+    for (const Share& instead : along(coarse_, own.point->size))
+      all.push_back({instead.point, -own.share * instead.share});
+  }
+  return all;
 }
 
 void AmplitudeCurve::settle(const MatrixXd& columns, const VectorXd& precision) {
-  scale_coarse(columns, precision);
-  note_saturation(columns, precision);
+  for (const Point& point : points_) (point.is_coarse ? coarse_ : fine_).push_back(point);
+  note_saturation(coarse_.size() > 1 ? coarse_ : points_, columns, precision);
+  if (coarse_.empty() || fine_.empty())
+    coarse_.clear(), fine_.clear();
+  else
+    scale_coarse(columns, precision);
 }
 
 /// Of two runs, of sizes a < b, the larger does R times as much: s = a b (R - 1)/(b - R a).
-void AmplitudeCurve::note_saturation(const MatrixXd& columns, const VectorXd& precision) {
-  if (points_.size() < 2) return;
+void AmplitudeCurve::note_saturation(const Points& points, const MatrixXd& columns, const VectorXd& precision) {
+  if (points.size() < 2) return;
   const auto does = [&](const Point& point) {
     const auto column = columns.col(point.column);
     return std::abs(point.factor) * std::sqrt(column.dot(precision.cwiseProduct(column)));
   };
-  const double a = std::abs(points_.front().size), b = std::abs(points_.back().size),
-               ratio = does(points_.back()) / does(points_.front());
+  const double a = std::abs(points.front().size), b = std::abs(points.back().size),
+               ratio = does(points.back()) / does(points.front());
   constexpr double at_once = 0.1;  // of the smallest run: what it does less of is not known
   if (ratio * a < b) half_at_ = std::max(a * b * (ratio - 1) / (b - ratio * a), at_once * a);
 }
 
 void AmplitudeCurve::scale_coarse(const MatrixXd& columns, const VectorXd& precision) {
-  AmplitudeCurve coarse, fine;
-  for (const Point& point : points_) (point.is_coarse ? coarse : fine).points_.push_back(point);
-  if (coarse.points_.empty() || fine.points_.empty()) return;
-  coarse.note_saturation(columns, precision);
   double both = 0, own = 0;
-  for (const Point& point : fine.points_) {
+  for (const Point& point : fine_) {
     VectorXd seen = VectorXd::Zero(columns.rows());
-    for (const Share& part : coarse.at(point.size))
+    for (const Share& part : along(coarse_, point.size))
       seen += part.share * part.point->factor * columns.col(part.point->column);
     both += point.factor * columns.col(point.column).dot(precision.cwiseProduct(seen));
     own += seen.dot(precision.cwiseProduct(seen));
   }
-  for (Point& point : points_)
-    if (point.is_coarse && both > 0) point.factor *= both / own;
-  std::erase_if(points_, [&](const Point& point) {
-    return point.is_coarse && std::any_of(fine.points_.begin(), fine.points_.end(), [&](const Point& other) {
-             return factor_between(point.size, other.size) < near_a_run;
-           });
-  });
+  for (Point& point : coarse_)
+    if (both > 0) point.factor *= both / own;
 }
 
 }  // namespace tether

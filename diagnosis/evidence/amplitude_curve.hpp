@@ -28,22 +28,27 @@ class AmplitudeCurve {
 
   /// Unless the same model was run at that size before.
   void add(const Point& point);
-  /// What a coarser model shows is scaled as runs of the model itself want it, and is left out near these; the smallest
-  /// and the largest run say how the effect saturates. columns: of all runs, each [n]; precision [n].
+  /// What a coarser model shows is scaled as runs of the model itself want it; the smallest and the largest run say how
+  /// the effect saturates. columns: of all runs, each [n]; precision [n].
   void settle(const MatrixXd& columns, const VectorXd& precision);
 
   /// By magnitude.
   const std::vector<Point>& points() const { return points_; }
-  /// In proportion to size/(1 + size/s) up to the smallest run, linear in it between runs, and beyond them as from the
-  /// first to the last. Empty if no run was made.
+  /// In proportion to size/(size + s) up to the smallest run, linear in it between runs, and beyond them as from the
+  /// first to the last. Where a coarser model was run too: so of its runs, and what those of the model itself differ
+  /// from that, between them, and as at the last beyond. Empty if no run was made.
   std::vector<Share> at(double size) const;
 
  private:
+  using Points = std::vector<Point>;
+
   void scale_coarse(const MatrixXd& columns, const VectorXd& precision);
-  void note_saturation(const MatrixXd& columns, const VectorXd& precision);
+  std::vector<Share> along(const Points& points, double size) const;
+  void note_saturation(const Points& points, const MatrixXd& columns, const VectorXd& precision);
   double saturated(double size) const;
 
-  std::vector<Point> points_;
+  Points points_;
+  Points coarse_, fine_;       ///< where both models were run
   double half_at_ = infinite;  ///< s, at which the effect does half of what it ever does; infinite: in proportion
 };
 

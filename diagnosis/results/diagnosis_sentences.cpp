@@ -95,6 +95,29 @@ std::string look_alike_sentence(const Diagnosis& diagnosis, const Finding& accep
                      name_of(accepted), accepted.misfit_removed, fmt::join(alike, ", of "));
 }
 
+/// Those that by their probability would be told from what was found.
+std::vector<std::string> improbable_rivals(const Diagnosis& diagnosis, const AlternativeGroup& group) {
+  constexpr double told = 0.02;
+  std::vector<std::string> all;
+  for (const Alternative& member : group.members)
+    for (const Finding& finding : diagnosis.effects)
+      if (finding.rival && member.share < told && finding.name == member.name &&
+          finding.parameter == member.parameter && finding.where == member.where)
+        all.push_back(name_of(finding));
+  return all;
+}
+
+/// Why something that is improbable is a rival. (D.21)
+void add_why_open(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  if (diagnosis.verdict != Verdict::ambiguous || diagnosis.table.groups.empty()) return;
+  const std::vector<std::string> open = improbable_rivals(diagnosis, diagnosis.table.groups.front());
+  if (open.empty()) return;
+  all.push_back(
+      fmt::format("If errors are as stated it is not {} (below 2 %). That rests on a fifth of the moments: the others "
+                  "alone leave it open, and a few may be off by more than is stated",
+                  fmt::join(open, ", nor ")));
+}
+
 /// Rivals of a sure verdict are variants of what was found.
 void add_variants(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   for (const Finding& finding : diagnosis.effects)
@@ -215,6 +238,7 @@ std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain
     all.push_back(split_sentence(*diagnosis.split_by, "tell them apart"));
   if (diagnosis.verdict == Verdict::undecided && diagnosis.split_by)
     all.push_back(split_sentence(*diagnosis.split_by, "show whether it is there"));
+  add_why_open(all, diagnosis);
   if (any_accepted(diagnosis)) add_foretold(all, diagnosis);
   if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));
   add_rest(all, diagnosis);

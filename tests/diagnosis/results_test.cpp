@@ -110,6 +110,16 @@ TEST(Results, RemarksAreOfWhatIsNoteworthy) {
   d.table.groups.emplace_back().foretold = PhaseGain{20, 4, 10, 9, 0.999};
   EXPECT_TRUE(says("Each moment foretold from the others: better with it for 9 of 10"));
   EXPECT_FALSE(says("Not confirmed"));
+  Finding spring = contact();
+  spring.name = "visco_elastic";
+  spring.accepted = false;
+  spring.rival = true;
+  d.effects.push_back(spring);
+  d.table.groups[0].members = {{"contact", {}, "spine", CandidateKind::effect, 1.0, {}, "", true},
+                               {"visco_elastic", {}, "spine", CandidateKind::effect, 0.1, {}, "", true}};
+  EXPECT_FALSE(says("If errors are as stated")) << "it is not improbable";
+  d.table.groups[0].members[1].share = 1e-6;
+  EXPECT_TRUE(says("If errors are as stated it is not visco_elastic at spine (below 2 %)"));
   d.verdict = Verdict::undecided;
   EXPECT_TRUE(says("would show whether it is there; most would pressure"));
 }

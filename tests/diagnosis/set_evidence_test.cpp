@@ -196,12 +196,36 @@ TEST(AmplitudeCurve, TakesItsFormFromACoarserModelAndItsSizeFromTheModel) {
   columns.col(3) = seen(4.2);
   curve.add({4.2, 3, 1, false});
   curve.settle(columns, VectorXd::Ones(5));
-  ASSERT_EQ(curve.points().size(), 3U) << "the coarse run next to it is not needed";
   for (const double size : {0.3, 1.0, 2.0, 4.2, 8.0, 16.0, 100.0}) {
     VectorXd sum = VectorXd::Zero(5);
     for (const AmplitudeCurve::Share& part : curve.at(size))
       sum += part.share * part.point->factor * columns.col(part.point->column);
     EXPECT_NEAR((sum - seen(size)).norm() / seen(size).norm(), 0, 0.02) << size;
+  }
+}
+
+/// A coarser model that is off by something of its own: near the model's runs the curve is theirs.
+TEST(AmplitudeCurve, KeepsToTheModelsOwnPatternAwayFromItsRuns) {
+  const VectorXd own = VectorXd::LinSpaced(5, 1, 2), off = VectorXd::Unit(5, 3);
+  const auto seen = [&](double a) -> VectorXd { return own * (a / (1 + a)); };
+  MatrixXd columns(5, 6);
+  AmplitudeCurve curve;
+  for (int k = 0; k < 4; ++k) {
+    const double size = std::pow(3.0, k);
+    columns.col(k) = 0.8 * seen(size) + 0.3 * off;
+    curve.add({size, k, 1, true});
+  }
+  for (const Index k : {4, 5}) {
+    const double size = k == 4 ? 2.5 : 4;
+    columns.col(k) = seen(size);
+    curve.add({size, k, 1, false});
+  }
+  curve.settle(columns, VectorXd::Ones(5));
+  for (const double size : {2.5, 3.0, 4.0, 6.0}) {
+    VectorXd sum = VectorXd::Zero(5);
+    for (const AmplitudeCurve::Share& part : curve.at(size))
+      sum += part.share * part.point->factor * columns.col(part.point->column);
+    EXPECT_NEAR((sum - seen(size)).norm() / seen(size).norm(), 0, 0.05) << size;
   }
 }
 

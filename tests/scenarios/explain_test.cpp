@@ -28,7 +28,7 @@ twin:
   truth: held.yaml
   frames: 8
   image: {{voxel: [0, 0, 0]}}
-  noise: {{deviation: 0.05 mm, correlation_length: 5 mm}}
+  noise: {{deviation: 0.03 mm, correlation_length: 5 mm}}
   held_out: [3, 6]
   hidden: {{effects: {{visco_elastic: {{where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}}}}
 )";
