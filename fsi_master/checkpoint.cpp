@@ -92,7 +92,7 @@ Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   Checkpoint checkpoint = read_folder(folder);
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
-        "{}: is a checkpoint of another case or mesh; give the case as it was, or start anew without --resume, or let "
+        "{}: is a checkpoint of another case, step or mesh; give the case as it was, or start anew without --resume, or let "
         "the case begin with that state (initial_state)",
         folder.string());
   check_has_states(checkpoint, output);

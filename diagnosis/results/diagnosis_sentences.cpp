@@ -170,10 +170,11 @@ void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   if (table.otherwise.empty() || table.groups.empty()) return;
   const AlternativeGroup& first = table.groups.front();
   if (first.probability < even || first.least_probability > no_news) return;
-  all.push_back(
-      fmt::format("Its probability is {}, and at least {} if effects may be half or twice as large, the noise is 30 % "
-                  "off, or the model's own error half or twice what was assumed",
-                  percent_of(first.probability), percent_of(first.least_probability)));
+  const std::string most = percent_of(first.probability), least = percent_of(first.least_probability);
+  all.push_back(fmt::format(
+      "Its probability is {}, {} if effects may be half or twice as large, the noise is 30 % off, or the model's own "
+      "error half or twice what was assumed",
+      most, most == least ? "also" : "and at least " + least));
 }
 
 void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {

@@ -42,6 +42,16 @@ double compliance_for(std::vector<Windkessel> outlets, const OutletTargets& targ
   return std::exp(0.5 * (low + high));
 }
 
+/// Of the vessel, with which outlets without any have the asked pulse: the largest that can be asked for.
+double largest_vessel(const std::vector<Windkessel>& outlets, const OutletTargets& targets, const PeriodicFlow& flow) {
+  double low = 0, high = targets.vessel;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (reachable_pulse(outlets, flow, middle).most > targets.pulse_pressure ? low : high) = middle;
+  }
+  return low;
+}
+
 /// Index of each measured time in a flow that has them all.
 std::vector<Eigen::Index> indices_of(const std::vector<double>& times, const PeriodicFlow& flow) {
   std::vector<Eigen::Index> found;
@@ -85,13 +95,17 @@ std::vector<Windkessel> fit_to_pulse(const OutletTargets& targets, const Periodi
   std::vector<Windkessel> outlets = resistive(targets, flow);
   set_compliance(outlets, 1, targets.shares);
   const ReachablePulse reachable = reachable_pulse(outlets, flow, targets.vessel);
+  if (targets.vessel > 0 && targets.pulse_pressure >= reachable.most * 0.999 &&
+      targets.pulse_pressure < reachable_pulse(outlets, flow, 0).most)
+    throw input_error(
+        "vessel_compliance: {:.4g} ml/mmHg: leave a pulse pressure of {:.4g} mmHg at most, where {:.4g} are asked: must "
+        "be below {:.3g}",
+        targets.vessel, reachable.most, targets.pulse_pressure, largest_vessel(outlets, targets, flow));
   if (targets.pulse_pressure <= reachable.least * 1.001 || targets.pulse_pressure >= reachable.most * 0.999)
     throw input_error(
         "a pulse pressure of {:.4g} mmHg cannot be reached: with this flow and mean pressure it is {:.4g} mmHg without "
-        "any compliance of outlets{}, and {:.4g} mmHg with an infinite one, which is what the proximal resistances "
-        "leave",
-        targets.pulse_pressure, reachable.most, targets.vessel > 0 ? " beside that of the vessel" : "",
-        reachable.least);
+        "any compliance, and {:.4g} mmHg with an infinite one, which is what the proximal resistances leave",
+        targets.pulse_pressure, reachable.most, reachable.least);
   const PeriodicFlow fine = flow.refined({}, pieces_of_a_beat);
   set_compliance(outlets, compliance_for(outlets, targets, fine), targets.shares);
   return outlets;

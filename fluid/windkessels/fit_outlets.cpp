@@ -206,7 +206,7 @@ std::string elements_text(double value, const char* unit) {
 /// The case with these outlets, and with the flow where it is not the case's own.
 Overlay overlay_of(const OutletsCase& asked, const OutletsBase& base, const AskedFlow& flow,
                    const FittedOutlets& result, const fs::path& folder) {
-  Overlay overlay{asked.case_file, asked.name, {}, {}};
+  Overlay overlay{asked.case_file, asked.name + "_run", {}, {}};  // a run has a folder of its own
   const auto set = [&](const std::string& field, const std::string& text) { overlay.values.push_back({field, text}); };
   if (asked.pressure.image) set("image.pressure", elements_text(base.image_pressure, "mmHg"));
   if (base.inlets.size() == 1 && (asked.flow || flow.factor != 1)) {

@@ -97,6 +97,8 @@ TEST(FitOutlets, GivesTheOutletOfTheDescendingAorta) {
   EXPECT_NEAR(made.compliance, 0.6348, 2e-4);
   const ChildEnd valid = capture({{TETHER_PROGRAM, "validate", (folder / "out" / "case.yaml").string()}, {}});
   EXPECT_EQ(valid.exit_code, exit_done) << valid.errors;
+  EXPECT_EQ(read_case_tree(folder / "out" / "case.yaml").find("name")->text, "descending_aorta_outlets_run")
+      << "not the fit's, whose folder holds no run";
   const YamlNode outlet = *read_case_tree(folder / "out" / "case.yaml").find("fluid")->find("outlets")->find("outlet");
   EXPECT_EQ(outlet.find("initial_pressure")->text, fmt::format("{:.6g} mmHg", made.initial_pressure - 70.9));
 }
@@ -119,6 +121,9 @@ TEST(FitOutlets, RefusesWhatCannotBe) {
   EXPECT_NE(refusal_of(flow + targets + "outlets: {left: {share: 0.3}, right: {share: 0.6}}\n").find("sum to 0.9 and"),
             std::string::npos);
   EXPECT_NE(refusal_of(flow + "pressure: {mean: 93 mmHg, pulse: 900 mmHg}\n" + two_outlets).find("cannot be reached"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(flow + targets + "vessel_compliance: 50 ml/mmHg\n" + two_outlets)
+                .find("vessel_compliance: 50 ml/mmHg: leave a pulse pressure of "),
             std::string::npos);
   EXPECT_NE(refusal_of("flow: {file: flow.csv, value: flow, period: 0.8, scale: -1}\n" + targets + two_outlets)
                 .find("flow's mean over the beat is -"),
