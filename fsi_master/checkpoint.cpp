@@ -92,8 +92,8 @@ Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   Checkpoint checkpoint = read_folder(folder);
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
-        "{}: is a checkpoint of another case, step or mesh; give the case as it was, or start anew without --resume, or let "
-        "the case begin with that state (initial_state)",
+        "{}: is a checkpoint of another case, step or mesh; give the case as it was, or start anew without --resume, "
+        "or let the case begin with that state (initial_state)",
         folder.string());
   check_has_states(checkpoint, output);
   return checkpoint;

@@ -37,8 +37,8 @@ struct Checkpoint {
 /// to the disk and renamed; the one before stays as checkpoint.previous. Throws RunError if the disk refuses.
 void write_checkpoint(const std::filesystem::path& output, const Checkpoint& checkpoint);
 
-/// The newest complete checkpoint in OUTPUT. Throws InputError: none, damaged, of another case, step or mesh (fingerprint),
-/// or without a code's state.
+/// The newest complete checkpoint in OUTPUT. Throws InputError: none, damaged, of another case, step or mesh
+/// (fingerprint), or without a code's state.
 Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
 /// The same of any case.
 Checkpoint read_checkpoint(const std::filesystem::path& output);

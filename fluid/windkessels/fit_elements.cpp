@@ -98,8 +98,8 @@ std::vector<Windkessel> fit_to_pulse(const OutletTargets& targets, const Periodi
   if (targets.vessel > 0 && targets.pulse_pressure >= reachable.most * 0.999 &&
       targets.pulse_pressure < reachable_pulse(outlets, flow, 0).most)
     throw input_error(
-        "vessel_compliance: {:.4g} ml/mmHg: leave a pulse pressure of {:.4g} mmHg at most, where {:.4g} are asked: must "
-        "be below {:.3g}",
+        "vessel_compliance: {:.4g} ml/mmHg: leave a pulse pressure of {:.4g} mmHg at most, where {:.4g} are asked: "
+        "must be below {:.3g}",
         targets.vessel, reachable.most, targets.pulse_pressure, largest_vessel(outlets, targets, flow));
   if (targets.pulse_pressure <= reachable.least * 1.001 || targets.pulse_pressure >= reachable.most * 0.999)
     throw input_error(
