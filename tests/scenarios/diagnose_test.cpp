@@ -34,7 +34,7 @@ twin:
   truth: {}.yaml
   frames: 8
   image: {{voxel: [0, 0, 0]}}
-  noise: {{deviation: 0.05 mm, correlation_length: 5 mm}}
+  noise: {{deviation: 0.03 mm, correlation_length: 5 mm}}
   held_out: [3, 6]
   hidden: {}
 )";
@@ -121,9 +121,10 @@ TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
   EXPECT_EQ(first["cost"]["runs_made"], alone["cost"]["runs_made"]) << "those of another folder are not known here";
   EXPECT_EQ(first["effects"], alone["effects"]) << "the same as with a folder of its own";
 
-  const Json second = with("second", "observations: {surfaces: {twin: {noise: {deviation: 0.06 mm}}}}\n");
+  const Json second = with("second", "observations: {surfaces: {twin: {noise: {deviation: 0.036 mm}}}}\n");
   const int of_first_order = second["cost"]["sensitivity_runs"];
-  EXPECT_EQ(of_first_order, first["cost"]["sensitivity_runs"]);
+  EXPECT_LE(of_first_order, first["cost"]["sensitivity_runs"]) << "it cuts no place that the first did not cut";
+  EXPECT_GT(of_first_order, 20) << "those of all numbers";
   EXPECT_LE(second["cost"]["runs_made"], second["cost"]["runs"].get<int>() - of_first_order - 1)
       << "none of what numbers do, nor of the model as it is\n"
       << said;
