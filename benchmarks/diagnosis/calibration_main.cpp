@@ -61,18 +61,26 @@ double laplace(Random& random, double deviation) {
 /// As a diagnosis expects it beforehand (D.19).
 double drawn_size(const Amplitude& amplitude, Random& random) {
   const double scale = amplitude.scale > 0 && std::isfinite(amplitude.scale) ? amplitude.scale : 1;
-  const double size = amplitude.doubles ? laplace(random, scale) : scale * std::tan(M_PI * (random.uniform() - 0.5));
-  return amplitude.limited(amplitude.one_sided ? std::abs(size) : size);
+  while (true) {
+    const double any = amplitude.doubles ? laplace(random, scale) : scale * std::tan(M_PI * (random.uniform() - 0.5)),
+                 size = amplitude.one_sided ? std::abs(any) : any;
+    if (amplitude.limited(size) == size) return size;
+  }
 }
 
-Draw drawn(const Surrogate& surrogate, const std::vector<double>& odds, std::uint64_t seed) {
+/// Two that do much the same at once are none of the sets that a diagnosis weighs.
+Draw drawn(const Surrogate& surrogate, const SetEvidence& evidence, const std::vector<double>& odds,
+           std::uint64_t seed) {
   Random random(seed, 7);
   constexpr std::size_t most = 3;
   constexpr std::array small{0.1, 0.2, 0.4, 0.7, 1.0};
   Draw draw{
       {}, VectorXd::Zero(surrogate.problem.changes.cols()), small.at(static_cast<std::size_t>(5 * random.uniform()))};
   for (std::size_t c = 0; c < odds.size(); ++c) {
-    const bool is_there = random.uniform() < odds[c] / (1 + odds[c]);
+    const bool is_drawn = random.uniform() < odds[c] / (1 + odds[c]);
+    const bool is_there = is_drawn && draw.hidden.size() < most &&
+                          std::none_of(draw.hidden.begin(), draw.hidden.end(),
+                                       [&](std::size_t other) { return std::pow(evidence.cosine(c, other), 2) > 0.5; });
     const auto& own = surrogate.problem.candidates[c].amplitudes;
     constexpr std::array multiples{0.3, 1.0, 3.0, 10.0};
     const double multiple = multiples.at(static_cast<std::size_t>(4 * random.uniform()));
@@ -80,9 +88,9 @@ Draw drawn(const Surrogate& surrogate, const std::vector<double>& odds, std::uin
       const Amplitude& amplitude = surrogate.problem.amplitudes[static_cast<std::size_t>(i)];
       const double size =
           own.size() == 1 ? drawn_size(amplitude, random) : multiple * amplitude.scale * random.normal();
-      if (is_there && draw.hidden.size() < most) draw.amplitudes(i) = size;
+      if (is_there) draw.amplitudes(i) = size;
     }
-    if (is_there && draw.hidden.size() < most) draw.hidden.push_back(c);
+    if (is_there) draw.hidden.push_back(c);
   }
   return draw;
 }
@@ -93,16 +101,17 @@ bool is_hidden(const Draw& draw, std::size_t candidate) {
 
 class Calibration {
  public:
-  Calibration(const Surrogate& surrogate, const Family& family) : surrogate_(surrogate), family_(family) {
-    const SetEvidence evidence(surrogate.problem, {});
-    odds_ =
-        posterior_of(surrogate.problem, evidence, std::vector<bool>(surrogate.problem.candidates.size(), false)).prior;
-  }
+  Calibration(const Surrogate& surrogate, const Family& family)
+      : surrogate_(surrogate),
+        family_(family),
+        evidence_(surrogate.problem, {}),
+        odds_(posterior_of(surrogate.problem, evidence_, std::vector<bool>(surrogate.problem.candidates.size(), false))
+                  .prior) {}
 
   void run(int number) {
     number_ = number;
     const auto seed = static_cast<std::uint64_t>(number) + 1;
-    const Draw draw = drawn(surrogate_, odds_, seed);
+    const Draw draw = drawn(surrogate_, evidence_, odds_, seed);
     const VectorXd errors = surrogate_.errors(seed, family_.discrepancy * draw.discrepancy, family_.how);
     tell(draw, surrogate_.search(errors + surrogate_.effect_of(draw.amplitudes, family_.how), {}, family_.how));
     if (draw.hidden.empty()) tell_scores(errors);
@@ -174,6 +183,7 @@ class Calibration {
 
   const Surrogate& surrogate_;
   const Family& family_;
+  SetEvidence evidence_;
   std::vector<double> odds_;
   int number_ = 0;
 };

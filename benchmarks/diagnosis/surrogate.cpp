@@ -50,14 +50,15 @@ Surrogate::Surrogate(const std::string& case_file, const std::filesystem::path& 
   EffectProblem drawn = problem;
   drawn.residual = errors(1);
   const SetEvidence told(drawn, {});
-  visible =
-      detectable_sizes(drawn, told, posterior_of(drawn, told, std::vector<bool>(problem.candidates.size(), false)));
+  visible = detectable_sizes(drawn, {}, posterior_of(drawn, told, std::vector<bool>(problem.candidates.size(), false)),
+                             d.alpha);
   saturation = VectorXd::Constant(problem.changes.cols(), infinite);
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (problem.candidates[c].kind != Candidate::Kind::effect) continue;
     for (const Index i : problem.candidates[c].amplitudes) saturation(i) = saturates_at * visible[c];
     const double scale = problem.amplitudes[static_cast<std::size_t>(problem.candidates[c].amplitudes.front())].scale;
     if (visible[c] < 5 * scale) shown.push_back(c);
+    visible[c] /= 1 + (first_runs()(problem.candidates[c].amplitudes.front()) / visible[c] - 1) / saturates_at;
   }
 }
 

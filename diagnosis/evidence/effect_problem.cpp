@@ -36,6 +36,15 @@ bool is_variant(const Candidate& one, const Candidate& other) {
          one.parameter == other.parameter;
 }
 
+std::vector<Eigen::Index> naming_rows(const EffectProblem& problem) {
+  std::vector<Eigen::Index> rows = problem.training;
+  rows.insert(rows.end(), problem.held_out.begin(), problem.held_out.end());
+  std::erase_if(rows, [&](Eigen::Index i) {
+    return std::find(problem.sealed.begin(), problem.sealed.end(), i) != problem.sealed.end();
+  });
+  return rows;
+}
+
 EffectProblem with_discrepancy(EffectProblem problem, double size) {
   problem.allowed_deviation(problem.allowed_patterns) *= size;
   return problem;

@@ -98,6 +98,10 @@ struct EffectProblem {
   std::vector<Pattern> pattern_names;
 };
 
+/// Rows of all data that may name something: those at hand, then those held out, but for sources that are held out as a
+/// whole.
+std::vector<Eigen::Index> naming_rows(const EffectProblem& problem);
+
 /// The same where the model itself may be off by so many times what was allowed.
 EffectProblem with_discrepancy(EffectProblem problem, double size);
 

@@ -67,13 +67,14 @@ std::vector<DiscrepancySize> sizes_of(bool may_differ) {
 }  // namespace
 
 SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Assumptions& assumed)
+    : SetEvidence(problem, runs, assumed, naming_rows(problem)) {}
+
+SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Assumptions& assumed,
+                         const std::vector<Index>& rows)
     : problem_(problem),
       assumed_(assumed),
       discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)),
       curves_(problem.candidates.size()) {
-  std::vector<Index> rows = problem.training;
-  rows.insert(rows.end(), problem.held_out.begin(), problem.held_out.end());
-  std::erase_if(rows, [&](Index i) { return std::count(problem.sealed.begin(), problem.sealed.end(), i) > 0; });
   MatrixXd columns = problem.changes(rows, Eigen::all);
   const auto append = [&](const VectorXd& column) {
     columns.conservativeResize(columns.rows(), columns.cols() + 1);

@@ -48,8 +48,11 @@ struct SetFit {
 /// several amplitudes does what it does to first order, and its prior is normal with an unknown multiple of its scale.
 class SetEvidence {
  public:
-  /// All data count but those that are kept sealed.
+  /// All data count that may name something.
   SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Assumptions& assumed = {});
+  /// The data of these rows count.
+  SetEvidence(const EffectProblem& problem, const std::vector<ShownRun>& runs, const Assumptions& assumed,
+              const std::vector<Eigen::Index>& rows);
 
   /// members: numbers of candidates, at most three of one amplitude. discrepancy: number of one of `discrepancies()`.
   SetFit fit(const std::vector<std::size_t>& members, std::size_t discrepancy) const;

@@ -9,12 +9,13 @@
 namespace tether {
 namespace {
 
-std::string name_of(const Attempt& attempt) {
+/// Of an attempt, or of an alternative of the table.
+std::string name_of(const auto& named) {
   Finding finding;
-  finding.name = attempt.name;
-  finding.parameter = attempt.parameter;
-  finding.where = attempt.where;
-  return name_of(finding);
+  finding.name = named.name;
+  finding.parameter = named.parameter;
+  finding.where = named.where;
+  return tether::name_of(finding);
 }
 
 bool any_accepted(const Diagnosis& diagnosis) {
@@ -95,15 +96,17 @@ std::string look_alike_sentence(const Diagnosis& diagnosis, const Finding& accep
                      name_of(accepted), accepted.misfit_removed, fmt::join(alike, ", of "));
 }
 
+bool is_same(const Alternative& member, const Finding& finding) {
+  return finding.name == member.name && finding.parameter == member.parameter && finding.where == member.where;
+}
+
 /// Those that by their probability would be told from what was found.
 std::vector<std::string> improbable_rivals(const Diagnosis& diagnosis, const AlternativeGroup& group) {
   constexpr double told = 0.02;
   std::vector<std::string> all;
   for (const Alternative& member : group.members)
     for (const Finding& finding : diagnosis.effects)
-      if (finding.rival && member.share < told && finding.name == member.name &&
-          finding.parameter == member.parameter && finding.where == member.where)
-        all.push_back(name_of(finding));
+      if (finding.rival && member.share < told && is_same(member, finding)) all.push_back(name_of(finding));
   return all;
 }
 
@@ -116,6 +119,30 @@ void add_why_open(std::vector<std::string>& all, const Diagnosis& diagnosis) {
       fmt::format("If errors are as stated it is not {} (below 2 %). That rests on a fifth of the moments: the others "
                   "alone leave it open, and a few may be off by more than is stated",
                   fmt::join(open, ", nor ")));
+}
+
+/// Where runs of several effects together named what the table, which adds up what each does by itself, does not have.
+void add_what_runs_changed(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const auto& groups = diagnosis.table.groups;
+  const auto is_in = [](const AlternativeGroup& group, const Finding& finding) {
+    return std::any_of(group.members.begin(), group.members.end(),
+                       [&](const Alternative& member) { return is_same(member, finding); });
+  };
+  std::vector<std::string> named, instead;
+  for (const Finding& finding : diagnosis.effects)
+    if (finding.accepted &&
+        std::none_of(groups.begin(), groups.end(), [&](const auto& group) { return is_in(group, finding); }))
+      named.push_back(name_of(finding));
+  for (const AlternativeGroup& group : groups)
+    if (group.probability >= 0.95 &&
+        std::none_of(diagnosis.effects.begin(), diagnosis.effects.end(), [&](const Finding& finding) {
+          return (finding.accepted || finding.rival) && is_in(group, finding);
+        }))
+      instead.push_back(name_of(group.members.front()));
+  if (named.empty() || instead.empty()) return;
+  all.push_back(
+      fmt::format("The table adds up what each does by itself. Runs of all together ask for {}, and not for {}",
+                  fmt::join(named, " and "), fmt::join(instead, ", nor for ")));
 }
 
 /// Rivals of a sure verdict are variants of what was found.
@@ -240,6 +267,7 @@ std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain
   if (diagnosis.verdict == Verdict::undecided && diagnosis.split_by)
     all.push_back(split_sentence(*diagnosis.split_by, "show whether it is there"));
   add_why_open(all, diagnosis);
+  add_what_runs_changed(all, diagnosis);
   if (any_accepted(diagnosis)) add_foretold(all, diagnosis);
   if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));
   add_rest(all, diagnosis);

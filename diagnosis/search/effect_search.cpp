@@ -8,6 +8,7 @@
 
 #include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/search/amplitude_interval.hpp"
+#include "diagnosis/search/phase_gain.hpp"
 #include "diagnosis/search/refinement.hpp"
 
 namespace tether {
@@ -15,10 +16,10 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double convincing = 6;    ///< of BIC
 constexpr double sure = 0.95;       ///< probability of a gain on held-out data
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr double the_same = 0.99;   ///< cosine
+constexpr double look_alike = 0.5;  ///< squared cosine of two that do much the same
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 constexpr double even = 0.5;        ///< probability of a group that is tried
 /// Share of a group's member that is named alone: 95 % though logarithms of evidence are off by 1, as between runs.
@@ -36,8 +37,10 @@ class Search {
       : problem_(with_discrepancy(problem, weighed.discrepancy)),
         counted_(counted(problem_)),
         settings_(settings),
+        refused_(refused_in(problem_, settings)),
         residual_at_(residual_at),
         plain_(problem_),
+        naming_(naming(problem_)),
         foretold_(counted_) {
     now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
     result_.weighed = weighed;
@@ -97,11 +100,11 @@ class Search {
     return nullptr;
   }
 
-  /// Its members that may be it, at their most probable amplitudes. Beside what is accepted already all of them: their
-  /// shares are of what each does alone, runs of both together decide.
+  /// Its members that may be it, at their most probable amplitudes. Beside what is accepted already all of them, and
+  /// all that look like the first: their shares are of what each does alone, runs of both together decide.
   std::vector<TestedEffect> likely_of(const WeighedGroup& group, const Trained& trained) const {
-    const std::vector<TestedEffect> tested =
-        test_all(problem_, trained.scores(problem_.changes, now_.residual), result_.independent);
+    const Scores scores = trained.scores(problem_.changes, now_.residual);
+    const std::vector<TestedEffect> tested = test_all(problem_, scores, result_.independent);
     std::vector<TestedEffect> all;
     for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
       const bool as_good = k < group.as_good.size() && group.as_good[k];
@@ -110,7 +113,22 @@ class Search {
           tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members[k]; }));
       if (std::isfinite(group.amplitudes[k])) effect.amplitudes(0) = group.amplitudes[k];
     }
+    if (!now_.accepted.empty()) add_in_its_place(all, group, tested, scores);
     return all;
+  }
+
+  void add_in_its_place(std::vector<TestedEffect>& all, const WeighedGroup& group, std::vector<TestedEffect> tested,
+                        const Scores& scores) const {
+    const TestedEffect first = *std::find_if(
+        tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members.front(); });
+    std::stable_sort(tested.begin(), tested.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+    for (const TestedEffect& other : tested) {
+      const bool may_be_it =
+          other.gain > tested.front().gain / 2 || std::pow(cosine(problem_, scores, first, other), 2) > look_alike;
+      if (may_be_it && static_cast<int>(all.size()) < settings_.confirmed && !group.has(other.candidate) &&
+          !refused_[other.candidate] && problem_.candidates[other.candidate].takes_runs())
+        all.push_back(other);
+    }
   }
 
   /// By so many of the deviations that noise gives the misfit.
@@ -195,23 +213,22 @@ class Search {
                           problem_.independent(counted_.held_out).sum());
   }
 
-  /// Probability that noise makes the gain of one of so many candidates as large.
-  double by_chance(const TestedEffect& effect, double dispersion) const {
-    return std::min(effect.q, static_cast<double>(problem_.candidates.size()) *
-                                  chance_of(problem_, effect.candidate, effect.confirmed_gain / dispersion));
+  /// Probability that noise makes the gain of one of so many candidates as large, over all data that name.
+  double by_chance(const TestedEffect& effect, const VectorXd& residual, double dispersion) const {
+    const double gain = naming_.misfit(now_.residual) - naming_.misfit(residual);
+    return static_cast<double>(problem_.candidates.size()) * chance_of(problem_, effect.candidate, gain / dispersion);
   }
 
   /// By data that are held out, or by each moment that the others foretell; where neither can be asked it stands.
   static bool is_confirmed(const TestedEffect& effect, const WeighedGroup& group) {
-    const bool foretold = group.foretold && group.foretold->positive >= sure;
-    return foretold || (effect.held_out ? effect.held_out->positive >= sure : !group.foretold);
+    return (group.foretold && foretells(*group.foretold)) ||
+           (effect.held_out ? effect.held_out->positive >= sure : !group.foretold);
   }
 
   /// Why the data at hand and those held out do not ask for the effect; none if they do.
-  std::optional<Objection> objection(const TestedEffect& effect, double dispersion, const LackOfFit& left,
+  std::optional<Objection> objection(const TestedEffect& effect, const VectorXd& residual, const LackOfFit& left,
                                      const WeighedGroup& group) const {
-    if (worth_of(effect) < convincing * dispersion || by_chance(effect, dispersion) >= settings_.alpha)
-      return Objection::too_weak;
+    if (by_chance(effect, residual, dispersion(residual)) >= settings_.alpha) return Objection::too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && !is_confirmed(effect, group)) return Objection::not_confirmed;
     if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return Objection::lack_of_fit_stays;
@@ -232,11 +249,13 @@ class Search {
     return true;
   }
 
-  /// Accepts the most probable of a group that nothing speaks against; notes those that these data cannot tell from it.
+  /// Accepts the most probable of a group that nothing speaks against, beside what is accepted already of those
+  /// that explain most together with that; notes those that these data cannot tell from it.
   void settle(const std::vector<Refinement>& all, const WeighedGroup& group) {
     std::vector<const Refinement*> order;
     for (const Refinement& one : all)
       if (one.begun()) order.push_back(&one);
+    if (!now_.accepted.empty()) put_first_what_runs_ask_for(order);
     if (order.empty() && !all.empty() && all.front().runs() > 0) result_.path.push_back(broken(all.front()));
     const AmplitudeState before = now_;
     const Refinement* chosen = nullptr;
@@ -263,6 +282,13 @@ class Search {
     result_.dispersion = spread;
   }
 
+  /// What explains less together with what was accepted, by as much as rivals may, comes last.
+  static void put_first_what_runs_ask_for(std::vector<const Refinement*>& order) {
+    double best = infinite;
+    for (const Refinement* one : order) best = std::min(best, one->best());
+    std::stable_partition(order.begin(), order.end(), [&](const auto* one) { return one->best() < best + hopeless; });
+  }
+
   /// The model could not be run with any of its amplitudes.
   SearchStep broken(const Refinement& one) const {
     const double misfit = now_misfit();
@@ -276,7 +302,7 @@ class Search {
     effect.held_out = confirmation(now_.residual, residual);
     SearchStep step{
         effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
-    step.objection = objection(effect, dispersion(residual), step.left, group);
+    step.objection = objection(effect, residual, step.left, group);
     if (!step.objection && group.probability < sure) step.objection = Objection::not_sure;
     if (!step.objection && group.least < even) step.objection = Objection::assumed;
     return step;
@@ -308,6 +334,7 @@ class Search {
       for (TestedEffect& effect : result_.effects)
         if (effect.candidate == now_.accepted[k]) {
           effect.amplitudes = now_.amplitudes(problem_.candidates[effect.candidate].amplitudes);
+          effect.beside = true;
           const VectorXd in_proportion =
               effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * result_.dispersion);
           effect.deviations = in_proportion.size() == 1 ? in_proportion : in_proportion.cwiseMax(effect.deviations);
@@ -401,8 +428,10 @@ class Search {
   EffectProblem problem_;  ///< the model is as far off as the data say
   EffectProblem counted_;
   const SearchSettings& settings_;
+  std::vector<bool> refused_;
   const ResidualAt& residual_at_;
   Trained plain_;
+  Trained naming_;
   Foretold foretold_;
   AmplitudeState now_;
   SearchResult result_;
@@ -410,11 +439,35 @@ class Search {
   std::set<std::size_t> tried_;  ///< groups
 };
 
+/// Whether a run of a candidate by itself is of a size that the table was made without.
+bool shows_more(const std::vector<ShownRun>& runs, const EffectProblem& problem, const std::vector<ShownRun>& shown) {
+  const SetEvidence evidence(problem, shown);
+  return std::any_of(runs.begin(), runs.end(), [&](const ShownRun& run) {
+    if ((run.amplitudes.array() != 0).count() != 1 || !run.residual.allFinite()) return false;
+    Index own = 0;
+    run.amplitudes.cwiseAbs().maxCoeff(&own);
+    for (std::size_t c = 0; c < problem.candidates.size(); ++c)
+      if (const auto& all = problem.candidates[c].amplitudes; all.size() == 1 && all.front() == own)
+        return problem.candidates[c].takes_runs() && evidence.beyond_runs(c, run.amplitudes(own), false) > near_a_run;
+    return false;
+  });
+}
+
 }  // namespace
 
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
                             const Weighing& weighing) {
   SearchResult result = Search(problem, settings, residual_at, weighing.weighed).run();
+  if (shows_more(result.runs, problem, weighing.shown)) {
+    std::vector<ShownRun> shown = weighing.shown;
+    shown.insert(shown.end(), result.runs.begin(), result.runs.end());
+    const Weighing again = weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(shown));
+    std::vector<ShownRun> earlier = std::move(result.runs);
+    result = Search(problem, settings, residual_at, again.weighed).run();
+    set_intervals(result, problem, settings, again.shown);
+    result.runs.insert(result.runs.begin(), earlier.begin(), earlier.end());
+    return result;
+  }
   set_intervals(result, problem, settings, weighing.shown);
   return result;
 }

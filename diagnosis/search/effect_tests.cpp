@@ -124,6 +124,21 @@ AmplitudeRange range_about(const AmplitudeInterval& interval, double saturation)
   return {factor_for(least, saturation), factor_for(most, saturation), least, most};
 }
 
+/// By the deviation along runs, known in the logarithm of what the amplitude does.
+AmplitudeRange range_along_runs(const TestedEffect& effect, double half, bool one_sided, double c) {
+  if (!one_sided) return {1 - half, 1 + half, 1 - half, 1 + half};
+  const double least = std::max(0.0, 1 - half);
+  if (!effect.confirmed) return {least, 1 + half, least, 1 + half};
+  const double does = std::exp(half / (1 + c));
+  const double most = std::min(does, factor_for(does, c) < at_most ? does : (1 + c) / (c + 1 / at_most));
+  return {factor_for(1 / does, c), factor_for(does, c), 1 / does, most};
+}
+
+AmplitudeRange both(const AmplitudeRange& a, const AmplitudeRange& b) {
+  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper), std::min(a.does_least, b.does_least),
+          std::max(a.does_most, b.does_most)};
+}
+
 }  // namespace
 
 AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own) {
@@ -134,14 +149,12 @@ AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect
   if (size == 0) return {};
   const double c = std::max(0.0, effect.saturation);
   const auto& interval = effect.intervals.empty() ? std::nullopt : effect.intervals[static_cast<std::size_t>(own)];
-  if (interval && effect.intervals.size() == 1) return range_of(*interval, size, c);
-  if (interval && interval->middle * size > 0) return range_about(*interval, c);
-  if (!amplitude.one_sided) return {1 - half, 1 + half, 1 - half, 1 + half};
-  const double least = std::max(0.0, 1 - half);
-  if (!effect.confirmed) return {least, 1 + half, least, 1 + half};
-  const double does = std::exp(half / (1 + c));
-  const double most = std::min(does, factor_for(does, c) < at_most ? does : (1 + c) / (c + 1 / at_most));
-  return {factor_for(1 / does, c), factor_for(does, c), 1 / does, most};
+  const AmplitudeRange along = range_along_runs(effect, half, amplitude.one_sided, c);
+  if (interval && effect.intervals.size() == 1) {
+    const AmplitudeRange weighed = range_of(*interval, size, c);
+    return effect.beside ? both(weighed, along) : weighed;
+  }
+  return interval && interval->middle * size > 0 ? range_about(*interval, c) : along;
 }
 
 std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& scores, double count) {

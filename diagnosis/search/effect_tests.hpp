@@ -23,6 +23,7 @@ struct TestedEffect {
   VectorXd run;               ///< amplitudes of all candidates in the best of those runs [q]
   std::optional<Gain> held_out;
   bool accepted = false;
+  bool beside = false;   ///< others were accepted too: its deviation is that of runs of all of them together
   bool rival = false;    ///< by runs, these data cannot tell it from an accepted one
   int group = -1;        ///< effects that look alike have the same number
   double cosine = 0;     ///< with the first of the group
@@ -37,9 +38,10 @@ struct AmplitudeRange {
 };
 
 /// 95 %, of one of the effect's own amplitudes: as its interval, where there is one; of one of several, what it does
-/// lies about what was found as the interval does about its middle. Else what runs showed is known in the logarithm of
-/// what the amplitude does: of one that saturates much larger ones do hardly more. It ends at a hundred times what was
-/// found. (D.10)
+/// lies about what was found as the interval does about its middle. That is of what each of several does by itself:
+/// beside others that were accepted it holds what runs of all of them show too. Else what runs showed is known in the
+/// logarithm of what the amplitude does: of one that saturates much larger ones do hardly more. It ends at a hundred
+/// times what was found. (D.10)
 AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
 
 /// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10)

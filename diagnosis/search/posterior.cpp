@@ -248,7 +248,10 @@ const std::map<Assumed, std::array<double, 2>> otherwise{
 
 constexpr double listed = 0.01;  ///< smallest probability of a candidate that is told
 
-std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const std::vector<double>& each) {
+/// Those first that the data can least do without; each is made about its most probable member.
+std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const Posterior& posterior) {
+  std::vector<double> each;
+  for (std::size_t c = 0; c < posterior.prior.size(); ++c) each.push_back(posterior.of(c));
   Members order;
   for (std::size_t c = 0; c < each.size(); ++c)
     if (each[c] >= listed) order.push_back(c);
@@ -260,6 +263,10 @@ std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const std::vect
     });
     (same == groups.end() ? groups.emplace_back() : *same).members.push_back(c);
   }
+  for (WeighedGroup& group : groups) group.probability = posterior.of_any(group.members);
+  std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) {
+    return posterior.of_none(a.members) < posterior.of_none(b.members);
+  });
   return groups;
 }
 
@@ -361,6 +368,13 @@ double Posterior::of_any(const std::vector<std::size_t>& candidates) const {
   return std::min(sum, 1.0);
 }
 
+double Posterior::of_none(const std::vector<std::size_t>& candidates) const {
+  double sum = 0;
+  for (const EffectSet& set : sets)
+    if (std::none_of(candidates.begin(), candidates.end(), [&](std::size_t c) { return set.has(c); })) sum += set.all();
+  return sum;
+}
+
 double Posterior::of(std::size_t candidate) const {
   return of_any({candidate});
 }
@@ -370,9 +384,8 @@ Posterior posterior_of(const EffectProblem& problem, const SetEvidence& evidence
 }
 
 Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior) {
-  std::vector<double> each;
-  for (std::size_t c = 0; c < problem.candidates.size(); ++c) each.push_back(posterior.of(c));
-  Weighed all{posterior.nothing, posterior.outside, 0, 0, posterior.discrepancy, groups_of(evidence, each), {}, {}, {}};
+  Weighed all{
+      posterior.nothing, posterior.outside, 0, 0, posterior.discrepancy, groups_of(evidence, posterior), {}, {}, {}};
   for (WeighedGroup& group : all.groups) describe(group, problem, evidence, posterior);
   std::map<std::vector<int>, double> combined;
   for (const EffectSet& set : posterior.sets) {
@@ -383,7 +396,6 @@ Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const
     const double probability = set.all();
     const std::vector<int> found = groups_in(set, all.groups);
     all.more += set.with_more;
-    for (const int g : found) all.groups[static_cast<std::size_t>(g)].probability += probability;
     (found.empty() ? all.others : combined[found]) += probability;
   }
   for (const auto& [numbers, probability] : combined) all.combinations.push_back({numbers, probability});

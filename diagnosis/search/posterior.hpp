@@ -35,6 +35,8 @@ struct Posterior {
   double of(std::size_t candidate) const;
   /// That one of these is.
   double of_any(const std::vector<std::size_t>& candidates) const;
+  /// That none of these is, however little that is.
+  double of_none(const std::vector<std::size_t>& candidates) const;
 };
 
 /// Candidates that do much the same: the data may want any of them.

@@ -56,6 +56,12 @@ EffectProblem counted(EffectProblem problem) {
   return problem;
 }
 
+EffectProblem naming(EffectProblem problem) {
+  problem.training = naming_rows(problem);
+  problem.held_out.clear();
+  return problem;
+}
+
 Foretold::Foretold(const EffectProblem& problem)
     : problem_(problem),
       trained_(problem),

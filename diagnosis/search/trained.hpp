@@ -31,6 +31,9 @@ class Trained {
 /// The problem of the data that count as independent ones alone.
 EffectProblem counted(EffectProblem problem);
 
+/// The problem trained on all data that may name something.
+EffectProblem naming(EffectProblem problem);
+
 /// Held-out data as training data and allowed errors foretell them: what they still miss. (D.13)
 class Foretold {
  public:

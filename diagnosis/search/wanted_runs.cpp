@@ -19,10 +19,11 @@ class Wanted {
       : problem_(problem), evidence_(evidence), posterior_(posterior), exploring_(purpose == RunsFor::exploring) {}
 
   /// Of sets that are not improbable, the members that the data ask for; much larger ones too as long as no candidate
-  /// explains the data by itself.
+  /// explains the data by itself: several may be one that does at its size what smaller ones do not. At the end only of
+  /// a set that leads.
   void add_likely() {
     constexpr double matters = 0.01, much_larger = 5;
-    const bool explore = exploring_ && alone() < 0.5;
+    const bool needs_several = alone() < 0.5;
     for (const EffectSet& set : posterior_.sets) {
       if (set.probability + set.with_more < matters) continue;
       const SetFit fit = evidence_.fit(set.members, 0);
@@ -32,7 +33,8 @@ class Wanted {
         if (!can_be_run(c, size) || !is_asked_for(c)) continue;
         const double larger = amplitude_of(c).limited(much_larger * size);
         if (is_far_from_runs(c, size)) wanted_.emplace(c, size);
-        if (explore && evidence_.is_beyond_all(c, larger / 2)) wanted_.emplace(c, larger);
+        if (needs_several && (exploring_ || set.all() > leads) && evidence_.is_beyond_all(c, larger / 2))
+          wanted_.emplace(c, larger);
       }
     }
   }

@@ -35,7 +35,7 @@ Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& setti
       if (purpose == RunsFor::telling) {
         weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
         foretell_moments(weighing.weighed, problem, weighing.shown, posterior);
-        weighing.weighed.detectable = detectable_sizes(problem, evidence, posterior);
+        weighing.weighed.detectable = detectable_sizes(problem, weighing.shown, posterior, settings.alpha);
       }
       return weighing;
     }

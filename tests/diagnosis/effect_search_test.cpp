@@ -304,6 +304,38 @@ TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
   EXPECT_FALSE(found(problem).more);
 }
 
+/// Beside the first effect the second does nothing at a third of the places where it does by itself: the sum of what
+/// each does alone is right with another candidate, which is none by runs of both.
+TEST(EffectSearch, RunsOfBothDecideWhatTheSumOfBothDoesNotTell) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  const auto two_thirds = [&](const VectorXd& whole) {
+    VectorXd part = whole;
+    for (Index i = 0, seen = 0; i < part.size(); ++i)
+      if (part(i) != 0 && seen++ % 3 == 0) part(i) = 0;
+    return part;
+  };
+  const VectorXd second = problem.changes.col(2), part = two_thirds(second);
+  add_candidate(problem, "part", part);
+  problem.residual = noise(generator) + 12 * problem.changes.col(6) + 8 * part;
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all = linear_residual(problem)(amplitudes);
+    for (Index k = 0; k < all.cols(); ++k)
+      if (amplitudes(6, k) != 0) all.col(k) += amplitudes(2, k) * (second - part) + amplitudes(8, k) * part;
+    return all;
+  };
+  const SearchResult result = search_effects(problem, {}, runs);
+  const auto has_part = std::find_if(result.weighed.groups.begin(), result.weighed.groups.end(),
+                                     [](const WeighedGroup& one) { return one.has(8); });
+  ASSERT_NE(has_part, result.weighed.groups.end());
+  EXPECT_GT(has_part->probability, 0.95) << "by the sum of what each does alone";
+  EXPECT_TRUE(effect_of(result, 6).accepted);
+  EXPECT_TRUE(effect_of(result, 2).accepted);
+  EXPECT_FALSE(effect_of(result, 8).accepted);
+  EXPECT_FALSE(effect_of(result, 8).rival);
+  EXPECT_NEAR(effect_of(result, 2).amplitudes(0), 8, 1.5);
+}
+
 /// A look-alike that does something else by itself, and the same beside a second effect: runs of both decide.
 TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
   std::mt19937_64 generator(31);

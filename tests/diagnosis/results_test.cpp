@@ -120,6 +120,11 @@ TEST(Results, RemarksAreOfWhatIsNoteworthy) {
   EXPECT_FALSE(says("If errors are as stated")) << "it is not improbable";
   d.table.groups[0].members[1].share = 1e-6;
   EXPECT_TRUE(says("If errors are as stated it is not visco_elastic at spine (below 2 %)"));
+  EXPECT_FALSE(says("The table adds up")) << "it has what was accepted";
+  d.table.groups[0].members[0].where = "spine, inlet half";
+  d.table.groups[0].members.pop_back();
+  d.table.groups[0].probability = 0.99;
+  EXPECT_TRUE(says("Runs of all together ask for contact at spine, and not for contact at spine, inlet half"));
   d.verdict = Verdict::undecided;
   EXPECT_TRUE(says("would show whether it is there; most would pressure"));
 }
