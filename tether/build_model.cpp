@@ -1,4 +1,5 @@
 #include <fstream>
+#include <iostream>
 
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -86,7 +87,11 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
   const fs::path places = folder / "places.vtp";
   for (const char* old : {"places.vtp", "surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"})
     fs::remove(folder / old);
+  const auto say = [&](const std::string& what) {
+    if (!command.quiet) std::cout << what << std::endl;
+  };
   const auto keep = [&](const std::string& step, const RawSurface& surface) {
+    say(fmt::format("{}: {} triangles", step, surface.triangles.size()));
     write_vtp(folder / (step + ".vtp"), surface.points, surface.triangles, surface.face_id);
   };
   try {
@@ -101,6 +106,7 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
         text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
     if (study.model) {
       const UnitSystem units = UnitSystem::cgs();
+      say("The surface is ready: tetrahedra, wall and regions");
       const VesselModel model = model_of(built, *study.model, units, command.case_file, places);
       write_model(folder / "model", study.name + "_model", model, built.tree, *study.model, units);
       told += model_text(model.quality) +

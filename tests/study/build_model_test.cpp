@@ -80,5 +80,22 @@ TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
   EXPECT_NE(message.find("must be one of the other openings"), std::string::npos) << message;
 }
 
+TEST(BuildModel, BranchesThatAreNoneAreToldBeforeAnythingIsBuilt) {
+  const fs::path folder = study_in("wrong_branches",
+                                   "model:\n  wall: {thickness: 2 mm, branches: {carotid: {thickness: 1 mm}}}\n"
+                                   "  regions: {arch: {branches: [trunk]}}\n",
+                                   testing::bent_tube());
+  std::string message;
+  try {
+    read_study(folder / "study.yaml");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("study.yaml:9: model.wall.branches: there is no branch 'carotid'"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("study.yaml:10: model.regions.arch.branches: there is no branch 'trunk'"), std::string::npos)
+      << message;
+}
+
 }  // namespace
 }  // namespace tether

@@ -1,5 +1,8 @@
 #include "vessel/study/study_case.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "common/base/error.hpp"
@@ -84,6 +87,40 @@ void find_lines(const YamlNode& node, const std::string& field, std::map<std::st
   }
 }
 
+/// Names of branches are those of the outlets that their lines lead to: what is none of them is found before anything
+/// is built.
+class BranchNames {
+ public:
+  BranchNames(const StudyCase& study, Problems& problems) : problems_(problems) {
+    for (const auto& [name, opening] : study.openings)
+      if (name != study.inlet) outlets_.push_back(name);
+  }
+
+  void check(const YamlNode& model) {
+    if (const YamlNode* wall = model.find("wall"))
+      if (const YamlNode* branches = wall->find("branches"))
+        for (const auto& entry : branches->entries) check(entry.key, "model.wall.branches", entry.place);
+    if (const YamlNode* regions = model.find("regions"))
+      for (const auto& region : regions->entries) check_region(region.value, "model.regions." + region.key);
+  }
+
+ private:
+  void check_region(const YamlNode& region, const std::string& field) {
+    if (const YamlNode* branches = region.find("branches"))
+      for (const YamlNode& item : branches->items) check(item.text, field + ".branches", item.place);
+    if (const YamlNode* line = region.find("line")) check(line->text, field + ".line", line->place);
+  }
+  void check(const std::string& name, const std::string& field, const YamlPlace& place) {
+    if (!name.empty() && std::find(outlets_.begin(), outlets_.end(), name) == outlets_.end())
+      problems_.add(
+          place, fmt::format("{}: there is no branch '{}': each is named as its outlet, of which there are {}", field,
+                             name, fmt::join(outlets_, ", ")));
+  }
+
+  Problems& problems_;
+  std::vector<std::string> outlets_;
+};
+
 }  // namespace
 
 StudyCase read_study(const std::filesystem::path& file) {
@@ -96,6 +133,8 @@ StudyCase read_study(const std::filesystem::path& file) {
   Reader reader(tree, units, problems);
   study.declare(reader);
   reader.report_unknown();
+  problems.throw_if_any();
+  if (const YamlNode* model = tree.find("model")) BranchNames(study, problems).check(*model);
   problems.throw_if_any();
   if (const YamlNode* image = tree.find("image")) {
     study.image->lines["image"] = image->place.text();
