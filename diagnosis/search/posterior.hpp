@@ -68,7 +68,7 @@ struct WeighedOtherwise {
   std::vector<double> groups;  ///< probability of each
 };
 
-/// A posterior as people read it, the most probable first.
+/// A posterior as people read it, those groups first that the data can least do without.
 struct Weighed {
   double nothing = 1, outside = 0, others = 0, more = 0;
   double discrepancy = 1;  ///< expected size of what the model itself is off, over what it may be

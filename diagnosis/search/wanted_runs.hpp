@@ -10,8 +10,8 @@ enum class RunsFor {
   telling     ///< what is probable, at its size
 };
 /// Runs that would change what the table says: of candidates by themselves, at the amplitudes [q x m] that are most
-/// probable, where no run is near. Exploring, of those that explain the data only with another, larger ones too: the
-/// two together may be one that does something else when it is large.
+/// probable, where no run is near. Of those that explain the data only with another, larger ones too: the two together
+/// may be one that does something else when it is large; telling, of the set that leads.
 MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
                      RunsFor purpose);
 
