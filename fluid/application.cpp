@@ -4,6 +4,7 @@
 #include "common/config/echo.hpp"
 #include "common/protocol/run.hpp"
 #include "fluid/case.hpp"
+#include "fluid/list_effects.hpp"
 #include "fluid/server.hpp"
 #include "vessel/mesh_case.hpp"
 
@@ -61,6 +62,11 @@ Program fluid_program() {
                 const BloodCase blood(command.case_file);
                 blood.lumen();
                 make_settings(blood.fluid, blood.file);
+              },
+          .list_effects =
+              [](const CommandLine& command) {
+                const BloodCase blood(command.case_file);
+                return json_of(list_effects(blood.fluid, blood.file.units()));
               },
           .run = run};
 }

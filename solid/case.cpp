@@ -83,17 +83,22 @@ TissueMotion motion_of(const MotionCase& given, const Patch& ring, const WallMes
   return motion;
 }
 
-std::vector<DrivenRing> driven_rings(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file,
-                                     std::vector<std::string>& notices) {
+/// Rings whose motion is given: clamped ones, as long as nothing loosens them, rest.
+std::vector<DrivenRing> given_rings(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file,
+                                    std::vector<std::string>& notices) {
   std::vector<DrivenRing> result;
-  for (const Patch& ring : mesh.rings)
-    if (const RingCase* chosen = named(solid.rings, ring.name); chosen && chosen->effect.type == driven_ring.name)
-      result.push_back({ring.name, nodes_of(ring.triangles), motion_of(*chosen->motion, ring, mesh, file, notices)});
+  for (const Patch& ring : mesh.rings) {
+    const RingCase* chosen = named(solid.rings, ring.name);
+    if (chosen != nullptr && !is_given(*chosen)) continue;
+    result.push_back({ring.name, nodes_of(ring.triangles), {}});
+    if (chosen != nullptr && chosen->effect.type == driven_ring.name)
+      result.back().anchor.motion = motion_of(*chosen->motion, ring, mesh, file, notices);
+  }
   return result;
 }
 
 std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file,
-                                          std::vector<std::string>& notices) {
+                                          std::vector<DrivenRing>& given, std::vector<std::string>& notices) {
   std::vector<SurfaceSupport> result;
   for (const Patch& region : mesh.outside)
     if (const SupportCase* chosen = named(solid.support.regions, region.name))
@@ -104,7 +109,7 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
     result.emplace_back(ring, Configured<Support>(supports(), chosen->effect.type, chosen->effect.values),
                         chosen->motion ? motion_of(*chosen->motion, ring, mesh, file, notices) : TissueMotion{});
   }
-  add_surface_effects(solid.effects, mesh, file, result);
+  add_surface_effects(solid.effects, mesh, file, result, given);
   return result;
 }
 
@@ -216,8 +221,8 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
                               .support_on_current_area = solid.support.area == "current"};
   PreparedWall wall;
   const std::vector<int> clamped = given_nodes(solid, mesh);
-  std::vector<DrivenRing> driven = driven_rings(solid, mesh, file, wall.notices);
-  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file, wall.notices);
+  std::vector<DrivenRing> given = given_rings(solid, mesh, file, wall.notices);
+  std::vector<SurfaceSupport> held = make_supports(solid, mesh, file, given, wall.notices);
   const ImageCase& image = file.common().image;
   const Points stress_free =
       image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;
@@ -226,7 +231,7 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
   std::vector<LocalEffect> local = local_effects(solid.effects, mesh);
   wall.model =
       std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local));
-  wall.model->drive(std::move(driven));
+  wall.model->drive(std::move(given));
   wall.rest = prestress(*wall.model, image);
   if (wall.rest.held) wall.notices.push_back(describe(*wall.rest.held));
   return wall;

@@ -77,13 +77,17 @@ const EffectDeclaration& declaration_of(const std::string& type) {
   return **std::find_if(family().begin(), family().end(), [&](const auto* effect) { return effect->name == type; });
 }
 
-/// Ties what holds the wall at these triangles to moving tissue. A support that holds more of the wall is tied as a
-/// whole.
-void tie(const std::shared_ptr<MovingTissue>& tissue, const std::vector<Triangle>& triangles,
-         std::vector<SurfaceSupport>& supports) {
+/// Ties what holds the wall at a patch to moving tissue. A support that holds more of the wall is tied as a whole.
+void tie(const std::shared_ptr<MovingTissue>& tissue, const Patch& patch, std::vector<SurfaceSupport>& supports,
+         std::vector<DrivenRing>& given) {
   bool tied = false;
+  for (DrivenRing& ring : given) {
+    if (ring.name != patch.name) continue;
+    ring.anchor.tissues.push_back(tissue);
+    tied = true;
+  }
   for (SurfaceSupport& support : supports) {
-    if (!holds(support) || !shares(support, triangles)) continue;
+    if (!holds(support) || !shares(support, patch.triangles)) continue;
     support.follow(tissue);
     tied = true;
   }
@@ -190,7 +194,7 @@ bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects) {
 }
 
 void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file,
-                         std::vector<SurfaceSupport>& supports) {
+                         std::vector<SurfaceSupport>& supports, std::vector<DrivenRing>& given) {
   VectorXd along;
   const auto along_vessel = [&]() -> const VectorXd& {
     return along.size() > 0 ? along : along = place_along_vessel(mesh);
@@ -213,7 +217,7 @@ void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& m
       TissueMotion measured;
       if (block.motion) measured = block.motion->load(file.units(), patch_of(block.region, mesh), mesh.points);
       tie(std::make_shared<MovingTissue>(MovingTissue{"solid.effects." + name, std::move(motion), std::move(measured)}),
-          patch_of(block.region, mesh).triangles, supports);
+          patch_of(block.region, mesh), supports, given);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "solid/local_effect.hpp"
 #include "solid/motion_case.hpp"
 #include "solid/surface_support.hpp"
+#include "solid/wall_model.hpp"
 
 namespace tether {
 
@@ -41,10 +42,10 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
 /// Whether an effect stands in place of this ring's clamp.
 bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects);
 
-/// Appends what acts on the wall's surface, and ties what holds it, these and the supports already there, to the tissue
-/// that moves.
+/// Appends what acts on the wall's surface, and ties what holds it, these, the supports already there and rings whose
+/// motion is `given`, to the tissue that moves.
 void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file,
-                         std::vector<SurfaceSupport>& supports);
+                         std::vector<SurfaceSupport>& supports, std::vector<DrivenRing>& given);
 
 /// In what parts of the wall differ.
 std::vector<LocalEffect> local_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "solid/motions/registry.hpp"
 #include "solid/supports/registry.hpp"
 #include "solid/wall_effects/registry.hpp"
 
@@ -12,6 +12,7 @@ namespace {
 
 std::vector<const EffectDeclaration*> catalogue() {
   std::vector<const EffectDeclaration*> all = declarations(surface_effects());
+  all.push_back(&moving_tissue.declaration);  // other motions need a file, or are not of the beat
   for (const EffectDeclaration* effect : declarations(wall_effects())) all.push_back(effect);
   return all;
 }
@@ -43,8 +44,27 @@ bool is_clamped(const std::string& ring, const SolidCase& solid) {
                       [&](const auto& entry) { return entry.first == ring && entry.second.effect.type != "clamped"; });
 }
 
+bool is_free(const std::string& ring, const SolidCase& solid) {
+  return std::any_of(solid.rings.begin(), solid.rings.end(),
+                     [&](const auto& entry) { return entry.first == ring && entry.second.effect.type == "free"; });
+}
+
+bool is_motion(const EffectDeclaration& effect) {
+  return &effect == &moving_tissue.declaration;
+}
+
+/// What holds a ring, a clamp too, or a region may move.
+std::vector<std::string> parts_that_are_held(const SolidCase& solid, const WallMesh& mesh) {
+  std::vector<std::string> parts;
+  for (const Patch& ring : mesh.rings)
+    if (!is_free(ring.name, solid)) parts.push_back(ring.name);
+  for (const auto& [region, support] : solid.support.regions) parts.push_back(region);
+  return parts;
+}
+
 std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidCase& solid, const WallMesh& mesh) {
   if (effect.target == EffectTarget::whole) return {""};
+  if (is_motion(effect)) return parts_that_are_held(solid, mesh);
   std::vector<std::string> parts;
   if (effect.place == Place::ring) {
     for (const Patch& ring : mesh.rings)
@@ -67,16 +87,11 @@ std::vector<std::string> divided_for(const EffectDeclaration& effect, const Wall
   return parts;
 }
 
-PossibleEffect possible_effect(const EffectDeclaration& effect, const std::string& part, const Band& band,
-                               const UnitSystem& units) {
-  PossibleEffect possible{effect.name, part, effect.meaning, effect.role, effect.generic, effect.variant_of, {},
-                          {},          band};
-  for (const Parameter& p : effect.parameters) {
-    const bool switches = !std::isnan(p.absent), must_be_given = std::isnan(p.standard);
-    if (switches) possible.amplitudes.push_back({p.name, p.meaning, units.symbol(p.dimension)});
-    if (must_be_given) possible.required.push_back(p.name);
-  }
-  return possible;
+/// A motion of twelve numbers that any region's tissue may have says as little as a traction.
+bool is_generic(const EffectDeclaration& effect, const std::string& part, const WallMesh& mesh) {
+  const bool on_ring =
+      std::any_of(mesh.rings.begin(), mesh.rings.end(), [&](const Patch& ring) { return ring.name == part; });
+  return effect.generic || (is_motion(effect) && !on_ring);
 }
 
 }  // namespace
@@ -88,8 +103,12 @@ EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const Uni
     const auto is_there = [&](const PresentEffect& p) {
       return p.type == effect.name && p.part == part && p.band == band;
     };
-    if (std::none_of(list.present.begin(), list.present.end(), is_there))
-      list.possible.push_back(possible_effect(effect, part, band, units));
+    if (std::any_of(list.present.begin(), list.present.end(), is_there)) return;
+    PossibleEffect possible = possible_effect(effect, units);
+    possible.part = part;
+    possible.band = band;
+    possible.generic = is_generic(effect, part, mesh);
+    list.possible.push_back(std::move(possible));
   };
   for (const EffectDeclaration* effect : catalogue()) {
     for (const std::string& part : parts_for(*effect, solid, mesh)) add(*effect, part, {});

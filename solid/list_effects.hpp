@@ -2,7 +2,7 @@
 
 #include "common/config/case_file.hpp"
 #include "solid/case.hpp"
-#include "solid/results/effects_list.hpp"
+#include "common/catalogue/effects_list.hpp"
 
 namespace tether {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/base/configured.hpp"
-#include "solid/results/band.hpp"
+#include "common/catalogue/band.hpp"
 #include "solid/wall_effects/wall_effect.hpp"
 
 namespace tether {

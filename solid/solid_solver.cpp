@@ -54,8 +54,8 @@ void SolidSolver::begin_step(double time, double dt) {
 /// from (S.5) it would ring, odd-even, about a velocity that does not start from rest. (S.23)
 void SolidSolver::place_driven() {
   for (const DrivenRing& ring : model_.driven()) {
-    const AffineDisplacement end = ring.motion(time_ + dt_), before = ring.motion(time_ - dt_ / 2),
-                             after = ring.motion(time_ + dt_ / 2);
+    const AffineDisplacement end = ring.anchor.at(time_ + dt_), before = ring.anchor.at(time_ - dt_ / 2),
+                             after = ring.anchor.at(time_ + dt_ / 2);
     for (const int node : ring.nodes) {
       const Vec3 x = model_.mesh().points.col(node);
       iterate_.col(node) = (end.at(x) - displacement_.col(node)) / dt_;

@@ -26,7 +26,7 @@ void add_products(const Vec3& shapes, double weight, const Mat3& matrix, Block& 
 }  // namespace
 
 SurfaceSupport::SurfaceSupport(Patch patch, Configured<Support> support, TissueMotion motion, std::string path)
-    : patch_(std::move(patch)), support_(std::move(support)), motion_(std::move(motion)), path_(std::move(path)) {
+    : patch_(std::move(patch)), support_(std::move(support)), anchor_{std::move(motion)}, path_(std::move(path)) {
   const std::vector<TrianglePart> parts = parts_of(patch_);
   faces_.resize(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -58,14 +58,6 @@ void SurfaceSupport::place(const Points& x) {
   placed_ = true;
 }
 
-/// y_b: where the tissue's springs are at rest.
-AffineDisplacement SurfaceSupport::rest_at(double time) const {
-  AffineDisplacement rest = motion_ ? motion_(time) : AffineDisplacement{};
-  for (const auto& tissue : tissues_)
-    if (!tissue->motion.is_absent()) rest += tissue->motion->at(time, tissue->measured);
-  return rest;
-}
-
 SupportTraction SurfaceSupport::at(const SupportStep& step, const AffineDisplacement& rest, const Face& face,
                                    int point) const {
   const Vec3 shapes = face.shapes.col(point);
@@ -84,7 +76,7 @@ SupportTraction SurfaceSupport::at(const SupportStep& step, const AffineDisplace
 
 void SurfaceSupport::add(const SupportStep& step, VectorXd& force, SparseMatrix* tangent) const {
   if (support_.is_absent()) return;
-  const AffineDisplacement rest = rest_at(step.time);
+  const AffineDisplacement rest = anchor_.at(step.time);
   const double acceleration_by_velocity = step.acceleration != nullptr ? 1 / step.advance : 0;
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const Face& face = faces_[k];
@@ -120,7 +112,7 @@ void SurfaceSupport::add_stiffness(SparseMatrix& K) const {
 Vec3 SurfaceSupport::resultant(const SupportStep& step) const {
   Vec3 sum = Vec3::Zero();
   if (support_.is_absent()) return sum;
-  const AffineDisplacement rest = rest_at(step.time);
+  const AffineDisplacement rest = anchor_.at(step.time);
   for (const Face& face : faces_)
     for (int point = 0; point < 3; ++point) sum += face.area / 3 * at(step, rest, face, point).traction;
   return sum;

@@ -9,7 +9,7 @@
 #include "common/base/configured.hpp"
 #include "common/linalg/sparse.hpp"
 #include "common/mesh/mesh.hpp"
-#include "solid/motions/motion.hpp"
+#include "solid/anchor.hpp"
 #include "solid/supports/support.hpp"
 
 namespace tether {
@@ -21,13 +21,6 @@ struct SupportStep {
   double time;                           ///< of that displacement
   double advance;                        ///< theta dt: change of the displacement with V
   const Points* acceleration = nullptr;  ///< (V - u0)/(theta dt); null: none
-};
-
-/// Tissue that moves; it is shared by all that holds the wall there.
-struct MovingTissue {
-  std::string path;  ///< of its parameters: "solid.effects.breathing"
-  Configured<MotionLaw> motion;
-  TissueMotion measured;  ///< of laws that ask for it
 };
 
 /// A support on one region of the outer wall or on an end ring (S.4): int traction N_a dA, three points a triangle or a
@@ -43,8 +36,8 @@ class SurfaceSupport {
   Configured<Support>& effect() { return support_; }
   const Configured<Support>& effect() const { return support_; }
   /// From now on it is tied to this tissue, beside others.
-  void follow(std::shared_ptr<MovingTissue> tissue) { tissues_.push_back(std::move(tissue)); }
-  const std::vector<std::shared_ptr<MovingTissue>>& tissues() const { return tissues_; }
+  void follow(std::shared_ptr<MovingTissue> tissue) { anchor_.tissues.push_back(std::move(tissue)); }
+  const std::vector<std::shared_ptr<MovingTissue>>& tissues() const { return anchor_.tissues; }
 
   /// Areas and normals are those of these positions until the next call. `pattern`: the wall's matrix.
   void place(const Points& positions);
@@ -70,13 +63,11 @@ class SurfaceSupport {
     Mat3 corners;  ///< imaged
   };
   SupportTraction at(const SupportStep& step, const AffineDisplacement& rest, const Face& face, int point) const;
-  AffineDisplacement rest_at(double time) const;
 
   Patch patch_;
   Configured<Support> support_;
-  TissueMotion motion_;
+  Anchor anchor_;
   std::string path_;
-  std::vector<std::shared_ptr<MovingTissue>> tissues_;
   std::shared_ptr<const VectorXd> along_;
   std::vector<Face> faces_;  ///< of the patch's parts
   bool placed_ = false, is_attached_ = false;

@@ -82,11 +82,25 @@ void WallModel::orient_supports() {
 
 void WallModel::update_clamps() {
   clamped_ = always_clamped_;
+  driven_ = rings_;
   for (const SurfaceSupport& support : supports_) {
-    if (!replaces_clamp(support.effect().declaration()) || !support.effect().is_absent()) continue;
-    const std::vector<int> more = unknowns_of(nodes_of(support.triangles()));
-    clamped_.insert(clamped_.end(), more.begin(), more.end());
+    if (!replaces_clamp(support.effect().declaration())) continue;
+    const std::vector<int> nodes = nodes_of(support.triangles());
+    if (support.effect().is_absent()) {
+      const std::vector<int> more = unknowns_of(nodes);
+      clamped_.insert(clamped_.end(), more.begin(), more.end());
+    } else {
+      std::erase_if(driven_, [&](const DrivenRing& ring) { return ring.nodes == nodes; });
+    }
   }
+  std::erase_if(driven_, [](const DrivenRing& ring) { return !ring.anchor.moves(); });
+}
+
+void WallModel::drive(std::vector<DrivenRing> rings) {
+  rings_ = std::move(rings);
+  for (const DrivenRing& ring : rings_)
+    for (const auto& tissue : ring.anchor.tissues) declare_tissue(*tissue);
+  update_clamps();
 }
 
 void WallModel::declare_parameters() {
@@ -117,18 +131,20 @@ void WallModel::declare_parameters() {
 }
 
 void WallModel::declare_supports() {
-  std::vector<const MovingTissue*> known;
   for (SurfaceSupport& support : supports_) {
     parameters_.add_effect(path_of(support), support.effect(), [this] {
       attach_present();
       update_clamps();
     });
-    for (const auto& tissue : support.tissues()) {
-      if (std::find(known.begin(), known.end(), tissue.get()) != known.end()) continue;
-      known.push_back(tissue.get());
-      parameters_.add_effect(tissue->path, tissue->motion);
-    }
+    for (const auto& tissue : support.tissues()) declare_tissue(*tissue);
   }
+}
+
+/// Several parts of the wall may be tied to the same tissue.
+void WallModel::declare_tissue(MovingTissue& tissue) {
+  if (std::find(tissues_.begin(), tissues_.end(), &tissue) != tissues_.end()) return;
+  tissues_.push_back(&tissue);
+  parameters_.add_effect(tissue.path, tissue.motion, [this] { update_clamps(); });
 }
 
 std::string WallModel::path_of(const SurfaceSupport& support) const {

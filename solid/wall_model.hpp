@@ -24,11 +24,12 @@ struct WallSettings {
   bool support_on_current_area = false;  ///< areas at the start of each step, else those of the imaged wall
 };
 
-/// Nodes that move as given, whatever the forces: those of a ring that the heart carries along.
+/// Nodes that move as given, whatever the forces: those of a ring that the heart carries along, or that is clamped to
+/// tissue that moves.
 struct DrivenRing {
   std::string name;
   std::vector<int> nodes;
-  TissueMotion motion;
+  Anchor anchor;
 };
 
 /// Wall with material and supports; all parameters settable by name.
@@ -41,8 +42,9 @@ class WallModel {
   WallModel(const WallModel&) = delete;  // the parameter table refers into this object
   WallModel& operator=(const WallModel&) = delete;
 
-  /// Rings whose nodes are among the clamped ones, and move (S.23).
-  void drive(std::vector<DrivenRing> rings) { driven_ = std::move(rings); }
+  /// Rings whose nodes may be among the clamped ones, and then move (S.23).
+  void drive(std::vector<DrivenRing> rings);
+  /// Those that move now: nothing has loosened them, and they or their tissue have a motion.
   const std::vector<DrivenRing>& driven() const { return driven_; }
 
   /// The imaged wall carries this stress, and the surroundings hold the rest.
@@ -73,6 +75,7 @@ class WallModel {
   std::string path_of(const SurfaceSupport& support) const;
   void orient_supports();
   void attach_present();
+  void declare_tissue(MovingTissue& tissue);
   void update_clamps();
   void place_effects();
   void update_effects();
@@ -83,7 +86,8 @@ class WallModel {
   std::unique_ptr<WallElements> elements_;
   std::vector<SurfaceSupport> supports_;
   std::vector<LocalEffect> effects_;
-  std::vector<DrivenRing> driven_;
+  std::vector<DrivenRing> rings_, driven_;
+  std::vector<const MovingTissue*> tissues_;  ///< whose numbers are declared
   std::vector<WallZone> zones_;
   std::vector<std::vector<double>> mixtures_;  ///< of zones, of elements that several share: what each has
   VectorXd

@@ -14,7 +14,7 @@
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
-#include "solid/results/effects_list.hpp"
+#include "common/catalogue/effects_list.hpp"
 #include "solid/results/rest_state.hpp"
 #include "twin/score.hpp"
 #include "vessel/model/model_quality.hpp"

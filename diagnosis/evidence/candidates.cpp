@@ -10,7 +10,7 @@
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
-#include "solid/results/effects_list.hpp"
+#include "common/catalogue/effects_list.hpp"
 
 namespace tether {
 namespace {
@@ -29,6 +29,7 @@ bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
 
 /// solid.effects.contact_spine_outlet_half
 std::string path_of(const PossibleEffect& effect) {
+  if (!effect.path.empty()) return effect.path;
   std::string path = "solid.effects." + effect.type + (effect.part.empty() ? "" : "_" + effect.part);
   if (!effect.band.is_all()) path += "_" + in_words(effect.band);
   std::replace(path.begin(), path.end(), ' ', '_');
@@ -68,8 +69,9 @@ std::string place_in_words(const PlacedEffect& effect) {
 Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool is_absent,
                         const std::vector<PlacedEffect>& effects) {
   const std::string path = amplitude.name.substr(0, amplitude.name.rfind('.'));
-  const auto effect =
-      std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
+  const auto effect = std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) {
+    return e.path == path && (is_absent || !e.is_new);  // a law's other numbers are the model's own
+  });
   Candidate wanted{amplitude.name, {}, amplitude.meaning, Candidate::Kind::input, {}};
   if (is_absent && effect != effects.end()) {
     wanted = {effect->type, place_in_words(*effect), effect->meaning, Candidate::Kind::effect, {}};
@@ -96,6 +98,12 @@ void check_known(const CaseFile& file, const std::string& field, const std::vect
     throw input_error("{}: {} is unknown here; {}", file.where(field), word,
                       near.empty() ? "known are " + listed(known) : fmt::format("did you mean {}?", near));
   }
+}
+
+EffectsList listed_by(const std::string& program, const CaseFile& file) {
+  const ChildEnd end = capture({{sibling(program).string(), "--list-effects", file.path().string()}, {}});
+  if (end.exit_code != exit_done) throw InputError(end.errors);
+  return record_of<EffectsList>(end.output, program + " --list-effects");
 }
 
 /// Types of effects and parts of the wall. Numbers, which have a dot, are known when the model has announced them.
@@ -129,9 +137,9 @@ std::vector<std::string> not_recorded(const CaseFile& from, const Observations& 
 }  // namespace
 
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis) {
-  const ChildEnd end = capture({{sibling("solid").string(), "--list-effects", file.path().string()}, {}});
-  if (end.exit_code != exit_done) throw InputError(end.errors);
-  const auto list = record_of<EffectsList>(end.output, "solid --list-effects");
+  EffectsList list = listed_by("solid", file);
+  if (!file.has("coupling.programs.fluid"))
+    for (PossibleEffect& law : listed_by("fluid", file).possible) list.possible.push_back(std::move(law));
   check_names(file, list, diagnosis);
   std::vector<PlacedEffect> all;
   for (const PossibleEffect& e : list.possible)

@@ -9,7 +9,7 @@
 #include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 #include "diagnosis/evidence/sensitivities.hpp"
-#include "solid/results/band.hpp"
+#include "common/catalogue/band.hpp"
 
 namespace tether {
 
@@ -22,7 +22,7 @@ struct PlacedEffect {
   Band band = {};                     ///< of the part, where along the vessel it acts
 };
 
-/// What the solid program says could be missing, and what the case has; restricted as the case wants it. Throws
+/// What the programs say could be missing, and what the case has; restricted as the case wants it. Throws
 /// InputError with the program's message.
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis);
 

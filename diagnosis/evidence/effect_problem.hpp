@@ -8,7 +8,7 @@
 #include "diagnosis/evidence/scores.hpp"
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
-#include "solid/results/band.hpp"
+#include "common/catalogue/band.hpp"
 
 namespace tether {
 

@@ -77,7 +77,7 @@ bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& giv
       if (effect.amplitudes(own) == 0) continue;
       nothing_added = false;
       const auto placed = std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) {
-        return e.is_new && amplitude.name.starts_with(e.path + ".");
+        return e.is_new && candidate.kind == Candidate::Kind::effect && amplitude.name.starts_with(e.path + ".");
       });
       if (placed != effects.end() && std::find(added.begin(), added.end(), placed->path) == added.end()) {
         add_effect(overlay, *placed, from.common().time);

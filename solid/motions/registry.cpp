@@ -3,7 +3,7 @@
 namespace tether {
 
 std::span<const Registered<MotionLaw>> motions() {
-  static const Registered<MotionLaw> all[] = {breathing, measured_motion};
+  static const Registered<MotionLaw> all[] = {breathing, measured_motion, moving_tissue};
   return all;
 }
 

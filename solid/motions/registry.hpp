@@ -7,7 +7,7 @@
 
 namespace tether {
 
-extern const Registered<MotionLaw> breathing, measured_motion;
+extern const Registered<MotionLaw> breathing, measured_motion, moving_tissue;
 
 /// All motions of tissue. A new one: one file, one name above, one name in registry.cpp.
 std::span<const Registered<MotionLaw>> motions();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fluid/inlets/inflow.hpp"
+#include "fluid/list_effects.hpp"
 #include "fluid/outlets/outlet.hpp"
 #include "fluid/rheologies/rheology.hpp"
 
@@ -65,6 +66,21 @@ TEST(Rheologies, AbsentValuesMakeThemNewtonian) {
     for (double shear_rate : {0.0, 1e-3, 1.0, 1e4})
       EXPECT_EQ(rheology->viscosity(shear_rate), rheology->viscosity(1)) << entry.declaration.name;
   }
+}
+
+TEST(Rheologies, OneNumberLeadsFromNewtonianBloodToShearThinning) {
+  FluidCase fluid;
+  fluid.rheology = {"newtonian", {0.04}};
+  const EffectsList list = list_effects(fluid, UnitSystem::cgs());
+  ASSERT_EQ(list.possible.size(), 1U);
+  const PossibleEffect& thinning = list.possible[0];
+  EXPECT_EQ(thinning.type, "shear_thinning");
+  EXPECT_EQ(thinning.path, "fluid.rheology");
+  ASSERT_EQ(thinning.amplitudes.size(), 1U);
+  EXPECT_EQ(thinning.amplitudes[0].name, "excess");
+  EXPECT_TRUE(thinning.required.empty()) << "the viscosity is the model's";
+  fluid.rheology = {"casson", {0.04, 0.1, 100}};
+  EXPECT_TRUE(list_effects(fluid, UnitSystem::cgs()).possible.empty());
 }
 
 TEST(Rheologies, KnownValues) {

@@ -1,7 +1,11 @@
 // solid.effects in a case file: blocks that can be appended, and what a wall makes of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "solid/case.hpp"
+#include "solid/list_effects.hpp"
 #include "solid/server.hpp"
 #include "tests/config/case_text.hpp"
 #include "tests/solid/tube.hpp"
@@ -14,7 +18,8 @@ constexpr const char* wall_text =
     "  density: 1.1\n"
     "  material: {type: neo_hookean, young: 4e6, poisson: 0.45}\n"
     "  support: {regions: {wall: {stiffness: 1e5}}}\n"
-    "  rings: {outlet_ring: {type: visco_elastic, stiffness: 1e6}}\n";
+    "  rings:\n"
+    "    outlet_ring: {type: visco_elastic, stiffness: 1e6}\n";
 
 PreparedWall wall_with(const std::string& effects) {
   const auto path = write_file("case.yaml", valid_head + wall_text + effects);
@@ -73,6 +78,60 @@ TEST(EffectsOfACase, MotionTiesWhatHoldsTheWallThere) {
   wall.model->parameters().set("solid.effects.heart.factor", 0.5);
 }
 
+TEST(EffectsOfACase, AClampedRingGoesWithTissueThatMoves) {
+  const PreparedWall wall =
+      wall_with("  effects: {heart: {type: moving_tissue, region: inlet_ring, period: 0.8}}\n");
+  WallModel& model = *wall.model;
+  EXPECT_TRUE(model.driven().empty()) << "absent, it is a clamp";
+  const auto clamped = model.clamped_unknowns();
+  model.parameters().set("solid.effects.heart.z_cosine_1", 0.3);
+  model.parameters().set("solid.effects.heart.x_sine_2", -0.1);
+  ASSERT_EQ(model.driven().size(), 1U);
+  EXPECT_EQ(model.driven()[0].name, "inlet_ring");
+  EXPECT_EQ(model.clamped_unknowns(), clamped);
+  const Anchor& anchor = model.driven()[0].anchor;
+  EXPECT_EQ(anchor.at(0).offset.norm(), 0);
+  EXPECT_LT((anchor.at(0.4).offset - Vec3(0, 0, -0.6)).norm(), 1e-12) << "half a beat: cos - 1 = -2";
+  EXPECT_LT((anchor.at(0.5).offset - Vec3(-0.1, 0, 0.3 * (std::cos(1.25 * std::numbers::pi) - 1))).norm(), 1e-12);
+}
+
+TEST(EffectsOfACase, ALoosenedRingIsPulledByItsTissueAndDrivenNoMore) {
+  const PreparedWall wall = wall_with(
+      "  effects:\n"
+      "    loose: {type: loose_ring, region: inlet_ring}\n"
+      "    heart: {type: moving_tissue, region: inlet_ring, period: 0.8, y_sine_1: 2 mm}\n");
+  WallModel& model = *wall.model;
+  ASSERT_EQ(model.driven().size(), 1U);
+  EXPECT_EQ(model.supports()[2].tissues().at(0)->path, "solid.effects.heart");
+  model.parameters().set("solid.effects.loose.compliance", 1e-5);
+  EXPECT_TRUE(model.driven().empty());
+  EXPECT_TRUE(model.clamped_unknowns().empty());
+}
+
+/// Parts of the wall that a diagnosis may find to be held by tissue that moves; generic ones in brackets.
+std::vector<std::string> parts_with_moving_tissue(const std::string& more) {
+  const auto path = write_file("case.yaml", valid_head + wall_text + more);
+  CaseFile file(path);
+  SolidCase solid;
+  file.read("solid", solid);
+  std::vector<std::string> parts;
+  for (const PossibleEffect& e : list_effects(solid, circular_tube(2, 2, 0.2, 8, 3).wall, file.units()).possible)
+    if (e.type == "moving_tissue") {
+      parts.push_back(e.generic ? "(" + e.part + ")" : e.part);
+      EXPECT_EQ(e.amplitudes.size(), 12U);
+      EXPECT_EQ(e.required, std::vector<std::string>{"period"});
+    }
+  return parts;
+}
+
+TEST(EffectsOfACase, TissueMayMoveWhereItHoldsTheWall) {
+  using Parts = std::vector<std::string>;
+  EXPECT_EQ(parts_with_moving_tissue(""), (Parts{"inlet_ring", "outlet_ring", "(wall)"}));
+  EXPECT_EQ(parts_with_moving_tissue("    inlet_ring: {type: free}\n"), (Parts{"outlet_ring", "(wall)"}));
+  EXPECT_EQ(parts_with_moving_tissue("  effects: {e: {type: moving_tissue, region: outlet_ring, period: 1}}\n"),
+            (Parts{"inlet_ring", "(wall)"}));
+}
+
 TEST(EffectsOfACase, ALooseRingIsHeldOnlyByItsCompliance) {
   const PreparedWall wall = wall_with("  effects: {heart: {type: loose_ring, region: inlet_ring}}\n");
   EXPECT_FALSE(wall.model->clamped_unknowns().empty());
@@ -104,7 +163,9 @@ TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(error("{type: loose_ring, region: wall}").find("end ring"), std::string::npos);
   EXPECT_NE(error("{type: contract}").find("did you mean 'contact'"), std::string::npos);
   EXPECT_NE(error("{type: measured_motion}").find("needs a section 'motion'"), std::string::npos);
-  EXPECT_NE(error("{type: breathing, region: inlet_ring, period: 4}").find("nothing holds the wall there"),
+  EXPECT_NE(input_error_of([] {
+              wall_with("    inlet_ring: {type: free}\n  effects: {e: {type: breathing, region: inlet_ring, period: 4}}\n");
+            }).find("nothing holds the wall there"),
             std::string::npos);
   EXPECT_NE(error("{type: stiffening, cubic: -1}").find("must not be negative"), std::string::npos);
   EXPECT_NE(error("{type: expression, normal: -k*un}").find("case.yaml:12: solid.effects.e"), std::string::npos);

@@ -23,7 +23,7 @@ PreparedWall wall_moved_by(const std::string& motion) {
 }
 
 Vec3 moved(const PreparedWall& wall, const Vec3& x, double time) {
-  return wall.model->driven().at(0).motion(time).at(x);
+  return wall.model->driven().at(0).anchor.at(time).at(x);
 }
 
 TEST(MotionOfARing, FromPointsInMillimetresAndPhases) {

@@ -143,7 +143,7 @@ TEST(RigidMotion, OfARealValveIsThePublishedFit) {
 struct DrivenPlate {
   DrivenPlate() : wall(plate({3, 1, 0.2}, {6, 2}, 1)), model(wall, settings(), wall.points, ends(), {}), solver(model) {
     std::vector<DrivenRing> rings;
-    for (const Patch& ring : wall.rings) rings.push_back({ring.name, nodes_of(ring.triangles), motion});
+    for (const Patch& ring : wall.rings) rings.push_back({ring.name, nodes_of(ring.triangles), {motion}});
     model.drive(std::move(rings));
   }
   static WallSettings settings() { return {.material = "neo_hookean", .material_values = {1e6, 0.3}, .density = 1.0}; }

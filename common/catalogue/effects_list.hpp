@@ -5,7 +5,7 @@
 
 #include "common/base/effect.hpp"
 #include "common/io/record.hpp"
-#include "solid/results/band.hpp"
+#include "common/catalogue/band.hpp"
 
 namespace tether {
 
@@ -37,6 +37,7 @@ struct PossibleEffect {
   std::vector<OfferedAmplitude> amplitudes;
   std::vector<std::string> required;
   Band band = {};
+  std::string path;
 
   static void fields(auto& self, auto&& field) {
     field("type", self.type, "as in the case file");
@@ -49,8 +50,12 @@ struct PossibleEffect {
     field("required", self.required, "parameters that must be given for it");
     field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
     field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
+    field("path", self.path, "of what it replaces in the case; empty: it is added to solid.effects");
   }
 };
+
+/// Of what its declaration says: what is left empty is the part.
+PossibleEffect possible_effect(const EffectDeclaration& effect, const UnitSystem& units);
 
 /// An effect that a case has.
 struct PresentEffect {
@@ -68,7 +73,7 @@ struct PresentEffect {
   }
 };
 
-/// What `solid --list-effects CASE.yaml` answers.
+/// What `solid --list-effects CASE.yaml` and `fluid --list-effects CASE.yaml` answer.
 struct EffectsList {
   static constexpr const char* type_name = "effects_list";
   std::vector<PossibleEffect> possible;
