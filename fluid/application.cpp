@@ -2,6 +2,7 @@
 
 #include "common/base/process.hpp"
 #include "common/config/echo.hpp"
+#include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
 #include "fluid/case.hpp"
 #include "fluid/list_effects.hpp"

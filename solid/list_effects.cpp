@@ -87,13 +87,6 @@ std::vector<std::string> divided_for(const EffectDeclaration& effect, const Wall
   return parts;
 }
 
-/// A motion of twelve numbers that any region's tissue may have says as little as a traction.
-bool is_generic(const EffectDeclaration& effect, const std::string& part, const WallMesh& mesh) {
-  const bool on_ring =
-      std::any_of(mesh.rings.begin(), mesh.rings.end(), [&](const Patch& ring) { return ring.name == part; });
-  return effect.generic || (is_motion(effect) && !on_ring);
-}
-
 }  // namespace
 
 EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const UnitSystem& units) {
@@ -107,7 +100,6 @@ EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const Uni
     PossibleEffect possible = possible_effect(effect, units);
     possible.part = part;
     possible.band = band;
-    possible.generic = is_generic(effect, part, mesh);
     list.possible.push_back(std::move(possible));
   };
   for (const EffectDeclaration* effect : catalogue()) {

@@ -24,6 +24,7 @@ bool holds(const std::vector<std::string>& list, const std::string& word) {
 /// A generic direction is a candidate only if it is asked for.
 bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
   if (holds(diagnosis.exclude, effect.type) || holds(diagnosis.exclude, effect.part)) return false;
+  if (holds(diagnosis.also, effect.type)) return true;
   return diagnosis.candidates.empty() ? !effect.generic : holds(diagnosis.candidates, effect.type);
 }
 
@@ -116,6 +117,7 @@ void check_names(const CaseFile& file, const EffectsList& catalogue, const Diagn
   std::for_each(catalogue.possible.begin(), catalogue.possible.end(), note);
   std::for_each(catalogue.present.begin(), catalogue.present.end(), note);
   check_known(file, "diagnosis.candidates", diagnosis.candidates, {types.begin(), types.end()});
+  check_known(file, "diagnosis.also", diagnosis.also, {types.begin(), types.end()});
   parts.merge(types);
   std::vector<std::string> words;
   for (const std::string& word : diagnosis.exclude)

@@ -6,7 +6,7 @@ namespace tether {
 
 /// The section `diagnosis` of a case: which effects may be missing, and how they are judged.
 struct DiagnosisCase {
-  std::vector<std::string> candidates, exclude, assumed;
+  std::vector<std::string> candidates, also, exclude, assumed;
   double step = 1, alpha = 0.05, unexplained = 0.1;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;

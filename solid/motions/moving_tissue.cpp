@@ -36,7 +36,8 @@ const EffectDeclaration moving_tissue_declaration{
     .meaning = "The tissue that holds the wall moves with the beat, as the heart does that pulls at the aorta's root",
     .place = Place::ring,
     .parameters = parameters(),
-    .role = EffectRole::loads};
+    .role = EffectRole::loads,
+    .generic = true};
 
 /// y_b = r(t/ramp) sum_k (A_k (cos(2 pi k t/T) - 1) + B_k sin(2 pi k t/T)), k = 1, 2. (S.18)
 class MovingTissueLaw final : public MotionLaw {

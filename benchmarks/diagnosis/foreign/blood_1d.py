@@ -17,7 +17,9 @@ import sys
 
 import numpy as np
 import surfaces
-import tether.coupling as tether
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools/python"))
+import tether.coupling as tether  # noqa: E402
 
 BETA, FRICTION = 1.1, 22 * np.pi
 SMALL = 1e-6  # change of the velocity in a difference, of the largest

@@ -1,5 +1,6 @@
 """Models of the tube of data/peer_tube that lack something, and the runs that their data are of."""
 import dataclasses
+import json
 import os
 import pathlib
 import subprocess
@@ -48,22 +49,38 @@ MODELS = {
     **{f"other_half_{n}": Model(f"other_half_{n}", hidden=[HALF], size=s) for n, s in zip("abc", (1.6, 2, 3))},
     **{f"other_pair_{n}": Model(f"other_pair_{n}", hidden=PAIR, size=s) for n, s in zip("abc", (6e5, 2e6, 6e6))},
 }
-# Runs of ours: supports, what else the solid has, what the blood has.
-TRUTHS = {"half": (UNIFORM, STIFFER_HALF % 2, ""), "pair": (STIFF, STIFFER_HALF % 2, ""), "other_nothing": (UNIFORM, "", "")}
-for _name, _half in zip("abc", (1.6, 2, 3)):
-    _of = {part: MODELS[f"other_{part}_{_name}"].size for part in ("spring", "damper", "compliance", "half")}
-    TRUTHS |= {
-        f"other_spring_{_name}": ([(_of["spring"], 2e3), *UNIFORM[1:]], "", ""),
-        f"other_damper_{_name}": ([(1e5, _of["damper"]), *UNIFORM[1:]], "", ""),
-        f"other_compliance_{_name}": (UNIFORM, "", COMPLIANT % _of["compliance"]),
-        f"other_half_{_name}": (UNIFORM, STIFFER_HALF % _of["half"], ""),
-        f"other_pair_{_name}": ([(_of["spring"], 2e3), *UNIFORM[1:]], STIFFER_HALF % _of["half"], ""),
-    }
+# of the same model: one-dimensional blood in the truth (blood_1d.py), and what is hidden in the middle size
+MODELS["blood_nothing"] = Model("blood_nothing")
+for _part in ("spring", "damper", "compliance", "half", "pair"):
+    MODELS[f"blood_{_part}"] = dataclasses.replace(MODELS[f"other_{_part}_b"], data=f"blood_{_part}")
 FACES = ROOT / "data/peer_tube/solid/faces"
 SAME_MESH = ["mesh:", "  files:", "    outside:", "      outside: null",
              *[f"      {r}: {{file: {FACES}/outside_{r}.vtp}}" for r in ("spine", "vicinity_a", "vicinity_b", "opposite")]]
 OTHER_MESH = ["mesh:", "  source: swept", "  files: null", "  swept:", "    radius: 2", "    length: 10", "    wall_thickness: 0.2", "    around: 30", "    along: 26", "    layers: 2", "    regions:",
               "      spine: {angle: [150, 210]}", "      vicinity_a: {angle: [120, 150]}", "      vicinity_b: {angle: [210, 240]}", "      opposite: {}"]
+
+
+@dataclasses.dataclass
+class Truth:
+    """A run of ours."""
+    supports: list = dataclasses.field(default_factory=lambda: UNIFORM)
+    solid: str = ""  # what else the wall has
+    compliance: float | None = None  # of the outlet
+    mesh: list = dataclasses.field(default_factory=lambda: OTHER_MESH)
+    one_dimensional: bool = False  # the blood
+
+
+TRUTHS = {"half": Truth(UNIFORM, STIFFER_HALF % 2, mesh=SAME_MESH), "pair": Truth(STIFF, STIFFER_HALF % 2, mesh=SAME_MESH), "other_nothing": Truth()}
+for _name, _half in zip("abc", (1.6, 2, 3)):
+    _of = {part: MODELS[f"other_{part}_{_name}"].size for part in ("spring", "damper", "compliance", "half")}
+    TRUTHS |= {
+        f"other_spring_{_name}": Truth([(_of["spring"], 2e3), *UNIFORM[1:]]),
+        f"other_damper_{_name}": Truth([(1e5, _of["damper"]), *UNIFORM[1:]]),
+        f"other_compliance_{_name}": Truth(compliance=_of["compliance"]),
+        f"other_half_{_name}": Truth(solid=STIFFER_HALF % _of["half"]),
+        f"other_pair_{_name}": Truth([(_of["spring"], 2e3), *UNIFORM[1:]], STIFFER_HALF % _of["half"]),
+    }
+TRUTHS |= {name: dataclasses.replace(TRUTHS[name.replace("blood", "other") + ("" if name.endswith("nothing") else "_b")], one_dimensional=True) for name in MODELS if name.startswith("blood")}
 
 
 def case_with(name, supports, rest, mesh):
@@ -84,15 +101,23 @@ def case_of(model, data):
     return case_with("model", MODELS[model].supports, "\n".join([*observed, MODELS[model].rest]), SAME_MESH)
 
 
+def write_blood_1d(case, compliance, output):
+    """The input of blood_1d.py beside a case. Its stations are the rings of nodes of another run's wall."""
+    windkessel = {"proximal_resistance": 150, "distal_resistance": 1850, "compliance": compliance or 1.5e-3, "distal_pressure": -106657.6}
+    case.with_suffix(".blood.json").write_text(json.dumps({
+        "motion": str(truth_of("other_nothing", output)), "flow": str(ROOT / "data/peer_tube/flow_pressure.csv"), "density": 1.06, "viscosity": 0.04, **windkessel}))
+    return f"coupling: {{programs: {{fluid: {HERE / 'blood_1d.py'}}}}}\n"
+
+
 def truth_of(model, output):
     """The run that the data are of, made if it is ours and not there yet, with half the model's step."""
     name = MODELS[model].data
     if name not in TRUTHS:
         return DATA / f"{name}.npz"
-    run = output / "truths" / name
+    run, truth = output / "truths" / name, TRUTHS[name]
     if not (run / "summary.json").exists():
-        supports, solid, blood = TRUTHS[name]
         case = output / f"truth_{name}.yaml"
-        case.write_text(case_with(name, supports, f"{solid}time: {{step: 2e-3}}\n{blood}", OTHER_MESH if name.startswith("other") else SAME_MESH))
+        blood = write_blood_1d(case, truth.compliance, output) if truth.one_dimensional else COMPLIANT % truth.compliance if truth.compliance else ""
+        case.write_text(case_with(name, truth.supports, f"{truth.solid}time: {{step: 2e-3}}\n{blood}", truth.mesh))
         subprocess.run([TETHER, "simulate", case, "--output", run, "--overwrite", "--quiet"], check=True)
     return run / "lumen.motion"
