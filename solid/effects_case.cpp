@@ -1,6 +1,10 @@
 #include "solid/effects_case.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "common/base/error.hpp"
 #include "common/base/transform.hpp"
@@ -123,6 +127,42 @@ Configured<Support> configured(const ExpressionCase& given, const WallMesh& mesh
   }
 }
 
+/// Throws InputError that begins with `where`.
+void check_neighbour(const WallEffectCase& block, const WallMesh& mesh, const std::string& where) {
+  if (block.region.empty()) throw input_error("{}: needs 'region': the whole outer wall has no neighbours", where);
+  const std::vector<std::string> neighbours = neighbours_of(block.region, mesh.outside);
+  if (std::find(neighbours.begin(), neighbours.end(), block.band.toward) == neighbours.end())
+    throw input_error("{}: {}: is not beside {}; there {}", where, block.band.toward, block.region,
+                      neighbours.empty() ? "is no other region" : "are " + fmt::format("{}", fmt::join(neighbours, ", ")));
+  if (neighbours.size() < 2)
+    throw input_error("{}: {}: all of {} is nearest to it, its only neighbour", where, block.band.toward, block.region);
+}
+
+/// Where effects act on a wall; what it takes to tell is computed when it is first asked for.
+class PlacesOfEffects {
+ public:
+  explicit PlacesOfEffects(const WallMesh& mesh) : mesh_(mesh) {}
+
+  /// Of a region, a ring, or the whole outer wall, what the effect acts on.
+  Patch of(const WallEffectCase& block) {
+    Patch patch = patch_of(block.region, mesh_);
+    if (!block.band.is_all_along()) patch = part_between(patch, along(), block.band.from, block.band.to);
+    if (!block.band.toward.empty()) patch = part_between(patch, near(block.band.toward, block.region), 0, 1);
+    return patch;
+  }
+
+ private:
+  const VectorXd& along() { return along_.size() > 0 ? along_ : along_ = place_along_vessel(mesh_); }
+  const VectorXd& near(const std::string& neighbour, const std::string& region) {
+    VectorXd& known = near_[{neighbour, region}];
+    return known.size() > 0 ? known : known = nearness(neighbour, region, mesh_.outside, mesh_.points);
+  }
+
+  const WallMesh& mesh_;
+  VectorXd along_;
+  std::map<std::pair<std::string, std::string>, VectorXd> near_;
+};
+
 }  // namespace
 
 void ExpressionParameterCase::declare(Fields& f) {
@@ -163,6 +203,8 @@ void WallEffectCase::declare(Fields& f) {
            "where along the vessel the region's part begins that it acts on: 0 at the first ring, 1 at the others");
   f.number("to", band.to, dimension::none, on_the_way, "where along the vessel that part ends");
   f.check(band.from < band.to, "to", "must be beyond 'from'");
+  f.text("toward", band.toward,
+         "a region beside this one: the effect acts on what is nearer to it than to the region's other neighbours");
   f.when("type", effect.type, {"measured_motion"}, [&] {
     f.group("motion", motion, "the motion over time");
     f.check(motion.has_value(), "type", "needs a section 'motion'");
@@ -182,7 +224,8 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
     if (is_of(wall_effects(), block.effect.type) && on_ring)
       throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
     if (!block.band.is_all() && (on_ring || is_of(motions(), block.effect.type)))
-      throw input_error("{}: 'from' and 'to' are of what acts in regions of the outer wall", file.where(path));
+      throw input_error("{}: 'from', 'to' and 'toward' are of what acts in regions of the outer wall", file.where(path));
+    if (!block.band.toward.empty()) check_neighbour(block, mesh, file.where(path + ".toward"));
     if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
   }
 }
@@ -195,15 +238,11 @@ bool is_loose(const std::string& ring, const Named<WallEffectCase>& effects) {
 
 void add_surface_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file,
                          std::vector<SurfaceSupport>& supports, std::vector<DrivenRing>& given) {
-  VectorXd along;
-  const auto along_vessel = [&]() -> const VectorXd& {
-    return along.size() > 0 ? along : along = place_along_vessel(mesh);
-  };
+  PlacesOfEffects places(mesh);
   for (const auto& [name, block] : effects) {
     const std::string path = "solid.effects." + name;
     const auto add = [&, &name = name, &block = block](Configured<Support> effect) {
-      Patch patch = patch_of(block.region, mesh);
-      if (!block.band.is_all()) patch = part_between(patch, along_vessel(), block.band.from, block.band.to);
+      Patch patch = places.of(block);
       patch.name = name;
       supports.emplace_back(std::move(patch), std::move(effect), TissueMotion{}, path);
     };

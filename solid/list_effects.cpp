@@ -1,11 +1,11 @@
 #include "solid/list_effects.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "solid/motions/registry.hpp"
 #include "solid/supports/registry.hpp"
 #include "solid/wall_effects/registry.hpp"
+#include "vessel/regions.hpp"
 
 namespace tether {
 namespace {
@@ -75,9 +75,18 @@ std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidC
   return parts;
 }
 
-constexpr std::array halves{Band{0, 0.5}, Band{0.5, 1}};
+/// The half toward the first ring, that toward the others, and what is nearer to each of a region's neighbours.
+std::vector<Band> parts_of_place(const std::string& part, const WallMesh& mesh) {
+  std::vector<Band> parts;
+  if (mesh.rings.size() >= 2) parts = {{0, 0.5}, {0.5, 1}};
+  if (part.empty()) return parts;
+  const std::vector<std::string> neighbours = neighbours_of(part, mesh.outside);
+  if (neighbours.size() >= 2)
+    for (const std::string& neighbour : neighbours) parts.push_back({0, 1, neighbour});
+  return parts;
+}
 
-/// Parts of the wall that are divided into halves: regions, and of what may change along the vessel all of it.
+/// Parts of the wall that are divided: regions, and of what may change along the vessel all of it.
 std::vector<std::string> divided_for(const EffectDeclaration& effect, const WallMesh& mesh) {
   std::vector<std::string> parts;
   if (effect.target == EffectTarget::whole || effect.place == Place::ring) return parts;
@@ -104,9 +113,8 @@ EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const Uni
   };
   for (const EffectDeclaration* effect : catalogue()) {
     for (const std::string& part : parts_for(*effect, solid, mesh)) add(*effect, part, {});
-    if (mesh.rings.size() < 2) continue;  // there is no way along it
     for (const std::string& part : divided_for(*effect, mesh))
-      for (const Band& half : halves) add(*effect, part, half);
+      for (const Band& band : parts_of_place(part, mesh)) add(*effect, part, band);
   }
   return list;
 }

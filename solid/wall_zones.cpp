@@ -1,7 +1,9 @@
 #include "solid/wall_zones.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
 
 #include "vessel/regions.hpp"
 
@@ -18,21 +20,45 @@ std::set<double> borders_in(int region, const std::vector<LocalEffect>& effects)
   return borders;
 }
 
+/// How near a region's nodes are to each of the neighbours toward which its effects act.
+std::map<std::string, VectorXd> neighbours_in(int region, const std::vector<LocalEffect>& effects,
+                                              const WallMesh& mesh) {
+  std::map<std::string, VectorXd> neighbours;
+  const std::string& name = mesh.outside[static_cast<std::size_t>(region)].name;
+  for (const LocalEffect& effect : effects) {
+    const std::string& toward = effect.band.toward;
+    if (toward.empty() || std::count(effect.regions.begin(), effect.regions.end(), region) == 0) continue;
+    if (VectorXd& near = neighbours[toward]; near.size() == 0) near = nearness(toward, name, mesh.outside, mesh.points);
+  }
+  return neighbours;
+}
+
+/// Appends the zone's parts toward each of the neighbours, and what is toward none of them.
+void add_parts(WallZone zone, const std::map<std::string, VectorXd>& neighbours, std::vector<WallZone>& zones) {
+  for (const auto& [name, near] : neighbours) {
+    zones.push_back({part_between(zone.patch, near, 0, 1), zone.region, {zone.band.from, zone.band.to, name}});
+    zone.patch = part_between(zone.patch, near, -1, 0);
+    if (zone.patch.parts.empty()) return;
+  }
+  zones.push_back(std::move(zone));
+}
+
 }  // namespace
 
 std::vector<WallZone> wall_zones(const WallMesh& mesh, const std::vector<LocalEffect>& effects, const VectorXd& along) {
   std::vector<WallZone> zones;
   for (std::size_t r = 0; r < mesh.outside.size(); ++r) {
     const auto region = static_cast<int>(r);
+    const std::map<std::string, VectorXd> neighbours = neighbours_in(region, effects, mesh);
     std::set<double> ends = borders_in(region, effects);
     if (ends.empty()) {
-      zones.push_back({mesh.outside[r], region, {}});
+      add_parts({mesh.outside[r], region, {}}, neighbours, zones);
       continue;
     }
     ends.insert(1);
     double from = 0;
     for (const double to : ends) {
-      zones.push_back({part_between(mesh.outside[r], along, from, to), region, {from, to}});
+      add_parts({part_between(mesh.outside[r], along, from, to), region, {from, to}}, neighbours, zones);
       from = to;
     }
   }
@@ -41,7 +67,8 @@ std::vector<WallZone> wall_zones(const WallMesh& mesh, const std::vector<LocalEf
 
 bool acts_in(const LocalEffect& effect, const WallZone& zone) {
   return std::count(effect.regions.begin(), effect.regions.end(), zone.region) > 0 &&
-         effect.band.from <= zone.band.from && zone.band.to <= effect.band.to;
+         effect.band.from <= zone.band.from && zone.band.to <= effect.band.to &&
+         (effect.band.toward.empty() || effect.band.toward == zone.band.toward);
 }
 
 }  // namespace tether

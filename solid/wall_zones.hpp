@@ -7,7 +7,8 @@
 
 namespace tether {
 
-/// A part of the outer wall that is alike: one region, between two places along the vessel.
+/// A part of the outer wall that is alike: of one region, between two places along the vessel, toward a neighbour or
+/// none that an effect names.
 struct WallZone {
   Patch patch;
   int region;  ///< number of the outer wall's patch
@@ -15,7 +16,7 @@ struct WallZone {
 };
 
 /// The regions, cut where an effect of theirs begins or ends. along: a number at each node that grows along the vessel
-/// from 0 to 1 (S.15); may be empty if no effect has a band.
+/// from 0 to 1 (S.15); may be empty if no effect begins or ends along it.
 std::vector<WallZone> wall_zones(const WallMesh& mesh, const std::vector<LocalEffect>& effects, const VectorXd& along);
 
 /// Whether the effect acts there.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "common/base/error.hpp"
+#include "common/mesh/topology.hpp"
+#include "common/mesh/triangle_locator.hpp"
 #include "vessel/anatomy/cut.hpp"
 
 namespace tether {
@@ -61,6 +64,47 @@ std::vector<std::vector<TrianglePart>> divided(const Triangle& triangle, const s
   return result;
 }
 
+const Patch& region_named(const std::string& name, const std::vector<Patch>& regions) {
+  const auto found =
+      std::find_if(regions.begin(), regions.end(), [&](const Patch& patch) { return patch.name == name; });
+  TETHER_ASSERT(found != regions.end(), "no region {}", name);
+  return *found;
+}
+
+/// Of which a patch has a part.
+std::set<Triangle> triangles_of(const Patch& patch) {
+  std::set<Triangle> triangles;
+  for (const TrianglePart& part : parts_of(patch)) triangles.insert(part.of);
+  return triangles;
+}
+
+std::set<Edge> edges_of(const std::set<Triangle>& triangles) {
+  std::set<Edge> edges;
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) edges.insert({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+  return edges;
+}
+
+template <class T>
+bool shares_one(const std::set<T>& some, const std::set<T>& others) {
+  return std::any_of(some.begin(), some.end(), [&](const T& one) { return others.count(one) > 0; });
+}
+
+/// Of all that the patches have, exactly.
+TriangleLocator locator_of(const std::vector<const Patch*>& patches, const Points& points) {
+  std::vector<TrianglePart> parts;
+  for (const Patch* patch : patches)
+    for (const TrianglePart& part : parts_of(*patch)) parts.push_back(part);
+  Points corners(3, 3 * static_cast<Eigen::Index>(parts.size()));
+  std::vector<Triangle> triangles;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto first = 3 * static_cast<int>(k);
+    corners.middleCols<3>(first) = points(Eigen::all, parts[k].of) * parts[k].corners;
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  return {std::move(corners), std::move(triangles)};
+}
+
 }  // namespace
 
 std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, const std::vector<WallRegion>& regions,
@@ -97,6 +141,35 @@ Patch part_between(const Patch& patch, const VectorXd& function, double from, do
     if (const auto own = shares.find(triangle); own != shares.end() && own->second >= 0.5)
       part.triangles.push_back(triangle);
   return part;
+}
+
+std::vector<std::string> neighbours_of(const std::string& region, const std::vector<Patch>& regions) {
+  const Patch& own = region_named(region, regions);
+  const std::set<Triangle> triangles = triangles_of(own);
+  const std::set<Edge> edges = edges_of(triangles);
+  std::vector<std::string> names;
+  for (const Patch& other : regions) {
+    if (&other == &own) continue;
+    const std::set<Triangle> theirs = triangles_of(other);
+    if (shares_one(triangles, theirs) || shares_one(edges, edges_of(theirs))) names.push_back(other.name);
+  }
+  return names;
+}
+
+VectorXd nearness(const std::string& neighbour, const std::string& region, const std::vector<Patch>& regions,
+                  const Points& points) {
+  std::vector<const Patch*> others;
+  for (const std::string& name : neighbours_of(region, regions))
+    if (name != neighbour) others.push_back(&region_named(name, regions));
+  const TriangleLocator there = locator_of({&region_named(neighbour, regions)}, points),
+                        elsewhere = locator_of(others, points);
+  VectorXd result = VectorXd::Zero(points.cols());
+  for (const Triangle& triangle : triangles_of(region_named(region, regions)))
+    for (const int node : triangle) {
+      const double near = there.nearest(points.col(node)).distance, far = elsewhere.nearest(points.col(node)).distance;
+      result[node] = far + near > 0 ? (far - near) / (far + near) : 0;
+    }
+  return result;
 }
 
 }  // namespace tether

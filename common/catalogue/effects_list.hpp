@@ -50,6 +50,7 @@ struct PossibleEffect {
     field("required", self.required, "parameters that must be given for it");
     field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
     field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
+    field("toward", self.band.toward, "of the region what is nearer to this neighbour than to others; empty: all");
     field("path", self.path, "of what it replaces in the case; empty: it is added to solid.effects");
   }
 };
@@ -70,6 +71,7 @@ struct PresentEffect {
     field("variant_of", self.variant_of, "the effect that it is a special shape of; empty: of none");
     field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
     field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
+    field("toward", self.band.toward, "of the region what is nearer to this neighbour than to others; empty: all");
   }
 };
 

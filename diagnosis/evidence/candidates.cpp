@@ -185,6 +185,7 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
 void add_band(Overlay& overlay, const PlacedEffect& effect) {
   if (effect.band.from > 0) overlay.values.push_back({effect.path + ".from", number_text(effect.band.from)});
   if (effect.band.to < 1) overlay.values.push_back({effect.path + ".to", number_text(effect.band.to)});
+  if (!effect.band.toward.empty()) overlay.values.push_back({effect.path + ".toward", effect.band.toward});
 }
 
 void add_model_changes(EffectProblem& problem, const ModelChanges& changes, const std::vector<PlacedEffect>& effects,

@@ -7,8 +7,10 @@
 #include "solid/case.hpp"
 #include "solid/list_effects.hpp"
 #include "solid/server.hpp"
+#include "solid/solid_solver.hpp"
 #include "tests/config/case_text.hpp"
 #include "tests/solid/tube.hpp"
+#include "vessel/sweep.hpp"
 
 namespace tether {
 namespace {
@@ -93,6 +95,12 @@ TEST(EffectsOfACase, AClampedRingGoesWithTissueThatMoves) {
   EXPECT_EQ(anchor.at(0).offset.norm(), 0);
   EXPECT_LT((anchor.at(0.4).offset - Vec3(0, 0, -0.6)).norm(), 1e-12) << "half a beat: cos - 1 = -2";
   EXPECT_LT((anchor.at(0.5).offset - Vec3(-0.1, 0, 0.3 * (std::cos(1.25 * std::numbers::pi) - 1))).norm(), 1e-12);
+  SolidSolver solver(model);
+  solver.begin_step(0, 0.1);
+  solver.evaluate(Points::Zero(3, model.mesh().interface_nodes));
+  solver.accept();
+  for (const int node : model.driven()[0].nodes)
+    EXPECT_LT((solver.displacement().col(node) - anchor.at(0.1).offset).norm(), 1e-14);
 }
 
 TEST(EffectsOfACase, ALoosenedRingIsPulledByItsTissueAndDrivenNoMore) {
@@ -177,6 +185,79 @@ TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
       error("{type: loose_ring, region: inlet_ring, to: 0.5}").find("are of what acts in regions of the outer wall"),
       std::string::npos);
   EXPECT_NE(error("{type: contact, region: wall, from: 0.5, to: 0.5}").find("must be beyond 'from'"),
+            std::string::npos);
+}
+
+/// A tube whose outer wall is divided around: spine, left, right and the rest.
+WallMesh divided_tube() {
+  SweepSettings settings = circular_tube_settings(2, 4, 0.2, 16, 6);
+  settings.regions = {{"spine", 150, 210}, {"left", 105, 150}, {"right", 210, 255}, {"wall"}};
+  return sweep(settings).wall;
+}
+
+PreparedWall divided_wall_with(const std::string& effects) {
+  const auto path = write_file("case.yaml", valid_head + wall_text + effects);
+  CaseFile file(path);
+  SolidCase solid;
+  file.read("solid", solid);
+  file.finish();
+  return prepare_wall(solid, divided_tube(), file);
+}
+
+TEST(EffectsOfACase, ASupportActsOnWhatIsNearerToANeighbour) {
+  const auto force = [](const std::string& more) {
+    const PreparedWall wall =
+        divided_wall_with("  effects: {e: {type: visco_elastic, region: spine, stiffness: 1e5" + more + "}}\n");
+    const Points moved = Points::Constant(3, wall.model->mesh().points.cols(), 0.01),
+                 still = Points::Zero(3, moved.cols());
+    return wall.model->supports()[2].resultant({moved, still, 0, 1e-3})[0];
+  };
+  const double all = force(""), left = force(", toward: left"), right = force(", toward: right");
+  EXPECT_NEAR(left / all, 0.5, 1e-9) << "the mesh is the same on both sides";
+  EXPECT_NEAR((left + right) / all, 1, 1e-9);
+  EXPECT_NEAR(force(", toward: left, from: 0.5") / all, 0.25, 1e-9);
+}
+
+/// Of the whole wall's stiffness matrix, what a stiffer part adds is what its two parts add.
+TEST(EffectsOfACase, TheWallDiffersInWhatIsNearerToANeighbour) {
+  const auto energy = [](const std::string& more) {
+    const PreparedWall wall =
+        divided_wall_with("  effects: {e: {type: stiffness_factor, region: spine, factor: 3" + more + "}}\n");
+    Points moved = wall.model->mesh().points;
+    moved.row(2).setZero();
+    moved *= 1e-3;  // wider all around
+    const Points still = Points::Zero(3, moved.cols());
+    const VectorXd force = wall.model->step_forces(moved, still, still, 0, 1e-3, nullptr);
+    return force.dot(moved.reshaped());
+  };
+  const double none = energy(", from: 0.5, to: 0.5001"), all = energy("") - none,
+               left = energy(", toward: left") - none, right = energy(", toward: right") - none;
+  EXPECT_GT(all, 0);
+  EXPECT_NEAR(left / all, 0.5, 0.002);
+  EXPECT_NEAR((left + right) / all, 1, 0.002);
+}
+
+TEST(EffectsOfACase, PartsOfARegionAreOfferedTowardEachNeighbour) {
+  const auto path = write_file("case.yaml", valid_head + wall_text);
+  CaseFile file(path);
+  SolidCase solid;
+  file.read("solid", solid);
+  std::vector<std::string> parts;
+  for (const PossibleEffect& e : list_effects(solid, divided_tube(), file.units()).possible)
+    if (e.type == "contact" && e.part == "spine") parts.push_back(in_words(e.band));
+  EXPECT_EQ(parts, (std::vector<std::string>{"", "inlet half", "outlet half", "toward left", "toward right"}));
+}
+
+TEST(EffectsOfACase, ANeighbourThatIsNoneIsRefused) {
+  const auto error = [](const std::string& text) {
+    return input_error_of([&] { divided_wall_with("  effects:\n    e: {type: contact, " + text + "}\n"); });
+  };
+  EXPECT_NE(error("region: spine, toward: wall").find("solid.effects.e.toward: wall: is not beside spine; there are "
+                                                      "left, right"),
+            std::string::npos)
+      << error("region: spine, toward: wall");
+  EXPECT_NE(error("toward: left").find("needs 'region'"), std::string::npos);
+  EXPECT_NE(error("region: inlet_ring, toward: left").find("of what acts in regions of the outer wall"),
             std::string::npos);
 }
 

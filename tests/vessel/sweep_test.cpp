@@ -10,6 +10,7 @@
 #include "tests/mesh/mesh_assertions.hpp"
 #include "vessel/polar_curve.hpp"
 #include "vessel/quality.hpp"
+#include "vessel/regions.hpp"
 
 namespace tether {
 namespace sweep_test {
@@ -125,6 +126,22 @@ TEST(SweepRegions, areas_do_not_depend_on_the_mesh) {
     EXPECT_NEAR(shares[1] / whole, around_zero, 1e-10);
     EXPECT_NEAR(shares[2] / whole, vicinity, 1e-10);
     EXPECT_NEAR(shares[3] / whole, 1 - of_spine - around_zero - vicinity, 1e-10);
+  }
+}
+
+/// Where a region is nearer to one neighbour than to the others does not depend on the mesh either: with two neighbours
+/// the half, with four what is nearest.
+TEST(SweepRegions, what_is_nearer_to_a_neighbour_does_not_depend_on_the_mesh) {
+  for (const auto& [around, along] : {std::pair{16, 13}, {22, 18}, {38, 31}}) {
+    SweepSettings settings = circular_tube_settings(2, 10, 0.2, around, along);
+    settings.regions = {{"spine", 150, 217}, {"left", 105, 150}, {"right", 217, 255}, {"opposite"}};
+    const WallMesh wall = sweep(settings).wall;
+    EXPECT_EQ(neighbours_of("spine", wall.outside), (std::vector<std::string>{"left", "right"}));
+    const VectorXd near = nearness("left", "spine", wall.outside, wall.points);
+    const double all = area_of(wall.points, wall.outside[0]),
+                 half = area_of(wall.points, part_between(wall.outside[0], near, 0, 1));
+    EXPECT_NEAR(half / all, 0.5, 0.005) << around;
+    EXPECT_NEAR(area_of(wall.points, part_between(wall.outside[0], near, -1, 0)), all - half, 1e-9);
   }
 }
 
