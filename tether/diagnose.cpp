@@ -7,6 +7,7 @@
 #include "diagnosis/evidence/living_runs.hpp"
 #include "diagnosis/explanation/interruption.hpp"
 #include "diagnosis/search/diagnosis_text.hpp"
+#include "diagnosis/search/misfit_drawing.hpp"
 #include "diagnosis/search/suggested_case.hpp"
 #include "tether/diagnosed.hpp"
 #include "tether/verbs.hpp"
@@ -64,9 +65,10 @@ std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis
   return text;
 }
 
-/// What the case lacks, by runs of the programs: diagnosis.json, suggested.yaml, corrected.yaml in `output`.
+/// What the case lacks, by runs of the programs: diagnosis.json, suggested.yaml, corrected.yaml in `output`, and
+/// pictures.
 Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, const fs::path& output,
-                    const DiagnosisSettings& settings) {
+                    const DiagnosisSettings& settings, std::vector<std::string>& pictures) {
   const fs::path candidates = output / "candidates.yaml";
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   write_candidates(candidates, given.file, given.data, effects);
@@ -82,6 +84,8 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   if (write_suggested(output / "suggested.yaml", given, report, effects)) report.suggested = "suggested.yaml";
   Diagnosis diagnosis = diagnosis_of(report);
   write_record(output / "diagnosis.json", diagnosis);
+  pictures = draw_ranking(diagnosis, output);
+  for (std::string& name : draw_misfit(given.lumen, report, output)) pictures.push_back(std::move(name));
   return diagnosis;
 }
 
@@ -93,8 +97,8 @@ Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSett
   const fs::path output = fs::absolute(claim_output(command, given.file));
   fs::remove(output / "diagnosis.json");
   mark_output(output, command.case_file);
-  Diagnosis diagnosis = diagnosed(given, command, output, settings);
-  const auto pictures = draw_ranking(diagnosis, output);
+  std::vector<std::string> pictures;
+  Diagnosis diagnosis = diagnosed(given, command, output, settings, pictures);
   std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);
   return {std::move(diagnosis), std::move(told)};
 }

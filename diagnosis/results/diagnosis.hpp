@@ -9,6 +9,7 @@
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
+#include "diagnosis/results/located_misfit.hpp"
 #include "diagnosis/results/noise.hpp"
 #include "diagnosis/results/probability_table.hpp"
 #include "diagnosis/results/published.hpp"
@@ -103,6 +104,7 @@ struct Diagnosis {
   std::optional<Gain> held_out;
   std::vector<Detectable> detectable;
   LackOfFitChange lack_of_fit;
+  LocatedMisfits located;
   std::vector<StrainedError> strained_errors;
   std::vector<NoiseCheck> noise;
   bool more = false;
@@ -130,6 +132,7 @@ struct Diagnosis {
     field("held_out", self.held_out, "on held-out data, by all that was accepted");
     field("detectable", self.detectable, "per candidate, in the order of `effects`");
     field("lack_of_fit", self.lack_of_fit, "of the model as it is, and with what was accepted");
+    field("located", self.located, "where on the wall the misfit is largest, whatever the regions");
     field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
     field("noise", self.noise, "what the case states of it, held against what the accepted model leaves, by source");
     field("more", self.more, "another effect is wanted, but no more were to be added");

@@ -151,6 +151,21 @@ void add_variants(std::vector<std::string>& all, const Diagnosis& diagnosis) {
     if (finding.rival) all.push_back(fmt::format("These data cannot tell it from its variant {}", text_of(finding)));
 }
 
+/// Where on the wall what is left is largest, if that is beyond chance.
+void add_place_of_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const auto& located = diagnosis.located.after;
+  if (!located || located->p > diagnosis.alpha / 5) return;
+  std::vector<std::string> regions;
+  for (const PatchShare& share : located->regions) regions.push_back(share.region);
+  all.push_back(fmt::format(
+      "What is left is largest within {:.2g} {} of ({:.3g}, {:.3g}, {:.3g}), known to {:.2g} {}, in {}: the data lie up "
+      "to {:.2g} {} {} the model there, at {:.3g} s{}",
+      located->radius, located->unit, located->centre[0], located->centre[1], located->centre[2], located->resolution,
+      located->unit, fmt::join(regions, ", "), std::abs(located->amount), located->unit,
+      located->amount > 0 ? "outside" : "inside", located->time,
+      regions.size() > 1 ? "; a region of its own there would let an effect act on just that" : ""));
+}
+
 void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const Verdict verdict = diagnosis.verdict;
   const auto& after = diagnosis.lack_of_fit.after;
@@ -159,6 +174,7 @@ void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis)
   if (!diagnosis.strained_errors.empty() && !any_accepted(diagnosis)) all.push_back(strained_sentence(diagnosis));
   if (verdict == Verdict::undecided && diagnosis.doubtful && after)
     all.push_back(fmt::format("Farthest off: {}", where_left(*after)));
+  add_place_of_what_is_left(all, diagnosis);
 }
 
 void add_noise(std::vector<std::string>& all, const Diagnosis& diagnosis) {

@@ -5,6 +5,7 @@
 #include "diagnosis/noise/noise_of_evidence.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
+#include "diagnosis/search/misfit_map.hpp"
 #include "diagnosis/search/published_models.hpp"
 #include "diagnosis/search/trials.hpp"
 
@@ -87,6 +88,18 @@ std::vector<NoiseCheck> noise_left(const VectorXd& accepted, const Evidence& evi
   return noise_checks(evidence, as_data, left, as_data.changes(Eigen::all, moved));
 }
 
+/// Where on the wall data and model differ, of the model as it is and with what was accepted.
+void locate_misfit(DiagnosisReport& report, const DiagnosedCase& given, const Evidence& evidence,
+                   const Whitening& whitening) {
+  const TimeCase& time = given.file.common().time;
+  const MisfitMap map(evidence, whitening, report.problem, time.start, time.end);
+  report.located = {map.worst(report.problem.residual), map.worst(report.found.residual)};
+  for (auto* misfit : {&report.located.before, &report.located.after})
+    if (misfit->has_value()) (*misfit)->unit = given.file.units().symbol(dimension::length);
+  if (report.located.after)
+    report.misfit_map = map.significance(given.lumen.points, report.located.after->radius, report.found.residual);
+}
+
 /// The model as it is. Throws RunError if it does not come to its end.
 FinishedMotion base_of(ModelRuns& runs) {
   FinishedMotion base = runs.make({base_run()}).front();
@@ -148,6 +161,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   }
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing);
+  locate_misfit(report, given, evidence, whitening);
   report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
   report.published = published_models(given, evidence, report, trials, base, model.runs);

@@ -172,6 +172,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.look_alike = found.cosines;
   d.held_out = found.held_out;
   d.lack_of_fit = {lack_of(problem, found.before), lack_of(problem, found.after)};
+  d.located = report.located;
   d.strained_errors = found.strained;
   d.noise = report.noise;
   d.more = found.more;

@@ -15,6 +15,8 @@ struct DiagnosisReport {
   std::vector<PublishedQuantities> published;  ///< what it changes
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
   std::vector<NoiseCheck> noise;
+  LocatedMisfits located;
+  VectorXd misfit_map;  ///< z of patches about the nodes of the lumen, of what is left; empty: no data lie on it
   double alpha = 0.05;
   std::vector<NoiseFactor> noise_factors;
   DiagnosisCost cost;

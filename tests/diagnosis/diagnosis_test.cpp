@@ -171,6 +171,34 @@ TEST(Diagnosis, SaysInWhichPartOfItsPlaceAnEffectActs) {
   for (const std::string& run : runs.made) EXPECT_EQ(run.find("left_"), std::string::npos) << run;
 }
 
+/// Across the border of two regions, where no effect of the catalogue acts.
+TEST(Diagnosis, SaysWhereAMisfitIsThatNoRegionHolds) {
+  const TemporaryFolder folder;
+  const DiagnosedCase given(written_in(folder, "dent"));
+  FakeRuns runs(given.lumen, regions);
+  const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs});
+  ASSERT_TRUE(found.located.before.has_value());
+  const LocatedMisfit& dent = *found.located.before;
+  const double element = 0.65;
+  EXPECT_LT((dent.centre - FakeRuns::dent).norm(), element);
+  EXPECT_LT(dent.p, 1e-6);
+  EXPECT_LT(dent.resolution, 2 * element);
+  EXPECT_NEAR(dent.amount, -0.04, 0.015) << "four fifths of half a millimetre";
+  EXPECT_NEAR(dent.time, 0.4, 0.11);
+  EXPECT_EQ(dent.unit, "cm");
+  ASSERT_EQ(dent.regions.size(), 2U);
+  EXPECT_NEAR(dent.regions[0].share + dent.regions[1].share, 1, 0.1);
+  EXPECT_EQ(found.misfit_map.size(), given.lumen.points.cols());
+}
+
+TEST(Diagnosis, LocatesNothingWhereNothingIsOff) {
+  const TemporaryFolder folder;
+  const DiagnosedCase given(written_in(folder, "nowhere"));
+  FakeRuns runs(given.lumen, regions);
+  const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs});
+  EXPECT_TRUE(!found.located.after.has_value() || found.located.after->p > 0.5);
+}
+
 /// A coarser model tells what numbers do to first order; what is named is run with the model, and has its amplitude.
 TEST_F(WholeDiagnosis, NeedsTheModelItselfOnlyForWhatIsProbable) {
   FakeRuns coarse(given.lumen, regions);

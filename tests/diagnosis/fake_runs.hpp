@@ -36,10 +36,15 @@ struct FakeRuns : ModelRuns {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       double moved = 0.2;  // cm
       for (std::size_t k = 0; k < values.names.size(); ++k)
-        if (acts_at(values.names[k], i)) moved -= 0.05 * strength * values.values[k];
+        moved -= 0.05 * strength * values.values[k] * share_at(values.names[k], i);
       x.col(i).head<2>() += beat * moved * lumen.points.col(i).head<2>().normalized();
     }
     return x;
+  }
+  /// A dent about a place that no region is drawn for acts as a bump, 8 mm wide.
+  double share_at(const std::string& name, Eigen::Index node) const {
+    if (name.find("dent") == std::string::npos) return acts_at(name, node) ? 1 : 0;
+    return std::exp(-(lumen.points.col(node) - dent).squaredNorm() / (2 * 0.8 * 0.8));
   }
   bool acts_at(const std::string& name, Eigen::Index node) const {
     const auto has = [&](const std::string& word) { return name.find(word) != std::string::npos; };
@@ -59,6 +64,7 @@ struct FakeRuns : ModelRuns {
     return {{0, 0.4, 0.8}, {100, 100 * (1 + grown), 100}, "cm3"};
   }
 
+  static inline const Vec3 dent{-1, std::sqrt(3.0), 6};
   const LumenSurface& lumen;
   double strength = 1;  ///< of the springs: a coarser model's are not quite the model's
   std::vector<protocol::ParameterInfo> infos;
