@@ -12,8 +12,8 @@ AffineDisplacement Anchor::at(double time) const {
 }
 
 bool Anchor::moves() const {
-  return motion || std::any_of(tissues.begin(), tissues.end(),
-                               [](const auto& tissue) { return !tissue->motion.is_absent(); });
+  return motion ||
+         std::any_of(tissues.begin(), tissues.end(), [](const auto& tissue) { return !tissue->motion.is_absent(); });
 }
 
 }  // namespace tether

@@ -132,8 +132,9 @@ void check_neighbour(const WallEffectCase& block, const WallMesh& mesh, const st
   if (block.region.empty()) throw input_error("{}: needs 'region': the whole outer wall has no neighbours", where);
   const std::vector<std::string> neighbours = neighbours_of(block.region, mesh.outside);
   if (std::find(neighbours.begin(), neighbours.end(), block.band.toward) == neighbours.end())
-    throw input_error("{}: {}: is not beside {}; there {}", where, block.band.toward, block.region,
-                      neighbours.empty() ? "is no other region" : "are " + fmt::format("{}", fmt::join(neighbours, ", ")));
+    throw input_error(
+        "{}: {}: is not beside {}; there {}", where, block.band.toward, block.region,
+        neighbours.empty() ? "is no other region" : "are " + fmt::format("{}", fmt::join(neighbours, ", ")));
   if (neighbours.size() < 2)
     throw input_error("{}: {}: all of {} is nearest to it, its only neighbour", where, block.band.toward, block.region);
 }
@@ -224,7 +225,8 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
     if (is_of(wall_effects(), block.effect.type) && on_ring)
       throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
     if (!block.band.is_all() && (on_ring || is_of(motions(), block.effect.type)))
-      throw input_error("{}: 'from', 'to' and 'toward' are of what acts in regions of the outer wall", file.where(path));
+      throw input_error("{}: 'from', 'to' and 'toward' are of what acts in regions of the outer wall",
+                        file.where(path));
     if (!block.band.toward.empty()) check_neighbour(block, mesh, file.where(path + ".toward"));
     if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
   }

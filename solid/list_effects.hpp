@@ -1,8 +1,8 @@
 #pragma once
 
+#include "common/catalogue/effects_list.hpp"
 #include "common/config/case_file.hpp"
 #include "solid/case.hpp"
-#include "common/catalogue/effects_list.hpp"
 
 namespace tether {
 

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/catalogue/effects_list.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/results/compared_wall.hpp"
 #include "diagnosis/results/comparison.hpp"
@@ -14,7 +15,6 @@
 #include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/results/made_run.hpp"
-#include "common/catalogue/effects_list.hpp"
 #include "solid/results/rest_state.hpp"
 #include "twin/score.hpp"
 #include "vessel/model/model_quality.hpp"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/base/effect.hpp"
-#include "common/io/record.hpp"
 #include "common/catalogue/band.hpp"
+#include "common/io/record.hpp"
 
 namespace tether {
 

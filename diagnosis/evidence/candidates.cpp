@@ -5,12 +5,12 @@
 #include <set>
 
 #include "common/base/error.hpp"
+#include "common/catalogue/effects_list.hpp"
 #include "common/config/overlay.hpp"
 #include "common/config/rules.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
-#include "common/catalogue/effects_list.hpp"
 
 namespace tether {
 namespace {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "common/catalogue/band.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/overlay.hpp"
 #include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
 #include "diagnosis/evidence/sensitivities.hpp"
-#include "common/catalogue/band.hpp"
 
 namespace tether {
 

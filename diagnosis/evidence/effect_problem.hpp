@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "common/base/effect.hpp"
+#include "common/catalogue/band.hpp"
 #include "diagnosis/evidence/scores.hpp"
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
-#include "common/catalogue/band.hpp"
 
 namespace tether {
 

@@ -157,13 +157,14 @@ void add_place_of_what_is_left(std::vector<std::string>& all, const Diagnosis& d
   if (!located || located->p > diagnosis.alpha / 5) return;
   std::vector<std::string> regions;
   for (const PatchShare& share : located->regions) regions.push_back(share.region);
-  all.push_back(fmt::format(
-      "What is left is largest within {:.2g} {} of ({:.3g}, {:.3g}, {:.3g}), known to {:.2g} {}, in {}: the data lie up "
-      "to {:.2g} {} {} the model there, at {:.3g} s{}",
-      located->radius, located->unit, located->centre[0], located->centre[1], located->centre[2], located->resolution,
-      located->unit, fmt::join(regions, ", "), std::abs(located->amount), located->unit,
-      located->amount > 0 ? "outside" : "inside", located->time,
-      regions.size() > 1 ? "; a region of its own there would let an effect act on just that" : ""));
+  all.push_back(
+      fmt::format("What is left is largest within {:.2g} {} of ({:.3g}, {:.3g}, {:.3g}), known to {:.2g} {}, in {}: "
+                  "the data lie up "
+                  "to {:.2g} {} {} the model there, at {:.3g} s{}",
+                  located->radius, located->unit, located->centre[0], located->centre[1], located->centre[2],
+                  located->resolution, located->unit, fmt::join(regions, ", "), std::abs(located->amount),
+                  located->unit, located->amount > 0 ? "outside" : "inside", located->time,
+                  regions.size() > 1 ? "; a region of its own there would let an effect act on just that" : ""));
 }
 
 void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {

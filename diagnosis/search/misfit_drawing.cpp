@@ -40,8 +40,7 @@ std::vector<std::string> draw_misfit(const LumenSurface& lumen, const DiagnosisR
                                      const std::filesystem::path& output) {
   if (report.misfit_map.size() == 0) return {};
   const std::filesystem::path file = output / "misfit.vtu", circle = output / "misfit_patch.vtp";
-  write_vtu(file, lumen.points, {.triangles = lumen.triangles},
-            {Field::scalars("significance", report.misfit_map)});
+  write_vtu(file, lumen.points, {.triangles = lumen.triangles}, {Field::scalars("significance", report.misfit_map)});
   write_vtp(circle, std::vector<Points>{circle_on(lumen, *report.located.after)});
   const bool is_drawn =
       has_display_server() && draw_picture(file, output / "plots/misfit.png",

@@ -18,9 +18,9 @@ using Index = Eigen::Index;
 constexpr Index centres = 60, finer_centres = 240;
 constexpr std::array sizes{1.0, 2.0, 4.0};  ///< radii, in the length over which errors are alike
 constexpr int per_patch = 3;                ///< amplitudes
-constexpr double within = 5.99;             ///< gain that 95 % of the possible centres are within: chi-square, two numbers
-constexpr double unseen = 1e-9;             ///< information of one amplitude over that of another
-constexpr double noteworthy = 0.1;          ///< share of a patch
+constexpr double within = 5.99;     ///< gain that 95 % of the possible centres are within: chi-square, two numbers
+constexpr double unseen = 1e-9;     ///< information of one amplitude over that of another
+constexpr double noteworthy = 0.1;  ///< share of a patch
 
 /// So many of the points, each as far as can be from those before.
 Points spread(const Points& points, Index count) {
@@ -134,7 +134,8 @@ std::optional<LocatedMisfit> MisfitMap::worst(const VectorXd& left) const {
   for (Index k = 0; k < finer.cols(); ++k)
     if (gains(k) > best.gain - within)
       found.resolution = std::max(found.resolution, (finer.col(k) - found.centre).norm());
-  const auto tried = static_cast<double>(finer.cols()) + static_cast<double>(sizes.size()) * static_cast<double>(about.cols());
+  const auto tried =
+      static_cast<double>(finer.cols()) + static_cast<double>(sizes.size()) * static_cast<double>(about.cols());
   found.z = significance_of(best.gain);
   found.p = std::min(1.0, tried * chi_square_tail(best.gain, per_patch));
   set_greatest(found, best.amplitudes);

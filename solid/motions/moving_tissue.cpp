@@ -18,15 +18,15 @@ std::vector<Parameter> parameters() {
   for (const char* axis : {"x", "y", "z"})
     for (const char* wave : {"1", "2"})
       for (const char* part : {"cosine", "sine"})
-        list.push_back({.name = std::string(axis) + "_" + part + "_" + wave,
-                        .meaning = std::string("way of the tissue along ") + axis + ", times the " + part +
-                                   " of harmonic " + wave,
-                        .dimension = dimension::length,
-                        .range = range::any,
-                        .standard = 0.0,
-                        .absent = 0.0,
-                        .transform = Transform::linear,
-                        .prior_deviation = 2e-3});
+        list.push_back(
+            {.name = std::string(axis) + "_" + part + "_" + wave,
+             .meaning = std::string("way of the tissue along ") + axis + ", times the " + part + " of harmonic " + wave,
+             .dimension = dimension::length,
+             .range = range::any,
+             .standard = 0.0,
+             .absent = 0.0,
+             .transform = Transform::linear,
+             .prior_deviation = 2e-3});
   add_timing(list);
   return list;
 }

@@ -81,8 +81,7 @@ TEST(EffectsOfACase, MotionTiesWhatHoldsTheWallThere) {
 }
 
 TEST(EffectsOfACase, AClampedRingGoesWithTissueThatMoves) {
-  const PreparedWall wall =
-      wall_with("  effects: {heart: {type: moving_tissue, region: inlet_ring, period: 0.8}}\n");
+  const PreparedWall wall = wall_with("  effects: {heart: {type: moving_tissue, region: inlet_ring, period: 0.8}}\n");
   WallModel& model = *wall.model;
   EXPECT_TRUE(model.driven().empty()) << "absent, it is a clamp";
   const auto clamped = model.clamped_unknowns();
@@ -172,10 +171,11 @@ TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(error("{type: loose_ring, region: wall}").find("end ring"), std::string::npos);
   EXPECT_NE(error("{type: contract}").find("did you mean 'contact'"), std::string::npos);
   EXPECT_NE(error("{type: measured_motion}").find("needs a section 'motion'"), std::string::npos);
-  EXPECT_NE(input_error_of([] {
-              wall_with("    inlet_ring: {type: free}\n  effects: {e: {type: breathing, region: inlet_ring, period: 4}}\n");
-            }).find("nothing holds the wall there"),
-            std::string::npos);
+  EXPECT_NE(
+      input_error_of([] {
+        wall_with("    inlet_ring: {type: free}\n  effects: {e: {type: breathing, region: inlet_ring, period: 4}}\n");
+      }).find("nothing holds the wall there"),
+      std::string::npos);
   EXPECT_NE(error("{type: stiffening, cubic: -1}").find("must not be negative"), std::string::npos);
   EXPECT_NE(error("{type: expression, normal: -k*un}").find("case.yaml:13: solid.effects.e"), std::string::npos);
   EXPECT_NE(error("{type: expression}").find("needs 'normal'"), std::string::npos);
@@ -252,8 +252,9 @@ TEST(EffectsOfACase, ANeighbourThatIsNoneIsRefused) {
   const auto error = [](const std::string& text) {
     return input_error_of([&] { divided_wall_with("  effects:\n    e: {type: contact, " + text + "}\n"); });
   };
-  EXPECT_NE(error("region: spine, toward: wall").find("solid.effects.e.toward: wall: is not beside spine; there are "
-                                                      "left, right"),
+  EXPECT_NE(error("region: spine, toward: wall")
+                .find("solid.effects.e.toward: wall: is not beside spine; there are "
+                      "left, right"),
             std::string::npos)
       << error("region: spine, toward: wall");
   EXPECT_NE(error("toward: left").find("needs 'region'"), std::string::npos);
