@@ -128,9 +128,10 @@ Configured<Support> configured(const ExpressionCase& given, const WallMesh& mesh
 }
 
 /// Throws InputError that begins with `where`.
-void check_neighbour(const WallEffectCase& block, const WallMesh& mesh, const std::string& where) {
+void check_neighbour(const WallEffectCase& block, const Neighbours& all, const std::string& where) {
   if (block.region.empty()) throw input_error("{}: needs 'region': the whole outer wall has no neighbours", where);
-  const std::vector<std::string> neighbours = neighbours_of(block.region, mesh.outside);
+  const auto known = all.find(block.region);
+  const std::vector<std::string> neighbours = known == all.end() ? std::vector<std::string>() : known->second;
   if (std::find(neighbours.begin(), neighbours.end(), block.band.toward) == neighbours.end())
     throw input_error(
         "{}: {}: is not beside {}; there {}", where, block.band.toward, block.region,
@@ -214,6 +215,7 @@ void WallEffectCase::declare(Fields& f) {
 }
 
 void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file) {
+  const Neighbours neighbours = neighbours_of(mesh.outside);
   for (const auto& [name, block] : effects) {
     const std::string path = "solid.effects." + name;
     const bool on_ring = find_patch(mesh.rings, block.region) != nullptr;
@@ -227,7 +229,7 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
     if (!block.band.is_all() && (on_ring || is_of(motions(), block.effect.type)))
       throw input_error("{}: 'from', 'to' and 'toward' are of what acts in regions of the outer wall",
                         file.where(path));
-    if (!block.band.toward.empty()) check_neighbour(block, mesh, file.where(path + ".toward"));
+    if (!block.band.toward.empty()) check_neighbour(block, neighbours, file.where(path + ".toward"));
     if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
   }
 }

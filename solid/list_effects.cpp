@@ -76,13 +76,11 @@ std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidC
 }
 
 /// The half toward the first ring, that toward the others, and what is nearer to each of a region's neighbours.
-std::vector<Band> parts_of_place(const std::string& part, const WallMesh& mesh) {
+std::vector<Band> parts_of_place(const std::string& part, const WallMesh& mesh, const Neighbours& neighbours) {
   std::vector<Band> parts;
   if (mesh.rings.size() >= 2) parts = {{0, 0.5}, {0.5, 1}};
-  if (part.empty()) return parts;
-  const std::vector<std::string> neighbours = neighbours_of(part, mesh.outside);
-  if (neighbours.size() >= 2)
-    for (const std::string& neighbour : neighbours) parts.push_back({0, 1, neighbour});
+  if (const auto own = neighbours.find(part); own != neighbours.end() && own->second.size() >= 2)
+    for (const std::string& neighbour : own->second) parts.push_back({0, 1, neighbour});
   return parts;
 }
 
@@ -111,10 +109,11 @@ EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const Uni
     possible.band = band;
     list.possible.push_back(std::move(possible));
   };
+  const Neighbours neighbours = neighbours_of(mesh.outside);
   for (const EffectDeclaration* effect : catalogue()) {
     for (const std::string& part : parts_for(*effect, solid, mesh)) add(*effect, part, {});
     for (const std::string& part : divided_for(*effect, mesh))
-      for (const Band& band : parts_of_place(part, mesh)) add(*effect, part, band);
+      for (const Band& band : parts_of_place(part, mesh, neighbours)) add(*effect, part, band);
   }
   return list;
 }

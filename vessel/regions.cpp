@@ -78,18 +78,6 @@ std::set<Triangle> triangles_of(const Patch& patch) {
   return triangles;
 }
 
-std::set<Edge> edges_of(const std::set<Triangle>& triangles) {
-  std::set<Edge> edges;
-  for (const Triangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i) edges.insert({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
-  return edges;
-}
-
-template <class T>
-bool shares_one(const std::set<T>& some, const std::set<T>& others) {
-  return std::any_of(some.begin(), some.end(), [&](const T& one) { return others.count(one) > 0; });
-}
-
 /// Of all that the patches have, exactly.
 TriangleLocator locator_of(const std::vector<const Patch*>& patches, const Points& points) {
   std::vector<TrianglePart> parts;
@@ -143,23 +131,25 @@ Patch part_between(const Patch& patch, const VectorXd& function, double from, do
   return part;
 }
 
-std::vector<std::string> neighbours_of(const std::string& region, const std::vector<Patch>& regions) {
-  const Patch& own = region_named(region, regions);
-  const std::set<Triangle> triangles = triangles_of(own);
-  const std::set<Edge> edges = edges_of(triangles);
-  std::vector<std::string> names;
-  for (const Patch& other : regions) {
-    if (&other == &own) continue;
-    const std::set<Triangle> theirs = triangles_of(other);
-    if (shares_one(triangles, theirs) || shares_one(edges, edges_of(theirs))) names.push_back(other.name);
-  }
-  return names;
+Neighbours neighbours_of(const std::vector<Patch>& regions) {
+  std::map<Edge, std::set<std::size_t>> at;  // which regions have a part of a triangle at this edge
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    for (const Triangle& t : triangles_of(regions[r]))
+      for (std::size_t i = 0; i < 3; ++i) at[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}].insert(r);
+  std::vector<std::set<std::size_t>> beside(regions.size());
+  for (const auto& [edge, some] : at)
+    for (const std::size_t r : some) beside[r].insert(some.begin(), some.end());
+  Neighbours result;
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    for (const std::size_t other : beside[r])
+      if (other != r) result[regions[r].name].push_back(regions[other].name);
+  return result;
 }
 
 VectorXd nearness(const std::string& neighbour, const std::string& region, const std::vector<Patch>& regions,
                   const Points& points) {
   std::vector<const Patch*> others;
-  for (const std::string& name : neighbours_of(region, regions))
+  for (const std::string& name : neighbours_of(regions)[region])
     if (name != neighbour) others.push_back(&region_named(name, regions));
   const TriangleLocator there = locator_of({&region_named(neighbour, regions)}, points),
                         elsewhere = locator_of(others, points);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, con
 /// growing along the vessel: its border cuts triangles too. Of `triangles` those of which it has half or more.
 Patch part_between(const Patch& patch, const VectorXd& function, double from, double to);
 
-/// Names of the regions that share an edge or a triangle with one.
-std::vector<std::string> neighbours_of(const std::string& region, const std::vector<Patch>& regions);
+/// Of each region the names of those that share an edge or a triangle with it, in the regions' order.
+using Neighbours = std::map<std::string, std::vector<std::string>>;
+Neighbours neighbours_of(const std::vector<Patch>& regions);
 
 /// By how much the nodes of a region are nearer to one of its neighbours than to the others: (far - near)/(far + near)
 /// of the distances in space, 1 at the neighbour, -1 at the others; zero at nodes elsewhere.

@@ -136,7 +136,7 @@ TEST(SweepRegions, what_is_nearer_to_a_neighbour_does_not_depend_on_the_mesh) {
     SweepSettings settings = circular_tube_settings(2, 10, 0.2, around, along);
     settings.regions = {{"spine", 150, 217}, {"left", 105, 150}, {"right", 217, 255}, {"opposite"}};
     const WallMesh wall = sweep(settings).wall;
-    EXPECT_EQ(neighbours_of("spine", wall.outside), (std::vector<std::string>{"left", "right"}));
+    EXPECT_EQ(neighbours_of(wall.outside).at("spine"), (std::vector<std::string>{"left", "right"}));
     const VectorXd near = nearness("left", "spine", wall.outside, wall.points);
     const double all = area_of(wall.points, wall.outside[0]),
                  half = area_of(wall.points, part_between(wall.outside[0], near, 0, 1));
