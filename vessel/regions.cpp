@@ -135,7 +135,8 @@ Neighbours neighbours_of(const std::vector<Patch>& regions) {
   std::map<Edge, std::set<std::size_t>> at;  // which regions have a part of a triangle at this edge
   for (std::size_t r = 0; r < regions.size(); ++r)
     for (const Triangle& t : triangles_of(regions[r]))
-      for (std::size_t i = 0; i < 3; ++i) at[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}].insert(r);
+      for (std::size_t i = 0; i < 3; ++i)
+        at[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}].insert(r);
   std::vector<std::set<std::size_t>> beside(regions.size());
   for (const auto& [edge, some] : at)
     for (const std::size_t r : some) beside[r].insert(some.begin(), some.end());
