@@ -150,7 +150,8 @@ Neighbours neighbours_of(const std::vector<Patch>& regions) {
 VectorXd nearness(const std::string& neighbour, const std::string& region, const std::vector<Patch>& regions,
                   const Points& points) {
   std::vector<const Patch*> others;
-  for (const std::string& name : neighbours_of(regions)[region])
+  const std::vector<std::string> beside = neighbours_of(regions)[region];
+  for (const std::string& name : beside)
     if (name != neighbour) others.push_back(&region_named(name, regions));
   const TriangleLocator there = locator_of({&region_named(neighbour, regions)}, points),
                         elsewhere = locator_of(others, points);
