@@ -26,4 +26,12 @@ struct Anchor {
   bool moves() const;
 };
 
+/// Nodes that move as given, whatever the forces: those of a ring that the heart carries along, or that is clamped to
+/// tissue that moves.
+struct DrivenRing {
+  std::string name;
+  std::vector<int> nodes;
+  Anchor anchor;
+};
+
 }  // namespace tether

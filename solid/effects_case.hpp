@@ -4,7 +4,6 @@
 #include "solid/local_effect.hpp"
 #include "solid/motion_case.hpp"
 #include "solid/surface_support.hpp"
-#include "solid/wall_model.hpp"
 
 namespace tether {
 

@@ -24,14 +24,6 @@ struct WallSettings {
   bool support_on_current_area = false;  ///< areas at the start of each step, else those of the imaged wall
 };
 
-/// Nodes that move as given, whatever the forces: those of a ring that the heart carries along, or that is clamped to
-/// tissue that moves.
-struct DrivenRing {
-  std::string name;
-  std::vector<int> nodes;
-  Anchor anchor;
-};
-
 /// Wall with material and supports; all parameters settable by name.
 class WallModel {
  public:

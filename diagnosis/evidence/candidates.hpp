@@ -19,7 +19,7 @@ struct PlacedEffect {
   bool is_new = false;                ///< the case itself does not have it
   std::vector<std::string> required;  ///< numbers that must be given for it
   std::string variant_of = {};        ///< the effect that it is a special shape of; empty: of none
-  Band band = {};                     ///< of the part, where along the vessel it acts
+  Band band = {};                     ///< of the part, which of it the effect acts on
 };
 
 /// What the programs say could be missing, and what the case has; restricted as the case wants it. Throws

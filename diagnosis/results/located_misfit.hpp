@@ -32,7 +32,8 @@ struct LocatedMisfit {
   static void fields(auto& self, auto&& field) {
     field("centre", self.centre, "of the patch, on the lumen");
     field("radius", self.radius, "at which it has fallen to 0.6 of what it is at the centre");
-    field("resolution", self.resolution, "how far from there the data may have its centre, too (95 %)");
+    field("resolution", self.resolution,
+          "how far from there its centre may be too (95 %), at least the way to the next place that was tried");
     field("amount", self.amount, "by how much the data lie outside the model at the centre, at most; negative: inside");
     field("time", self.time, "when [s]");
     field("unit", self.unit, "of centre, radius, resolution and amount");

@@ -13,7 +13,7 @@
 namespace tether {
 namespace {
 
-/// Of a patch, on the lumen: where rays along the normal of its centre, at its radius about it, come nearest.
+/// Of a patch, on the lumen: nearest to a circle of its radius in the plane that touches it at its centre.
 Points circle_on(const LumenSurface& lumen, const LocatedMisfit& patch) {
   constexpr Eigen::Index corners = 64;
   const TriangleLocator surface(lumen.points, lumen.triangles);

@@ -36,6 +36,14 @@ Points spread(const Points& points, Index count) {
   return chosen;
 }
 
+/// To the nearest of the points that is another one: no place is known better.
+double spacing_about(const Vec3& place, const Points& points) {
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const auto& point : points.colwise())
+    if (const double distance = (point - place).norm(); distance > 0) spacing = std::min(spacing, distance);
+  return std::isfinite(spacing) ? spacing : 0;
+}
+
 /// z of a chi-square of three numbers.
 double significance_of(double gain) {
   return gain > 0 ? -normal_quantile(std::clamp(chi_square_tail(gain, per_patch), 1e-300, 0.5)) : 0;
@@ -131,6 +139,7 @@ std::optional<LocatedMisfit> MisfitMap::worst(const VectorXd& left) const {
   for (const double size : sizes) consider(about, size * smallest_);
   if (best.gain == 0) return std::nullopt;
   const VectorXd gains = consider(finer, found.radius);
+  found.resolution = spacing_about(found.centre, finer);
   for (Index k = 0; k < finer.cols(); ++k)
     if (gains(k) > best.gain - within)
       found.resolution = std::max(found.resolution, (finer.col(k) - found.centre).norm());

@@ -183,6 +183,7 @@ TEST(Diagnosis, SaysWhereAMisfitIsThatNoRegionHolds) {
   EXPECT_LT((dent.centre - FakeRuns::dent).norm(), element);
   EXPECT_LT(dent.p, 1e-6);
   EXPECT_LT(dent.resolution, 2 * element);
+  EXPECT_GT(dent.resolution, element / 2) << "no better than the places that were tried";
   EXPECT_NEAR(dent.amount, -0.04, 0.015) << "four fifths of half a millimetre";
   EXPECT_NEAR(dent.time, 0.4, 0.11);
   EXPECT_EQ(dent.unit, "cm");
