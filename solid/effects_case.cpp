@@ -8,6 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/transform.hpp"
+#include "common/mesh/triangle_locator.hpp"
 #include "solid/motions/registry.hpp"
 #include "solid/supports/expression_traction.hpp"
 #include "solid/supports/registry.hpp"
@@ -129,15 +130,20 @@ Configured<Support> configured(const ExpressionCase& given, const WallMesh& mesh
 
 /// Throws InputError that begins with `where`.
 void check_neighbour(const WallEffectCase& block, const Neighbours& all, const std::string& where) {
+  const std::string& toward = block.extent.toward;
   if (block.region.empty()) throw input_error("{}: needs 'region': the whole outer wall has no neighbours", where);
   const auto known = all.find(block.region);
   const std::vector<std::string> neighbours = known == all.end() ? std::vector<std::string>() : known->second;
-  if (std::find(neighbours.begin(), neighbours.end(), block.band.toward) == neighbours.end())
+  if (std::find(neighbours.begin(), neighbours.end(), toward) == neighbours.end())
     throw input_error(
-        "{}: {}: is not beside {}; there {}", where, block.band.toward, block.region,
+        "{}: {}: is not beside {}; there {}", where, toward, block.region,
         neighbours.empty() ? "is no other region" : "are " + fmt::format("{}", fmt::join(neighbours, ", ")));
   if (neighbours.size() < 2)
-    throw input_error("{}: {}: all of {} is nearest to it, its only neighbour", where, block.band.toward, block.region);
+    throw input_error("{}: {}: all of {} is nearest to it, its only neighbour", where, toward, block.region);
+}
+
+double distance_to(const Vec3& point, const Patch& patch, const Points& points) {
+  return TriangleLocator(points, patch.triangles).nearest(point).distance;
 }
 
 /// Where effects act on a wall; what it takes to tell is computed when it is first asked for.
@@ -148,8 +154,11 @@ class PlacesOfEffects {
   /// Of a region, a ring, or the whole outer wall, what the effect acts on.
   Patch of(const WallEffectCase& block) {
     Patch patch = patch_of(block.region, mesh_);
-    if (!block.band.is_all_along()) patch = part_between(patch, along(), block.band.from, block.band.to);
-    if (!block.band.toward.empty()) patch = part_between(patch, near(block.band.toward, block.region), 0, 1);
+    const Extent extent = block.extent;
+    if (!extent.is_all_along()) patch = part_between(patch, along(), extent.from, extent.to);
+    if (!extent.toward.empty()) patch = part_between(patch, near(extent.toward, block.region), 0, 1);
+    if (const auto& ball = extent.about)
+      patch = divided_by_distance(patch, mesh_.points, ball->centre, ball->radius).near;
     return patch;
   }
 
@@ -197,16 +206,32 @@ void ExpressionCase::declare(Fields& f) {
   f.groups("parameters", parameters, "numbers that the formulas name: they can be identified like any other");
 }
 
+void BallCase::declare(Fields& f) {
+  f.point("point", point, dimension::length, "on the wall or near it");
+  f.number("within", within, dimension::length, range::positive, "distance from there, in space");
+}
+
+void ExtentCase::declare(Fields& f) {
+  constexpr Range on_the_way{0, 1};
+  f.number("from", from, dimension::none, on_the_way,
+           "where along the vessel the region's part begins that it acts on: 0 at the first ring, 1 at the others");
+  f.number("to", to, dimension::none, on_the_way, "where along the vessel that part ends");
+  f.check(from < to, "to", "must be beyond 'from'");
+  f.text("toward", toward,
+         "a region beside this one: the effect acts on what is nearer to it than to the region's other neighbours");
+  f.group("about", about, "the effect acts on what of its place is near a point, across regions where it has none");
+}
+
+ExtentCase::operator Extent() const {
+  Extent extent{from, to, toward, std::nullopt};
+  if (about) extent.about = Ball{about->point, about->within};
+  return extent;
+}
+
 void WallEffectCase::declare(Fields& f) {
   f.effect(effect, family(), "what acts, or is different");
   f.text("region", region, "a region of the outer wall, or an end ring; absent: the whole outer wall");
-  constexpr Range on_the_way{0, 1};
-  f.number("from", band.from, dimension::none, on_the_way,
-           "where along the vessel the region's part begins that it acts on: 0 at the first ring, 1 at the others");
-  f.number("to", band.to, dimension::none, on_the_way, "where along the vessel that part ends");
-  f.check(band.from < band.to, "to", "must be beyond 'from'");
-  f.text("toward", band.toward,
-         "a region beside this one: the effect acts on what is nearer to it than to the region's other neighbours");
+  extent.declare(f);
   f.when("type", effect.type, {"measured_motion"}, [&] {
     f.group("motion", motion, "the motion over time");
     f.check(motion.has_value(), "type", "needs a section 'motion'");
@@ -216,6 +241,7 @@ void WallEffectCase::declare(Fields& f) {
 
 void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, const CaseFile& file) {
   const Neighbours neighbours = neighbours_of(mesh.outside);
+  PlacesOfEffects places(mesh);
   for (const auto& [name, block] : effects) {
     const std::string path = "solid.effects." + name;
     const bool on_ring = find_patch(mesh.rings, block.region) != nullptr;
@@ -226,10 +252,16 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
       throw input_error("{}: a {} needs the name of an end ring as its region", file.where(path), block.effect.type);
     if (is_of(wall_effects(), block.effect.type) && on_ring)
       throw input_error("{}: {} acts in regions of the outer wall, not in a ring", file.where(path), block.effect.type);
-    if (!block.band.is_all() && (on_ring || is_of(motions(), block.effect.type)))
-      throw input_error("{}: 'from', 'to' and 'toward' are of what acts in regions of the outer wall",
+    if (!Extent(block.extent).is_all() && (on_ring || is_of(motions(), block.effect.type)))
+      throw input_error("{}: 'from', 'to', 'toward' and 'about' are of what acts in regions of the outer wall",
                         file.where(path));
-    if (!block.band.toward.empty()) check_neighbour(block, neighbours, file.where(path + ".toward"));
+    if (!block.extent.toward.empty()) check_neighbour(block, neighbours, file.where(path + ".toward"));
+    if (block.extent.about && places.of(block).parts.empty())
+      throw input_error("{}: nothing of {} is within {:g} {} of it: the nearest place is {:.3g} {} away",
+                        file.where(path + ".about"), block.region.empty() ? "the outer wall" : block.region,
+                        block.extent.about->within, file.units().symbol(dimension::length),
+                        distance_to(block.extent.about->point, patch_of(block.region, mesh), mesh.points),
+                        file.units().symbol(dimension::length));
     if (block.effect.type == expression_declaration.name) configured(block.expression, mesh, file.where(path));
   }
 }
@@ -273,7 +305,7 @@ std::vector<LocalEffect> local_effects(const Named<WallEffectCase>& effects, con
       if (block.region.empty() || mesh.outside[r].name == block.region) regions.push_back(static_cast<int>(r));
     result.push_back({"solid.effects." + name,
                       Configured<WallEffect>(wall_effects(), block.effect.type, block.effect.values),
-                      std::move(regions), block.band});
+                      std::move(regions), block.extent});
   }
   return result;
 }

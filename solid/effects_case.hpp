@@ -23,12 +23,28 @@ struct ExpressionCase {
   void declare(Fields& f);
 };
 
+/// What is near a point.
+struct BallCase {
+  Vec3 point = Vec3::Constant(undefined);
+  double within = undefined;
+  void declare(Fields& f);
+};
+
+/// Where in its place an effect acts.
+struct ExtentCase {
+  double from = 0, to = 1;
+  std::string toward;
+  std::optional<BallCase> about;
+  void declare(Fields& f);
+  operator Extent() const;
+};
+
 /// An effect on a part of the wall, under a name of the user's choice: `solid.effects.NAME`. A case has any number of
 /// them, also several on one region; at their absent values they change nothing.
 struct WallEffectCase {
   EffectCase effect;
   std::string region;  ///< of the outer wall, or a ring; empty: the whole outer wall
-  Band band;
+  ExtentCase extent;
   std::optional<MotionCase> motion;
   ExpressionCase expression;
   void declare(Fields& f);

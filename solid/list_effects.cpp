@@ -27,14 +27,14 @@ std::string variant_of(const std::string& type) {
 std::vector<PresentEffect> present_in(const SolidCase& solid) {
   std::vector<PresentEffect> all;
   const auto add = [&all](const std::string& path, const std::string& type, const std::string& part,
-                          const Band& band = {}) {
-    all.push_back({path, type, part, variant_of(type), band});
+                          const Extent& extent = {}) {
+    all.push_back({path, type, part, variant_of(type), extent});
   };
   for (const auto& [region, support] : solid.support.regions)
     add("solid.support.regions." + region, support.effect.type, region);
   for (const auto& [ring, support] : solid.rings) add("solid.rings." + ring, support.effect.type, ring);
   for (const auto& [name, effect] : solid.effects)
-    add("solid.effects." + name, effect.effect.type, effect.region, effect.band);
+    add("solid.effects." + name, effect.effect.type, effect.region, effect.extent);
   return all;
 }
 
@@ -76,8 +76,8 @@ std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidC
 }
 
 /// The half toward the first ring, that toward the others, and what is nearer to each of a region's neighbours.
-std::vector<Band> parts_of_place(const std::string& part, const WallMesh& mesh, const Neighbours& neighbours) {
-  std::vector<Band> parts;
+std::vector<Extent> extents_in(const std::string& part, const WallMesh& mesh, const Neighbours& neighbours) {
+  std::vector<Extent> parts;
   if (mesh.rings.size() >= 2) parts = {{0, 0.5}, {0.5, 1}};
   if (const auto own = neighbours.find(part); own != neighbours.end() && own->second.size() >= 2)
     for (const std::string& neighbour : own->second) parts.push_back({0, 1, neighbour});
@@ -99,21 +99,21 @@ std::vector<std::string> divided_for(const EffectDeclaration& effect, const Wall
 EffectsList list_effects(const SolidCase& solid, const WallMesh& mesh, const UnitSystem& units) {
   EffectsList list;
   list.present = present_in(solid);
-  const auto add = [&](const EffectDeclaration& effect, const std::string& part, const Band& band) {
+  const auto add = [&](const EffectDeclaration& effect, const std::string& part, const Extent& extent) {
     const auto is_there = [&](const PresentEffect& p) {
-      return p.type == effect.name && p.part == part && p.band == band;
+      return p.type == effect.name && p.part == part && p.extent == extent;
     };
     if (std::any_of(list.present.begin(), list.present.end(), is_there)) return;
     PossibleEffect possible = possible_effect(effect, units);
     possible.part = part;
-    possible.band = band;
+    possible.extent = extent;
     list.possible.push_back(std::move(possible));
   };
   const Neighbours neighbours = neighbours_of(mesh.outside);
   for (const EffectDeclaration* effect : catalogue()) {
     for (const std::string& part : parts_for(*effect, solid, mesh)) add(*effect, part, {});
     for (const std::string& part : divided_for(*effect, mesh))
-      for (const Band& band : parts_of_place(part, mesh, neighbours)) add(*effect, part, band);
+      for (const Extent& extent : extents_in(part, mesh, neighbours)) add(*effect, part, extent);
   }
   return list;
 }

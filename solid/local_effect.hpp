@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/base/configured.hpp"
-#include "common/catalogue/band.hpp"
+#include "common/catalogue/extent.hpp"
 #include "solid/wall_effects/wall_effect.hpp"
 
 namespace tether {
@@ -14,7 +14,7 @@ struct LocalEffect {
   std::string path;  ///< of its parameters: "solid.effects.plaque"
   Configured<WallEffect> effect;
   std::vector<int> regions;  ///< numbers of the outer wall's patches
-  Band band = {};
+  Extent extent = {};
 };
 
 }  // namespace tether

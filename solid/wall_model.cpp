@@ -47,7 +47,7 @@ void WallModel::attach_present() {
 
 void WallModel::place_effects() {
   const bool oriented = std::any_of(effects_.begin(), effects_.end(), [](const LocalEffect& local) {
-    return local.effect->uses_axial() || !local.band.is_all_along();
+    return local.effect->uses_axial() || !local.extent.is_all_along();
   });
   const VectorXd along = oriented ? place_along_vessel(mesh_) : VectorXd();
   zones_ = wall_zones(mesh_, effects_, along);

@@ -15,7 +15,7 @@ std::set<double> borders_in(int region, const std::vector<LocalEffect>& effects)
   std::set<double> borders;
   for (const LocalEffect& effect : effects)
     if (std::count(effect.regions.begin(), effect.regions.end(), region) > 0)
-      for (const double border : {effect.band.from, effect.band.to})
+      for (const double border : {effect.extent.from, effect.extent.to})
         if (border > 0 && border < 1) borders.insert(border);
   return borders;
 }
@@ -26,7 +26,7 @@ std::map<std::string, VectorXd> neighbours_in(int region, const std::vector<Loca
   std::map<std::string, VectorXd> neighbours;
   const std::string& name = mesh.outside[static_cast<std::size_t>(region)].name;
   for (const LocalEffect& effect : effects) {
-    const std::string& toward = effect.band.toward;
+    const std::string& toward = effect.extent.toward;
     if (toward.empty() || std::count(effect.regions.begin(), effect.regions.end(), region) == 0) continue;
     if (VectorXd& near = neighbours[toward]; near.size() == 0) near = nearness(toward, name, mesh.outside, mesh.points);
   }
@@ -36,11 +36,38 @@ std::map<std::string, VectorXd> neighbours_in(int region, const std::vector<Loca
 /// Appends the zone's parts toward each of the neighbours, and what is toward none of them.
 void add_parts(WallZone zone, const std::map<std::string, VectorXd>& neighbours, std::vector<WallZone>& zones) {
   for (const auto& [name, near] : neighbours) {
-    zones.push_back({part_between(zone.patch, near, 0, 1), zone.region, {zone.band.from, zone.band.to, name}});
+    zones.push_back({part_between(zone.patch, near, 0, 1), zone.region, {zone.extent.from, zone.extent.to, name}});
     zone.patch = part_between(zone.patch, near, -1, 0);
     if (zone.patch.parts.empty()) return;
   }
   zones.push_back(std::move(zone));
+}
+
+/// Those that limit effects which act in a region, each once.
+std::vector<Ball> balls_in(int region, const std::vector<LocalEffect>& effects) {
+  std::vector<Ball> balls;
+  for (const LocalEffect& effect : effects)
+    if (effect.extent.about && std::count(effect.regions.begin(), effect.regions.end(), region) > 0 &&
+        std::count(balls.begin(), balls.end(), *effect.extent.about) == 0)
+      balls.push_back(*effect.extent.about);
+  return balls;
+}
+
+/// Zones of a region, cut where they leave the ball.
+void divide_by(const Ball& ball, int region, const Points& points, std::vector<WallZone>& zones) {
+  const std::size_t count = zones.size();
+  for (std::size_t z = 0; z < count; ++z) {
+    if (zones[z].region != region) continue;
+    NearAndFar sides = divided_by_distance(zones[z].patch, points, ball.centre, ball.radius);
+    if (sides.near.parts.empty()) continue;
+    if (!sides.far.parts.empty()) {
+      WallZone beyond = zones[z];
+      beyond.patch = std::move(sides.far);
+      zones.push_back(std::move(beyond));
+    }
+    zones[z].patch = std::move(sides.near);
+    zones[z].within.push_back(ball);
+  }
 }
 
 }  // namespace
@@ -62,13 +89,17 @@ std::vector<WallZone> wall_zones(const WallMesh& mesh, const std::vector<LocalEf
       from = to;
     }
   }
+  for (std::size_t r = 0; r < mesh.outside.size(); ++r)
+    for (const Ball& ball : balls_in(static_cast<int>(r), effects))
+      divide_by(ball, static_cast<int>(r), mesh.points, zones);
   return zones;
 }
 
 bool acts_in(const LocalEffect& effect, const WallZone& zone) {
   return std::count(effect.regions.begin(), effect.regions.end(), zone.region) > 0 &&
-         effect.band.from <= zone.band.from && zone.band.to <= effect.band.to &&
-         (effect.band.toward.empty() || effect.band.toward == zone.band.toward);
+         effect.extent.from <= zone.extent.from && zone.extent.to <= effect.extent.to &&
+         (effect.extent.toward.empty() || effect.extent.toward == zone.extent.toward) &&
+         (!effect.extent.about || std::count(zone.within.begin(), zone.within.end(), *effect.extent.about) > 0);
 }
 
 }  // namespace tether

@@ -8,11 +8,12 @@
 namespace tether {
 
 /// A part of the outer wall that is alike: of one region, between two places along the vessel, toward a neighbour or
-/// none that an effect names.
+/// none that an effect names, within some of the balls that effects are limited to and beyond the others.
 struct WallZone {
   Patch patch;
-  int region;  ///< number of the outer wall's patch
-  Band band;
+  int region;     ///< number of the outer wall's patch
+  Extent extent;  ///< without a ball
+  std::vector<Ball> within = {};
 };
 
 /// The regions, cut where an effect of theirs begins or ends. along: a number at each node that grows along the vessel

@@ -1,6 +1,8 @@
 #include "vessel/regions.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -93,6 +95,69 @@ TriangleLocator locator_of(const std::vector<const Patch*>& patches, const Point
   return {std::move(corners), std::move(triangles)};
 }
 
+/// What is taken of a patch, piece by piece.
+class PartOfPatch {
+ public:
+  explicit PartOfPatch(const Patch& whole) : whole_(whole), part_{whole.name, {}} {}
+  void add(const TrianglePart& piece) {
+    part_.parts.push_back(piece);
+    shares_[piece.of] += piece.share();
+  }
+  Patch finished() {
+    for (const Triangle& triangle : whole_.triangles)
+      if (const auto own = shares_.find(triangle); own != shares_.end() && own->second >= 0.5)
+        part_.triangles.push_back(triangle);
+    return std::move(part_);
+  }
+
+ private:
+  const Patch& whole_;
+  Patch part_;
+  std::map<Triangle, double> shares_;
+};
+
+/// By the midpoints of its edges.
+std::array<TrianglePart, 4> quarters(const TrianglePart& part) {
+  Mat3 middles;
+  for (int i = 0; i < 3; ++i) middles.col(i) = (part.corners.col(i) + part.corners.col((i + 1) % 3)) / 2;
+  std::array<TrianglePart, 4> result{TrianglePart{part.of, middles}};
+  for (int i = 0; i < 3; ++i) {
+    TrianglePart& at_corner = result[static_cast<std::size_t>(i) + 1];
+    at_corner.of = part.of;
+    at_corner.corners << part.corners.col(i), middles.col(i), middles.col((i + 2) % 3);
+  }
+  return result;
+}
+
+struct PiecesByDistance {
+  std::vector<TrianglePart> near, far;
+};
+
+/// A part of a triangle, cut where it leaves the ball. corners: of the triangle, from the ball's centre.
+PiecesByDistance by_distance(const TrianglePart& part, const Mat3& corners, double distance) {
+  constexpr double fine = 0.125;  // of the distance: a chord's area is then right to a fifth of a per cent
+  const Mat3 x = corners * part.corners;
+  const Vec3 away = x.colwise().norm();
+  double longest = 0;
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, (x.col(i) - x.col((i + 1) % 3)).norm());
+  if (away.maxCoeff() <= distance) return {{part}, {}};
+  if (away.minCoeff() - longest >= distance) return {{}, {part}};
+  if (longest <= fine * distance) {
+    const Vec3 on_triangle = part.corners.transpose().inverse() * away;
+    const Halves halves =
+        split({part.corners.col(0), part.corners.col(1), part.corners.col(2)}, {on_triangle, distance, rounding});
+    return {triangulated(halves.less, part.of), triangulated(halves.more, part.of)};
+  }
+  PiecesByDistance pieces;
+  for (const TrianglePart& quarter : quarters(part)) {
+    const PiecesByDistance of = by_distance(quarter, corners, distance);
+    pieces.near.insert(pieces.near.end(), of.near.begin(), of.near.end());
+    pieces.far.insert(pieces.far.end(), of.far.begin(), of.far.end());
+  }
+  if (pieces.near.empty()) return {{}, {part}};
+  return pieces;
+}
+
 }  // namespace
 
 std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, const std::vector<WallRegion>& regions,
@@ -113,22 +178,26 @@ std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, con
 }
 
 Patch part_between(const Patch& patch, const VectorXd& function, double from, double to) {
-  Patch part{patch.name, {}};
-  std::map<Triangle, double> shares;
+  PartOfPatch part(patch);
   for (const TrianglePart& whole : parts_of(patch)) {
     const Vec3 values(function[whole.of[0]], function[whole.of[1]], function[whole.of[2]]);
     const Polygon corners{whole.corners.col(0), whole.corners.col(1), whole.corners.col(2)};
     const Polygon beyond = split(corners, {values, from, rounding}).more;
     if (beyond.empty()) continue;
-    for (const TrianglePart& piece : triangulated(split(beyond, {values, to, rounding}).less, whole.of)) {
-      part.parts.push_back(piece);
-      shares[whole.of] += piece.share();
-    }
+    for (const TrianglePart& piece : triangulated(split(beyond, {values, to, rounding}).less, whole.of)) part.add(piece);
   }
-  for (const Triangle& triangle : patch.triangles)
-    if (const auto own = shares.find(triangle); own != shares.end() && own->second >= 0.5)
-      part.triangles.push_back(triangle);
-  return part;
+  return part.finished();
+}
+
+NearAndFar divided_by_distance(const Patch& patch, const Points& points, const Vec3& centre, double distance) {
+  PartOfPatch near(patch), far(patch);
+  for (const TrianglePart& whole : parts_of(patch)) {
+    const Mat3 corners = points(Eigen::all, whole.of);
+    const PiecesByDistance pieces = by_distance(whole, corners.colwise() - centre, distance);
+    for (const TrianglePart& piece : pieces.near) near.add(piece);
+    for (const TrianglePart& piece : pieces.far) far.add(piece);
+  }
+  return {near.finished(), far.finished()};
 }
 
 Neighbours neighbours_of(const std::vector<Patch>& regions) {

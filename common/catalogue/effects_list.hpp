@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/base/effect.hpp"
-#include "common/catalogue/band.hpp"
+#include "common/catalogue/extent.hpp"
 #include "common/io/record.hpp"
 
 namespace tether {
@@ -36,7 +36,7 @@ struct PossibleEffect {
   std::string variant_of;
   std::vector<OfferedAmplitude> amplitudes;
   std::vector<std::string> required;
-  Band band = {};
+  Extent extent = {};
   std::string path;
 
   static void fields(auto& self, auto&& field) {
@@ -48,9 +48,10 @@ struct PossibleEffect {
     field("variant_of", self.variant_of, "the effect that it is a special shape of; empty: of none");
     field("amplitudes", self.amplitudes, "by which it is switched on");
     field("required", self.required, "parameters that must be given for it");
-    field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
-    field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
-    field("toward", self.band.toward, "of the region what is nearer to this neighbour than to others; empty: all");
+    field("from", self.extent.from, "where along the vessel the part begins, 0 at the first ring");
+    field("to", self.extent.to, "where along the vessel the part ends, 1 at the other rings");
+    field("toward", self.extent.toward, "of the region what is nearer to this neighbour than to others; empty: all");
+    field("about", self.extent.about, "of that what lies within it; null: all");
     field("path", self.path, "of what it replaces in the case; empty: it is added to solid.effects");
   }
 };
@@ -62,16 +63,17 @@ PossibleEffect possible_effect(const EffectDeclaration& effect, const UnitSystem
 struct PresentEffect {
   static constexpr const char* type_name = "present_effect";
   std::string path, type, part, variant_of;
-  Band band = {};
+  Extent extent = {};
 
   static void fields(auto& self, auto&& field) {
     field("path", self.path, "where it stands in the case");
     field("type", self.type, "as in the case file");
     field("part", self.part, "region or ring");
     field("variant_of", self.variant_of, "the effect that it is a special shape of; empty: of none");
-    field("from", self.band.from, "where along the vessel the part begins, 0 at the first ring");
-    field("to", self.band.to, "where along the vessel the part ends, 1 at the other rings");
-    field("toward", self.band.toward, "of the region what is nearer to this neighbour than to others; empty: all");
+    field("from", self.extent.from, "where along the vessel the part begins, 0 at the first ring");
+    field("to", self.extent.to, "where along the vessel the part ends, 1 at the other rings");
+    field("toward", self.extent.toward, "of the region what is nearer to this neighbour than to others; empty: all");
+    field("about", self.extent.about, "of that what lies within it; null: all");
   }
 };
 

@@ -32,7 +32,7 @@ bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
 std::string path_of(const PossibleEffect& effect) {
   if (!effect.path.empty()) return effect.path;
   std::string path = "solid.effects." + effect.type + (effect.part.empty() ? "" : "_" + effect.part);
-  if (!effect.band.is_all()) path += "_" + in_words(effect.band);
+  if (!effect.extent.is_all()) path += "_" + in_words(effect.extent, {});
   std::replace(path.begin(), path.end(), ' ', '_');
   return path;
 }
@@ -60,10 +60,12 @@ double allowed_deviation(const Amplitude& amplitude, const DiagnosisCase& diagno
   return amplitude.doubles ? std::log2(1 + inputs) : inputs * std::abs(amplitude.base);
 }
 
-/// "spine, outlet half".
+/// "spine, outlet half"; "the wall within 0.8 cm of (-1.6, 1.5, 6)".
 std::string place_in_words(const PlacedEffect& effect) {
-  if (effect.band.is_all()) return effect.part;
-  return (effect.part.empty() ? "" : effect.part + ", ") + in_words(effect.band);
+  if (effect.extent.is_all()) return effect.part;
+  const std::string words = in_words(effect.extent, effect.length);
+  if (effect.part.empty()) return (effect.extent.about ? "the wall " : "") + words;
+  return effect.part + ", " + words;
 }
 
 /// The candidate that a number belongs to, made if need be.
@@ -79,7 +81,7 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
     wanted.variant_of = effect->variant_of;
   }
   if (effect != effects.end()) {
-    wanted.type = effect->type, wanted.part = effect->part, wanted.band = effect->band;
+    wanted.type = effect->type, wanted.part = effect->part, wanted.extent = effect->extent;
     wanted.number = amplitude.name.substr(path.size() + 1);
   }
   if (wanted.kind == Candidate::Kind::effect && amplitude.one_sided) {  // one at a time
@@ -143,12 +145,13 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
   if (!file.has("coupling.programs.fluid"))
     for (PossibleEffect& law : listed_by("fluid", file).possible) list.possible.push_back(std::move(law));
   check_names(file, list, diagnosis);
+  const std::string length = file.units().symbol(dimension::length);
   std::vector<PlacedEffect> all;
   for (const PossibleEffect& e : list.possible)
     if (is_wanted(e, diagnosis))
-      all.push_back({path_of(e), e.type, e.part, e.meaning, true, e.required, e.variant_of, e.band});
+      all.push_back({path_of(e), e.type, e.part, e.meaning, true, e.required, e.variant_of, e.extent, length});
   for (const PresentEffect& e : list.present)
-    all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of, e.band});
+    all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of, e.extent, length});
   return all;
 }
 
@@ -171,7 +174,7 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
     if (!effect.is_new) continue;
     overlay.values.push_back({effect.path + ".type", effect.type});
     if (!effect.part.empty()) overlay.values.push_back({effect.path + ".region", effect.part});
-    add_band(overlay, effect);
+    add_extent(overlay, effect);
     for (const std::string& required : effect.required)  // the period of a load
       overlay.values.push_back({effect.path + "." + required, number_text(common.time.end - common.time.start)});
   }
@@ -182,10 +185,16 @@ void write_candidates(const fs::path& file, const CaseFile& from, const Observat
   write_overlay(file, overlay);
 }
 
-void add_band(Overlay& overlay, const PlacedEffect& effect) {
-  if (effect.band.from > 0) overlay.values.push_back({effect.path + ".from", number_text(effect.band.from)});
-  if (effect.band.to < 1) overlay.values.push_back({effect.path + ".to", number_text(effect.band.to)});
-  if (!effect.band.toward.empty()) overlay.values.push_back({effect.path + ".toward", effect.band.toward});
+void add_extent(Overlay& overlay, const PlacedEffect& effect) {
+  if (effect.extent.from > 0) overlay.values.push_back({effect.path + ".from", number_text(effect.extent.from)});
+  if (effect.extent.to < 1) overlay.values.push_back({effect.path + ".to", number_text(effect.extent.to)});
+  if (!effect.extent.toward.empty()) overlay.values.push_back({effect.path + ".toward", effect.extent.toward});
+  if (const auto& ball = effect.extent.about) {
+    const Vec3& at = ball->centre;
+    overlay.values.push_back({effect.path + ".about.point", fmt::format("[{}, {}, {}]", number_text(at[0]),
+                                                                        number_text(at[1]), number_text(at[2]))});
+    overlay.values.push_back({effect.path + ".about.within", number_text(ball->radius)});
+  }
 }
 
 void add_model_changes(EffectProblem& problem, const ModelChanges& changes, const std::vector<PlacedEffect>& effects,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/catalogue/band.hpp"
+#include "common/catalogue/extent.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/overlay.hpp"
 #include "diagnosis/evidence/diagnosis_case.hpp"
@@ -19,7 +19,8 @@ struct PlacedEffect {
   bool is_new = false;                ///< the case itself does not have it
   std::vector<std::string> required;  ///< numbers that must be given for it
   std::string variant_of = {};        ///< the effect that it is a special shape of; empty: of none
-  Band band = {};                     ///< of the part, which of it the effect acts on
+  Extent extent = {};                 ///< of the part, which of it the effect acts on
+  std::string length = {};            ///< unit of the extent
 };
 
 /// What the programs say could be missing, and what the case has; restricted as the case wants it. Throws
@@ -34,7 +35,7 @@ void write_candidates(const std::filesystem::path& file, const CaseFile& from, c
                       const std::vector<PlacedEffect>& effects);
 
 /// What a case must say of the part of its place in which an effect acts.
-void add_band(Overlay& overlay, const PlacedEffect& effect);
+void add_extent(Overlay& overlay, const PlacedEffect& effect);
 
 /// What runs of a model with one number changed each show.
 struct ModelChanges {

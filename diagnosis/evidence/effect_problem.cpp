@@ -30,8 +30,8 @@ bool is_variant(const Candidate& one, const Candidate& other) {
     return !effect.empty() && shape.variant_of == effect;
   };
   const bool same_number = !one.type.empty() && one.part == other.part && one.number == other.number;
-  if (same_number && one.type == other.type && one.band.is_all() != other.band.is_all()) return true;
-  if (same_number && one.band == other.band && (is_of(one, other.type) || is_of(other, one.type))) return true;
+  if (same_number && one.type == other.type && one.extent.is_all() != other.extent.is_all()) return true;
+  if (same_number && one.extent == other.extent && (is_of(one, other.type) || is_of(other, one.type))) return true;
   return (is_of(one, other.name) || is_of(other, one.name)) && one.where == other.where &&
          one.parameter == other.parameter;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/base/effect.hpp"
-#include "common/catalogue/band.hpp"
+#include "common/catalogue/extent.hpp"
 #include "diagnosis/evidence/scores.hpp"
 #include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
@@ -52,7 +52,7 @@ struct Candidate {
   std::string variant_of = {};           ///< the effect that it is a special shape of
   std::string type = {}, part = {},
               number = {};  ///< of an effect, new or in the model: what, where, which of its numbers
-  Band band = {};           ///< of the part, where along the vessel it acts
+  Extent extent = {};           ///< of the part, where along the vessel it acts
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };

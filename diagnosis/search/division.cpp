@@ -25,7 +25,7 @@ Division::Division(const std::vector<PlacedEffect>& effects, const std::vector<V
     const std::string path = number.number.name.substr(0, number.number.name.rfind('.'));
     const auto effect =
         std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
-    if (effect == effects.end() || effect->band.is_all() || !effect->is_new || is_of_whole_wall(*effect))
+    if (effect == effects.end() || effect->extent.is_all() || !effect->is_new || is_of_whole_wall(*effect))
       undivided_.push_back(number);
     else
       parts_.push_back({number, &*effect});
@@ -42,9 +42,9 @@ std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Wei
   const auto want = [&](const Part& part) {
     if (told_.insert(part.number.number.name).second) wanted.push_back(part.number);
   };
-  const auto want_parts_of = [&](const Candidate& candidate, const Band* only) {
+  const auto want_parts_of = [&](const Candidate& candidate, const Extent* only) {
     for (const Part& part : parts_)
-      if (divides(part, candidate) && (only == nullptr || part.effect->band == *only)) want(part);
+      if (divides(part, candidate) && (only == nullptr || part.effect->extent == *only)) want(part);
   };
   const bool is_incomplete = weighed.outside + weighed.more > probable;
   for (std::size_t g = 0; g < weighed.groups.size(); ++g) {
@@ -53,10 +53,10 @@ std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Wei
     for (std::size_t k = 0; k < group.members.size(); ++k) {
       const Candidate& member = problem.candidates[group.members[k]];
       if (group.shares[k] < not_least) continue;
-      if (member.band.is_all() && k == 0) want_parts_of(member, nullptr);
-      if (member.band.is_all()) continue;
+      if (member.extent.is_all() && k == 0) want_parts_of(member, nullptr);
+      if (member.extent.is_all()) continue;
       for (const std::size_t other : group.members)
-        if (problem.candidates[other].part == member.part) want_parts_of(problem.candidates[other], &member.band);
+        if (problem.candidates[other].part == member.part) want_parts_of(problem.candidates[other], &member.extent);
     }
   }
   return wanted;

@@ -34,7 +34,7 @@ const std::string& family(const Candidate& candidate) {
 
 /// Of a family's odds: a part of a place has a quarter of what all of it has.
 double weight(const Candidate& candidate) {
-  return candidate.band.is_all() ? 1 : 0.25;
+  return candidate.extent.is_all() ? 1 : 0.25;
 }
 
 /// The logarithm of each candidate's odds beforehand: its kind's are shared alike by the families, those of a family

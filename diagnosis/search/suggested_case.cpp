@@ -13,7 +13,7 @@ namespace {
 void add_effect(Overlay& overlay, const PlacedEffect& effect, const TimeCase& time) {
   overlay.values.push_back({effect.path + ".type", effect.type});
   if (!effect.part.empty()) overlay.values.push_back({effect.path + ".region", effect.part});
-  add_band(overlay, effect);
+  add_extent(overlay, effect);
   for (const std::string& required : effect.required)
     overlay.values.push_back({effect.path + "." + required, number_text(time.end - time.start)});
 }

@@ -49,10 +49,10 @@ class WholeDiagnosis : public ::testing::Test {
     for (const std::string& region : regions)
       all.push_back({"solid.effects.spring_" + region, "spring", region, "holds the wall back", true, {}});
     for (const std::string& region : regions)
-      for (const Band& band : {Band{0, 0.5}, Band{0.5, 1}}) {
-        const std::string half = band.from > 0 ? "_outlet_half" : "_inlet_half";
+      for (const Extent& extent : {Extent{0, 0.5}, Extent{0.5, 1}}) {
+        const std::string half = extent.from > 0 ? "_outlet_half" : "_inlet_half";
         all.push_back(
-            {"solid.effects.spring_" + region + half, "spring", region, "holds it there", true, {}, {}, band});
+            {"solid.effects.spring_" + region + half, "spring", region, "holds it there", true, {}, {}, extent});
       }
     return all;
   }

@@ -60,7 +60,7 @@ TEST(EffectSearch, ShapesAndPartsOfOneEffectAreVariants) {
   shape.type = shape.name, shape.part = "spine", shape.number = "damping", shape.variant_of = "visco_elastic";
   EXPECT_TRUE(is_variant(support, shape));
   Candidate half = support;
-  half.band = {0.5, 1};
+  half.extent = {0.5, 1};
   EXPECT_TRUE(is_variant(half, support));
   EXPECT_FALSE(is_variant(half, shape)) << "neither the same shape nor the same place";
   Candidate elsewhere = shape, stiffness = shape;

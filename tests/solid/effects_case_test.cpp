@@ -10,6 +10,7 @@
 #include "solid/solid_solver.hpp"
 #include "tests/config/case_text.hpp"
 #include "tests/solid/tube.hpp"
+#include "vessel/regions.hpp"
 #include "vessel/sweep.hpp"
 
 namespace tether {
@@ -237,6 +238,76 @@ TEST(EffectsOfACase, TheWallDiffersInWhatIsNearerToANeighbour) {
   EXPECT_NEAR((left + right) / all, 1, 0.002);
 }
 
+constexpr double pi = std::numbers::pi;
+
+/// A ball of radius r about a place on a cylinder cuts a patch of area pi r^2 (1 - O(r^2/R^2)) out of it, whatever the
+/// mesh: here r is half an element's edge up to three edges.
+TEST(EffectsOfACase, WhatIsNearAPointHasItsAreaOnAnyMesh) {
+  const auto area = [](int around, double radius) {
+    const WallMesh wall = circular_tube(2, 10, 0.2, around, around).wall;
+    const Vec3 centre(2.2, 0.1, 5.1);  // on the outer wall, at no node
+    double sum = 0;
+    for (const Patch& region : wall.outside) {
+      const NearAndFar sides = divided_by_distance(region, wall.points, centre, radius);
+      EXPECT_NEAR(area_of(wall.points, sides.near) + area_of(wall.points, sides.far), area_of(wall.points, region),
+                  1e-9);
+      sum += area_of(wall.points, sides.near);
+    }
+    return sum;
+  };
+  for (const double radius : {0.3, 0.6, 1.5}) {
+    const double finest = area(64, radius);
+    EXPECT_NEAR(finest / (pi * radius * radius), 1, 0.01 + 0.1 * std::pow(radius / 2.2, 2));
+    for (const int around : {16, 24, 32}) EXPECT_NEAR(area(around, radius) / finest, 1, 0.02) << around << " " << radius;
+  }
+}
+
+TEST(EffectsOfACase, ASupportActsOnWhatIsNearAPoint) {
+  const auto force = [](const std::string& more) {
+    const PreparedWall wall =
+        divided_wall_with("  effects: {e: {type: visco_elastic, stiffness: 1e5" + more + "}}\n");
+    const Points moved = Points::Constant(3, wall.model->mesh().points.cols(), 0.01),
+                 still = Points::Zero(3, moved.cols());
+    return -wall.model->supports()[2].resultant({moved, still, 0, 1e-3})[0];
+  };
+  const std::string about = ", about: {point: [-1.905, 1.1, 2], within: 0.5}";  // where spine and left meet
+  EXPECT_NEAR(force(about) / (1e5 * 0.01 * pi * 0.25), 1, 0.02);
+  EXPECT_NEAR(force(about + ", region: spine") / force(about), 0.5, 0.02);
+  EXPECT_NEAR((force(about + ", region: spine") + force(about + ", region: left")) / force(about), 1, 1e-3) << "chords";
+  EXPECT_NEAR(force(about + ", from: 0.5") / force(about), 0.5, 1e-3);
+}
+
+/// A stiffer part adds to the energy of a stretch what its share of the wall is, and two parts what both add.
+TEST(EffectsOfACase, TheWallDiffersNearPoints) {
+  const auto energy = [](const std::string& effects) {
+    const PreparedWall wall = divided_wall_with("  effects:\n" + effects);
+    Points moved = wall.model->mesh().points;
+    moved.row(2).setZero();
+    moved *= 1e-3;
+    const Points still = Points::Zero(3, moved.cols());
+    return wall.model->step_forces(moved, still, still, 0, 1e-3, nullptr).dot(moved.reshaped());
+  };
+  const std::string one = "    a: {type: stiffness_factor, factor: 3, about: {point: [2.2, 0, 1.8], within: 0.5}}\n",
+                    overlapping = "    b: {type: stiffness_factor, factor: 3, about: {point: [2.2, 0, 2.1], within: 0.5}}\n";
+  const std::string absent = "    c: {type: stiffness_factor, factor: 1}\n", all = "    c: {type: stiffness_factor, factor: 3, from: 0.25, to: 0.75}\n";
+  const double none = energy(absent), whole = energy(all) - none, first = energy(one) - none, second = energy(overlapping) - none;
+  const double area = 2 * pi * 2.2 * 2;
+  EXPECT_NEAR(first / whole / (pi * 0.25 / area), 1, 0.05);
+  EXPECT_NEAR(second / first, 1, 0.05);
+  // where both act the wall is nine times as stiff: of what one adds (2) the overlap adds 8 - 2 - 2 more
+  const double lens = 2 * 0.25 * std::acos(0.3) - 0.15 * std::sqrt(1 - 0.09);
+  EXPECT_NEAR((energy(one + overlapping) - none - first - second) / (first / (pi * 0.25)), 2 * lens, 0.15 * lens);
+}
+
+TEST(EffectsOfACase, APointFarFromTheWallIsRefused) {
+  const std::string error = input_error_of([] {
+    divided_wall_with("  effects:\n    e: {type: contact, region: spine, about: {point: [20, 0, 1], within: 0.5}}\n");
+  });
+  EXPECT_NE(error.find("solid.effects.e.about: nothing of spine is within 0.5 cm of it: the nearest place is 2"),
+            std::string::npos)
+      << error;
+}
+
 TEST(EffectsOfACase, PartsOfARegionAreOfferedTowardEachNeighbour) {
   const auto path = write_file("case.yaml", valid_head + wall_text);
   CaseFile file(path);
@@ -244,7 +315,7 @@ TEST(EffectsOfACase, PartsOfARegionAreOfferedTowardEachNeighbour) {
   file.read("solid", solid);
   std::vector<std::string> parts;
   for (const PossibleEffect& e : list_effects(solid, divided_tube(), file.units()).possible)
-    if (e.type == "contact" && e.part == "spine") parts.push_back(in_words(e.band));
+    if (e.type == "contact" && e.part == "spine") parts.push_back(in_words(e.extent, "cm"));
   EXPECT_EQ(parts, (std::vector<std::string>{"", "inlet half", "outlet half", "toward left", "toward right"}));
 }
 
