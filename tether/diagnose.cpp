@@ -4,6 +4,7 @@
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/evidence/coarse_runs.hpp"
+#include "diagnosis/evidence/growing_runs.hpp"
 #include "diagnosis/evidence/living_runs.hpp"
 #include "diagnosis/explanation/interruption.hpp"
 #include "diagnosis/search/diagnosis_text.hpp"
@@ -34,16 +35,45 @@ std::vector<RefinedRun> refined_runs(const DiagnosedCase& given, const CommandLi
   return all;
 }
 
-/// Those of a coarser model, which show what each number does to first order; none where the case does not want it, or
-/// the coarser model does not come to its end.
-std::unique_ptr<ModelRuns> coarse_runs(const DiagnosedCase& given, const CommandLine& command,
-                                       const fs::path& candidates) {
+/// The case and its coarser one with all candidates, and what makes their runs.
+class CandidateModels {
+ public:
+  CandidateModels(const DiagnosedCase& given, const CommandLine& command, fs::path output)
+      : given_(given), command_(command), output_(std::move(output)) {}
+
+  std::unique_ptr<ModelRuns> runs(const std::vector<PlacedEffect>& effects, int grown) const {
+    return std::make_unique<LivingRuns>(command_, written(effects, grown), output_);
+  }
+  /// Of a coarser model, which show what each number does to first order; the first, asked for alone, guides the
+  /// others: of a model that has grown that of the model as it is.
+  std::unique_ptr<ModelRuns> coarse_runs(const std::vector<PlacedEffect>& effects, int grown) const {
+    const fs::path file = write_coarse(written(effects, grown), given_);
+    auto runs = std::make_unique<CoarseRuns>(std::make_unique<LivingRuns>(command_, file, output_), given_.lumen,
+                                             lumen_in(file), file.stem().string());
+    if (grown > 0) runs->make({base_run()});
+    return runs;
+  }
+  /// The case with these candidates: candidates.yaml, and with more of them candidates_2.yaml, ...
+  fs::path written(const std::vector<PlacedEffect>& effects, int grown) const {
+    const fs::path file = output_ / (grown == 0 ? "candidates.yaml" : fmt::format("candidates_{}.yaml", grown + 1));
+    write_candidates(file, given_.file, given_.data, effects);
+    return file;
+  }
+
+ private:
+  const DiagnosedCase& given_;
+  const CommandLine& command_;
+  fs::path output_;
+};
+
+/// Null where the case does not want a coarser model, or that does not come to its end.
+std::unique_ptr<GrowingRuns> coarse_runs(const DiagnosedCase& given, const CandidateModels& models,
+                                         const std::vector<PlacedEffect>& effects, bool quiet) {
   if (!given.diagnosis.coarse) return nullptr;
-  const fs::path file = write_coarse(candidates, given);
-  auto runs = std::make_unique<CoarseRuns>(std::make_unique<LivingRuns>(command, file, candidates.parent_path()),
-                                           given.lumen, lumen_in(file), file.stem().string());
+  auto runs = std::make_unique<GrowingRuns>(
+      effects, [&models](const auto& all, int grown) { return models.coarse_runs(all, grown); });
   if (!runs->make({base_run()}).front().failed()) return runs;
-  if (!command.quiet) std::cout << "The coarser model does not come to its end: all runs are of the model itself.\n";
+  if (!quiet) std::cout << "The coarser model does not come to its end: all runs are of the model itself.\n";
   return nullptr;
 }
 
@@ -69,19 +99,23 @@ std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis
 /// pictures.
 Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, const fs::path& output,
                     const DiagnosisSettings& settings, std::vector<std::string>& pictures) {
-  const fs::path candidates = output / "candidates.yaml";
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
-  write_candidates(candidates, given.file, given.data, effects);
+  const CandidateModels models(given, command, output);
   DiagnosisCost of_refined;
-  const std::vector<RefinedRun> refined = refined_runs(given, command, candidates, of_refined);
-  LivingRuns runs(command, candidates, output);
-  const auto coarse = coarse_runs(given, command, candidates);
-  DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined}, settings);
+  const std::vector<RefinedRun> refined = refined_runs(given, command, models.written(effects, 0), of_refined);
+  GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
+  runs.parameters();  // a case that is refused is refused before anything else runs
+  std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
+  const auto extend = [&](const std::vector<PlacedEffect>& more) {
+    runs.add(more);
+    if (coarse) coarse->add(more);
+  };
+  DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined, extend}, settings);
   report.cost.runs += of_refined.runs;
   report.cost.runs_made += of_refined.runs_made;
   report.cost.cpu_seconds += of_refined.cpu_seconds;
   if (write_corrected(output / "corrected.yaml", given, report)) report.corrected = "corrected.yaml";
-  if (write_suggested(output / "suggested.yaml", given, report, effects)) report.suggested = "suggested.yaml";
+  if (write_suggested(output / "suggested.yaml", given, report)) report.suggested = "suggested.yaml";
   Diagnosis diagnosis = diagnosis_of(report);
   write_record(output / "diagnosis.json", diagnosis);
   pictures = draw_ranking(diagnosis, output);

@@ -21,6 +21,8 @@ struct PlacedEffect {
   std::string variant_of = {};        ///< the effect that it is a special shape of; empty: of none
   Extent extent = {};                 ///< of the part, which of it the effect acts on
   std::string length = {};            ///< unit of the extent
+  std::string mostly_in = {};         ///< of a patch without a part, the region that has more than half of it
+  double one_of = 1;                  ///< how many such patches the wall has
 };
 
 /// What the programs say could be missing, and what the case has; restricted as the case wants it. Throws

@@ -25,7 +25,9 @@ double longer_step(const TimeCase& time) {
 }  // namespace
 
 std::filesystem::path write_coarse(const std::filesystem::path& candidates, const DiagnosedCase& given) {
-  const std::filesystem::path file = candidates.parent_path() / "coarse.yaml";
+  std::string name = candidates.stem().string();
+  name.replace(0, std::string("candidates").size(), "coarse");
+  const std::filesystem::path file = candidates.parent_path() / (name + ".yaml");
   const CommonCase& common = given.file.common();
   std::vector<Overlay::Value> values{{"time.step", number_text(longer_step(common.time))}};
   if (given.mesh.source == "swept") {

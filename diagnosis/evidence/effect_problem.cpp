@@ -8,6 +8,13 @@ namespace {
 
 constexpr double farthest = 10;  ///< doublings: a thousandfold is no longer the same model
 
+/// Two patches of the wall, or one that a region has most of and the region: how exactly the place is known.
+bool is_within(const Candidate& one, const Candidate& other) {
+  if (one.extent.about && other.extent.about) return true;
+  if (one.extent.about) return !one.mostly_in.empty() && one.mostly_in == other.part;
+  return other.extent.about && !other.mostly_in.empty() && other.mostly_in == one.part;
+}
+
 }  // namespace
 
 double Amplitude::limited(double amplitude) const {
@@ -29,6 +36,8 @@ bool is_variant(const Candidate& one, const Candidate& other) {
   const auto is_of = [](const Candidate& shape, const std::string& effect) {
     return !effect.empty() && shape.variant_of == effect;
   };
+  const bool same_law = !one.type.empty() && one.type == other.type && one.number == other.number;
+  if (same_law && is_within(one, other)) return true;
   const bool same_number = !one.type.empty() && one.part == other.part && one.number == other.number;
   if (same_number && one.type == other.type && one.extent.is_all() != other.extent.is_all()) return true;
   if (same_number && one.extent == other.extent && (is_of(one, other.type) || is_of(other, one.type))) return true;

@@ -52,7 +52,9 @@ struct Candidate {
   std::string variant_of = {};           ///< the effect that it is a special shape of
   std::string type = {}, part = {},
               number = {};  ///< of an effect, new or in the model: what, where, which of its numbers
-  Extent extent = {};           ///< of the part, where along the vessel it acts
+  Extent extent = {};           ///< of the part, where in it it acts
+  std::string mostly_in = {};   ///< of a patch without a part, the region that has more than half of it
+  double one_of = 1;            ///< how many such patches the wall has
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };

@@ -6,6 +6,7 @@
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
 #include "diagnosis/search/misfit_map.hpp"
+#include "diagnosis/search/patch_search.hpp"
 #include "diagnosis/search/published_models.hpp"
 #include "diagnosis/search/trials.hpp"
 
@@ -88,11 +89,43 @@ std::vector<NoiseCheck> noise_left(const VectorXd& accepted, const Evidence& evi
   return noise_checks(evidence, as_data, left, as_data.changes(Eigen::all, moved));
 }
 
-/// Where on the wall data and model differ, of the model as it is and with what was accepted.
-void locate_misfit(DiagnosisReport& report, const DiagnosedCase& given, const Evidence& evidence,
-                   const Whitening& whitening) {
+MisfitMap misfit_map(const EffectProblem& problem, const DiagnosedCase& given, const Evidence& evidence,
+                     const Whitening& whitening) {
   const TimeCase& time = given.file.common().time;
-  const MisfitMap map(evidence, whitening, report.problem, time.start, time.end);
+  return {evidence, whitening, problem, time.start, time.end};
+}
+
+/// What the first members of groups that are more probable than not leave together, by a run.
+VectorXd left_by_leading(const EffectProblem& problem, const Weighed& weighed, const ShowingRuns& runs) {
+  VectorXd amplitudes = VectorXd::Zero(problem.changes.cols());
+  for (const WeighedGroup& group : weighed.groups) {
+    const auto& own = problem.candidates[group.members.front()].amplitudes;
+    if (group.probability > 0.5 && own.size() == 1) amplitudes(own.front()) = group.amplitudes.front();
+  }
+  const VectorXd left = runs.residual_at(amplitudes).col(0);
+  return left.allFinite() ? left : problem.residual;
+}
+
+std::vector<PlacedEffect> effects_of(const std::vector<PatchEffect>& patches) {
+  std::vector<PlacedEffect> all;
+  for (const PatchEffect& patch : patches) all.push_back(patch.effect);
+  return all;
+}
+
+/// Those that are to be varied.
+std::vector<VariedNumber> numbers_of(const std::vector<PatchEffect>& patches, const std::vector<VariedNumber>& all) {
+  std::vector<VariedNumber> wanted;
+  for (const PatchEffect& patch : patches)
+    for (const VariedNumber& one : all) {
+      const std::string& name = one.number.name;
+      const bool is_any = patch.number.empty() && name.starts_with(patch.effect.path + ".");
+      if (is_any || name == patch.effect.path + "." + patch.number) wanted.push_back(one);
+    }
+  return wanted;
+}
+
+/// Where on the wall data and model differ, of the model as it is and with what was accepted.
+void locate_misfit(DiagnosisReport& report, const DiagnosedCase& given, const MisfitMap& map) {
   report.located = {map.worst(report.problem.residual), map.worst(report.found.residual)};
   for (auto* misfit : {&report.located.before, &report.located.after})
     if (misfit->has_value()) (*misfit)->unit = given.file.units().symbol(dimension::length);
@@ -128,6 +161,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   report.case_name = given.file.common().name;
   report.title = given.file.common().title;
   report.alpha = given.diagnosis.alpha;
+  report.effects = effects;
   Division division(effects, varied_numbers(model.runs.parameters(), given.diagnosis, given.file));
   ModelRuns& first_order = model.coarse != nullptr ? *model.coarse : model.runs;
   Sensitivities sensitivities = sensitivities_of(first_order, division.undivided());
@@ -147,21 +181,34 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   const ResidualAt first_at = [&](const MatrixXd& amplitudes) { return first_trials.residual_at(amplitudes); };
   const ShowingRuns exploring{sensitivities.is_coarse ? first_at : residual_at, sensitivities.is_coarse};
   Weighing weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring);
+  const auto explore = [&](const std::vector<VariedNumber>& more) {
+    std::vector<FinishedMotion> motions{sensitivities.motions.front()};
+    for (FinishedMotion& motion : add_sensitivities(sensitivities, first_order, more))
+      motions.push_back(std::move(motion));
+    add_model_changes(report.problem,
+                      {more, whitening(residuals_of(evidence, motions, as_data.residual)), sensitivities.is_coarse},
+                      report.effects, given.diagnosis);
+    weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring,
+                             as_many(weighing.shown, report.problem.changes.cols()));
+  };
   while (true) {
     const std::vector<VariedNumber> parts = division.next(report.problem, weighing.weighed);
     if (parts.empty()) break;
-    std::vector<FinishedMotion> motions{sensitivities.motions.front()};
-    for (FinishedMotion& motion : add_sensitivities(sensitivities, first_order, parts))
-      motions.push_back(std::move(motion));
-    add_model_changes(report.problem,
-                      {parts, whitening(residuals_of(evidence, motions, as_data.residual)), sensitivities.is_coarse},
-                      effects, given.diagnosis);
-    weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring,
-                             as_many(weighing.shown, report.problem.changes.cols()));
+    explore(parts);
+  }
+  const MisfitMap map = misfit_map(report.problem, given, evidence, whitening);
+  PatchSearch patches(effects, given.lumen, given.file.units().symbol(dimension::length));
+  const auto left = map.worst(left_by_leading(report.problem, weighing.weighed, exploring));
+  while (model.extend && left && left->p < given.diagnosis.alpha / 5) {
+    const std::vector<PatchEffect> wanted = patches.next(report.problem, weighing, *left);
+    if (wanted.empty()) break;
+    model.extend(effects_of(wanted));
+    for (const PatchEffect& patch : wanted) report.effects.push_back(patch.effect);
+    explore(numbers_of(wanted, varied_numbers(first_order.parameters(), given.diagnosis, given.file)));
   }
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing);
-  locate_misfit(report, given, evidence, whitening);
+  locate_misfit(report, given, map);
   report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
   report.published = published_models(given, evidence, report, trials, base, model.runs);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct DiagnosedModel {
   ModelRuns& runs;                       ///< of the case with all candidates at zero
   ModelRuns* coarse = nullptr;           ///< of a coarser model, for what numbers do to first order; null: `runs`
   std::vector<RefinedRun> refined = {};  ///< that tell what mesh and time step cost, or none
+  /// Makes both models have these effects as well, at zero; none: effects act in regions and their parts only.
+  std::function<void(const std::vector<PlacedEffect>& more)> extend = {};
 };
 
 /// What the model lacks: sets its runs against the data, to first order and then at finite amplitudes, and searches

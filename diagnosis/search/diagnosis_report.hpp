@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/evidence/candidates.hpp"
 #include "diagnosis/results/diagnosis.hpp"
 #include "diagnosis/search/effect_search.hpp"
 #include "diagnosis/search/further_measurement.hpp"
@@ -11,6 +12,7 @@ struct DiagnosisReport {
   std::string case_name, title;
   std::string suggested, corrected;  ///< cases with the effect, with corrected data; empty: none
   EffectProblem problem;
+  std::vector<PlacedEffect> effects;  ///< that were candidates
   SearchResult found;
   std::vector<PublishedQuantities> published;  ///< what it changes
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none

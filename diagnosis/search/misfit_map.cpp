@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/search/spread_points.hpp"
 
 namespace tether {
 namespace {
@@ -21,20 +22,6 @@ constexpr int per_patch = 3;                ///< amplitudes
 constexpr double within = 5.99;     ///< gain that 95 % of the possible centres are within: chi-square, two numbers
 constexpr double unseen = 1e-9;     ///< information of one amplitude over that of another
 constexpr double noteworthy = 0.1;  ///< share of a patch
-
-/// So many of the points, each as far as can be from those before.
-Points spread(const Points& points, Index count) {
-  count = std::min(count, points.cols());
-  Points chosen(3, count);
-  VectorXd distance = VectorXd::Constant(points.cols(), std::numeric_limits<double>::infinity());
-  Index next = 0;
-  for (Index k = 0; k < count; ++k) {
-    chosen.col(k) = points.col(next);
-    distance = distance.cwiseMin((points.colwise() - points.col(next)).colwise().norm().transpose());
-    distance.maxCoeff(&next);
-  }
-  return chosen;
-}
 
 /// To the nearest of the points that is another one: no place is known better.
 double spacing_about(const Vec3& place, const Points& points) {

@@ -32,9 +32,9 @@ const std::string& family(const Candidate& candidate) {
   return candidate.variant_of.empty() ? candidate.name : candidate.variant_of;
 }
 
-/// Of a family's odds: a part of a place has a quarter of what all of it has.
+/// Of a family's odds: a part of a place has a quarter of what all of it has, which patches share.
 double weight(const Candidate& candidate) {
-  return candidate.extent.is_all() ? 1 : 0.25;
+  return (candidate.extent.is_all() ? 1 : 0.25) / candidate.one_of;
 }
 
 /// The logarithm of each candidate's odds beforehand: its kind's are shared alike by the families, those of a family

@@ -61,8 +61,8 @@ bool write_corrected(const std::filesystem::path& file, const DiagnosedCase& giv
   return true;
 }
 
-bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report,
-                     const std::vector<PlacedEffect>& effects) {
+bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report) {
+  const std::vector<PlacedEffect>& effects = report.effects;
   const CaseFile& from = given.file;
   Overlay overlay{std::filesystem::absolute(from.path()), from.common().name + "_suggested",
                   from.common().title + ", with what the diagnosis adds", corrections_of(report, given.observations)};

@@ -12,7 +12,6 @@ bool write_corrected(const std::filesystem::path& file, const DiagnosedCase& giv
 
 /// The same with the effects that were accepted too, at the amplitudes found, and a section `identification` that finds
 /// them anew, all together. Returns false, and writes nothing, if no effect of the model was accepted.
-bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report,
-                     const std::vector<PlacedEffect>& effects);
+bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& given, const DiagnosisReport& report);
 
 }  // namespace tether

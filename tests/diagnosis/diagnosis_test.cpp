@@ -192,6 +192,42 @@ TEST(Diagnosis, SaysWhereAMisfitIsThatNoRegionHolds) {
   EXPECT_EQ(found.misfit_map.size(), given.lumen.points.cols());
 }
 
+/// The patch is found, with its size and the law's number, though the search begins with regions.
+TEST(Diagnosis, FindsTheEffectOnAPatchAcrossRegions) {
+  const TemporaryFolder folder;
+  const DiagnosedCase given(written_in(folder, "disc"));
+  FakeRuns runs(given.lumen, regions);
+  const auto extend = [&](const std::vector<PlacedEffect>& more) { runs.add(more); };
+  const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs, nullptr, {}, extend});
+  EXPECT_EQ(found.found.verdict, Verdict::missing);
+  const TestedEffect& first = found.found.effects.front();
+  ASSERT_TRUE(first.accepted);
+  const Candidate& patch = found.problem.candidates[first.candidate];
+  ASSERT_TRUE(patch.extent.about.has_value()) << patch.where;
+  const double element = 0.65;
+  EXPECT_LT((patch.extent.about->centre - FakeRuns::dent).norm(), element);
+  EXPECT_NEAR(patch.extent.about->radius, 1, 0.35);
+  EXPECT_NEAR(first.amplitudes(0), 0.8, 0.2);
+  EXPECT_TRUE(patch.where.starts_with("the wall within ")) << patch.where;
+  EXPECT_LT(runs.patches.size(), 40U);
+  std::vector<std::string> elsewhere;
+  for (const TestedEffect& effect : found.found.effects)
+    if (const Candidate& named = found.problem.candidates[effect.candidate];
+        (effect.accepted || effect.rival) && !named.extent.about)
+      elsewhere.push_back(named.where);
+  EXPECT_EQ(elsewhere, std::vector<std::string>{});
+}
+
+TEST(Diagnosis, LooksForNoPatchWhereARegionExplainsTheData) {
+  const TemporaryFolder folder;
+  const DiagnosedCase given(written_in(folder, "left"));
+  FakeRuns runs(given.lumen, regions);
+  const auto extend = [&](const std::vector<PlacedEffect>& more) { runs.add(more); };
+  const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs, nullptr, {}, extend});
+  EXPECT_EQ(found.problem.candidates[found.found.effects.front().candidate].where, "left");
+  EXPECT_TRUE(runs.patches.empty());
+}
+
 TEST(Diagnosis, LocatesNothingWhereNothingIsOff) {
   const TemporaryFolder folder;
   const DiagnosedCase given(written_in(folder, "nowhere"));

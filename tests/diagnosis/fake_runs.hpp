@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
+#include "diagnosis/evidence/candidates.hpp"
 #include "diagnosis/evidence/model_runs.hpp"
 #include "observation_manager/measurements/lumen_surface.hpp"
 
@@ -17,6 +19,14 @@ struct FakeRuns : ModelRuns {
       for (const std::string& region : regions)
         infos.push_back({"solid.effects.spring_" + region + half + ".stiffness", "of the spring", "1", "linear", 0, 0,
                          0, infinite, undefined, 1});
+  }
+  /// Springs on patches: those that hold nothing of a region's.
+  void add(const std::vector<PlacedEffect>& more) {
+    for (const PlacedEffect& effect : more) {
+      infos.push_back(infos.front());
+      infos.back().name = effect.path + ".stiffness";
+      patches[infos.back().name] = effect.extent.about.value();
+    }
   }
   const std::vector<protocol::ParameterInfo>& parameters() const override { return infos; }
   std::vector<std::string> columns() const override { return {"fluid.volume"}; }
@@ -43,6 +53,9 @@ struct FakeRuns : ModelRuns {
   }
   /// A dent about a place that no region is drawn for acts as a bump, 8 mm wide.
   double share_at(const std::string& name, Eigen::Index node) const {
+    if (const auto patch = patches.find(name); patch != patches.end())
+      return (lumen.points.col(node) - patch->second.centre).norm() < patch->second.radius ? 1 : 0;
+    if (name.find("disc") != std::string::npos) return (lumen.points.col(node) - dent).norm() < 1 ? 1 : 0;
     if (name.find("dent") == std::string::npos) return acts_at(name, node) ? 1 : 0;
     return std::exp(-(lumen.points.col(node) - dent).squaredNorm() / (2 * 0.8 * 0.8));
   }
@@ -68,6 +81,7 @@ struct FakeRuns : ModelRuns {
   const LumenSurface& lumen;
   double strength = 1;  ///< of the springs: a coarser model's are not quite the model's
   std::vector<protocol::ParameterInfo> infos;
+  std::map<std::string, Ball> patches;
   std::set<std::string> fails;    ///< folders of runs that do not come to their end
   std::vector<std::string> made;  ///< folders
 };
