@@ -83,6 +83,7 @@ Candidate& candidate_of(EffectProblem& problem, const Amplitude& amplitude, bool
   if (effect != effects.end()) {
     wanted.type = effect->type, wanted.part = effect->part, wanted.extent = effect->extent;
     wanted.mostly_in = effect->mostly_in, wanted.one_of = effect->one_of;
+    wanted.is_tried = effect->is_tried;
     wanted.number = amplitude.name.substr(path.size() + 1);
   }
   if (wanted.kind == Candidate::Kind::effect && amplitude.one_sided) {  // one at a time

@@ -23,6 +23,7 @@ struct PlacedEffect {
   std::string length = {};            ///< unit of the extent
   std::string mostly_in = {};         ///< of a patch without a part, the region that has more than half of it
   double one_of = 1;                  ///< how many such patches the wall has
+  bool is_tried = false;              ///< on one of several patches that are compared
 };
 
 /// What the programs say could be missing, and what the case has; restricted as the case wants it. Throws

@@ -55,6 +55,7 @@ struct Candidate {
   Extent extent = {};           ///< of the part, where in it it acts
   std::string mostly_in = {};   ///< of a patch without a part, the region that has more than half of it
   double one_of = 1;            ///< how many such patches the wall has
+  bool is_tried = false;        ///< on one of several patches that are compared
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };

@@ -167,6 +167,17 @@ void add_place_of_what_is_left(std::vector<std::string>& all, const Diagnosis& d
                   regions.size() > 1 ? "; a region of its own there would let an effect act on just that" : ""));
 }
 
+/// How exactly the place of what was found is known, where that is a patch.
+void add_place(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const auto is_on_it = [](const Finding& finding) { return finding.accepted && finding.patch; };
+  if (!diagnosis.patch || std::none_of(diagnosis.effects.begin(), diagnosis.effects.end(), is_on_it)) return;
+  const PatchPlace& place = *diagnosis.patch;
+  all.push_back(fmt::format(
+      "No region holds it: of {} patches that were tried this one explains most. Its centre is known to {:.2g} {}, its "
+      "radius to be {:.2g} .. {:.2g} {}; its strength is that of this patch, and goes with the size",
+      place.tried, place.known_to, place.unit, place.least_radius, place.largest_radius, place.unit));
+}
+
 void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const Verdict verdict = diagnosis.verdict;
   const auto& after = diagnosis.lack_of_fit.after;
@@ -222,6 +233,7 @@ void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
 }
 
 void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  add_place(all, diagnosis);
   add_certainty(all, diagnosis);
   if (diagnosis.verdict == Verdict::missing) add_variants(all, diagnosis);
   for (std::string& sentence : look_alike_sentences(diagnosis)) all.push_back(std::move(sentence));

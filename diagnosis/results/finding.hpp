@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/catalogue/extent.hpp"
 #include "common/io/record.hpp"
 #include "diagnosis/results/gain.hpp"
 
@@ -47,6 +48,7 @@ struct Finding {
   std::string name;
   std::optional<std::string> parameter;
   std::string where, meaning;
+  std::optional<Ball> patch;
   CandidateKind kind = CandidateKind::effect;
   std::optional<std::string> source;
   std::optional<double> frame;
@@ -64,6 +66,7 @@ struct Finding {
     field("name", self.name, "of the effect, input or error");
     field("parameter", self.parameter, "the only number of an effect that differs; null: all of them");
     field("where", self.where, "region of the wall, opening, or source and time of the data; empty: everywhere");
+    field("patch", self.patch, "of the wall that it acts on; null: a region, or what `where` says");
     field("meaning", self.meaning, "of the effect");
     field("kind", self.kind, "what it changes");
     field("source", self.source, "of an error of the data, their section in the case");

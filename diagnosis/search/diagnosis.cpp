@@ -95,15 +95,34 @@ MisfitMap misfit_map(const EffectProblem& problem, const DiagnosedCase& given, c
   return {evidence, whitening, problem, time.start, time.end};
 }
 
-/// What the first members of groups that are more probable than not leave together, by a run.
-VectorXd left_by_leading(const EffectProblem& problem, const Weighed& weighed, const ShowingRuns& runs) {
-  VectorXd amplitudes = VectorXd::Zero(problem.changes.cols());
-  for (const WeighedGroup& group : weighed.groups) {
-    const auto& own = problem.candidates[group.members.front()].amplitudes;
-    if (group.probability > 0.5 && own.size() == 1) amplitudes(own.front()) = group.amplitudes.front();
+/// Where the misfit is largest that what leads leaves, and that it leaves without the one that is missed least; none if
+/// what leads leaves no more than chance makes.
+std::vector<Ball> misfits_left(const EffectProblem& problem, const Weighed& weighed, const ShowingRuns& runs,
+                               const MisfitMap& map, double alpha) {
+  const Leading leading = leading_in(weighed);
+  const auto count = static_cast<Eigen::Index>(leading.candidates.size());
+  MatrixXd amplitudes = MatrixXd::Zero(problem.changes.cols(), count + 1);  // all of them, and without each
+  for (std::size_t k = 0; k < leading.candidates.size(); ++k) {
+    const auto& own = problem.candidates[leading.candidates[k]].amplitudes;
+    if (own.size() != 1) continue;  // it has several, and no single one that is most probable
+    amplitudes.row(own.front()).setConstant(leading.amplitudes[k]);
+    amplitudes(own.front(), static_cast<Eigen::Index>(k) + 1) = 0;
   }
-  const VectorXd left = runs.residual_at(amplitudes).col(0);
-  return left.allFinite() ? left : problem.residual;
+  const MatrixXd left = runs.residual_at(amplitudes);
+  std::optional<LocatedMisfit> of_all, without_one;
+  for (Eigen::Index k = 0; k <= count; ++k) {
+    if (!left.col(k).allFinite()) continue;
+    const auto misfit = map.worst(left.col(k));
+    if (!misfit) return {};
+    if (k == 0)
+      of_all = misfit;
+    else if (!without_one || misfit->z < without_one->z)
+      without_one = misfit;
+  }
+  if (!of_all || of_all->p > alpha / 5) return {};
+  std::vector<Ball> starts{{of_all->centre, of_all->radius}};
+  if (without_one) starts.push_back({without_one->centre, without_one->radius});
+  return starts;
 }
 
 std::vector<PlacedEffect> effects_of(const std::vector<PatchEffect>& patches) {
@@ -118,10 +137,18 @@ std::vector<VariedNumber> numbers_of(const std::vector<PatchEffect>& patches, co
   for (const PatchEffect& patch : patches)
     for (const VariedNumber& one : all) {
       const std::string& name = one.number.name;
-      const bool is_any = patch.number.empty() && name.starts_with(patch.effect.path + ".");
-      if (is_any || name == patch.effect.path + "." + patch.number) wanted.push_back(one);
+      if (!name.starts_with(patch.effect.path + ".")) continue;
+      const std::string number = name.substr(patch.effect.path.size() + 1);
+      if ((patch.number.empty() || number == patch.number) && number != patch.other_than) wanted.push_back(one);
     }
   return wanted;
+}
+
+/// Leaves none but those on the patch that explains most: how exactly its place is known, is told of it.
+void settle(std::vector<Candidate>& candidates, const std::optional<PatchPlace>& place) {
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    return candidate.is_tried && !(place && candidate.extent.about == place->patch);
+  });
 }
 
 /// Where on the wall data and model differ, of the model as it is and with what was accepted.
@@ -198,14 +225,17 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   }
   const MisfitMap map = misfit_map(report.problem, given, evidence, whitening);
   PatchSearch patches(effects, given.lumen, given.file.units().symbol(dimension::length));
-  const auto left = map.worst(left_by_leading(report.problem, weighing.weighed, exploring));
-  while (model.extend && left && left->p < given.diagnosis.alpha / 5) {
-    const std::vector<PatchEffect> wanted = patches.next(report.problem, weighing, *left);
+  std::vector<Ball> starts;
+  if (model.extend) starts = misfits_left(report.problem, weighing.weighed, exploring, map, given.diagnosis.alpha);
+  while (!starts.empty()) {
+    const std::vector<PatchEffect> wanted = patches.next(report.problem, weighing, starts);
     if (wanted.empty()) break;
     model.extend(effects_of(wanted));
     for (const PatchEffect& patch : wanted) report.effects.push_back(patch.effect);
     explore(numbers_of(wanted, varied_numbers(first_order.parameters(), given.diagnosis, given.file)));
   }
+  settle(report.problem.candidates, patches.place());
+  report.patch = patches.place();
   weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
   report.found = search_effects(report.problem, how, residual_at, weighing);
   locate_misfit(report, given, map);

@@ -117,6 +117,7 @@ Finding finding_of(const EffectProblem& problem, const TestedEffect& effect) {
   finding.name = candidate.name;
   finding.parameter = if_any(candidate.parameter);
   finding.where = candidate.where;
+  finding.patch = candidate.extent.about;
   finding.meaning = candidate.meaning;
   finding.kind = candidate.kind;
   finding.source = if_any(candidate.data.field);
@@ -173,6 +174,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.held_out = found.held_out;
   d.lack_of_fit = {lack_of(problem, found.before), lack_of(problem, found.after)};
   d.located = report.located;
+  d.patch = report.patch;
   d.strained_errors = found.strained;
   d.noise = report.noise;
   d.more = found.more;

@@ -18,6 +18,7 @@ struct DiagnosisReport {
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
   std::vector<NoiseCheck> noise;
   LocatedMisfits located;
+  std::optional<PatchPlace> patch;  ///< that a candidate acts on; none: regions explain what is there
   VectorXd misfit_map;  ///< z of patches about the nodes of the lumen, of what is left; empty: no data lie on it
   double alpha = 0.05;
   std::vector<NoiseFactor> noise_factors;

@@ -39,20 +39,17 @@ bool is_one_of(const std::vector<PlacedEffect>& laws, const Candidate& candidate
   return !candidate.part.empty() && candidate.amplitudes.size() == 1 && std::any_of(laws.begin(), laws.end(), is_it);
 }
 
-/// First members of groups that are more probable than not.
-std::vector<std::size_t> leading_in(const Weighed& weighed) {
-  constexpr std::size_t most = 2;  // a patch is the third
-  std::vector<std::size_t> all;
-  for (const WeighedGroup& group : weighed.groups)
-    if (group.probability > much && all.size() < most) all.push_back(group.members.front());
-  return all;
-}
-
-/// Of a candidate and of what leads, but for what does much the same.
-double evidence_of(std::size_t candidate, std::vector<std::size_t> leading, const SetEvidence& evidence) {
-  std::erase_if(leading, [&](std::size_t member) { return std::pow(evidence.cosine(candidate, member), 2) > alike; });
-  leading.push_back(candidate);
-  return evidence.fit(leading, 0).log_evidence;
+/// Of a candidate, beside those of what leads with which it explains most.
+double evidence_of(std::size_t candidate, const std::vector<std::size_t>& leading, const SetEvidence& evidence) {
+  double most = -infinite;
+  for (std::size_t subset = 0; subset < std::size_t{1} << leading.size(); ++subset) {
+    std::vector<std::size_t> members{candidate};
+    for (std::size_t k = 0; k < leading.size(); ++k)
+      if ((subset >> k & 1) != 0 && std::pow(evidence.cosine(candidate, leading[k]), 2) < alike)
+        members.push_back(leading[k]);
+    most = std::max(most, evidence.fit(members, 0).log_evidence);
+  }
+  return most;
 }
 
 /// The region that holds most of a ball's nodes; empty if none does.
@@ -71,6 +68,17 @@ std::string region_of_most(const Ball& ball, const LumenSurface& lumen, const Ve
 
 }  // namespace
 
+Leading leading_in(const Weighed& weighed) {
+  constexpr std::size_t most = 2;  // a patch is the third
+  Leading all;
+  for (const WeighedGroup& group : weighed.groups) {
+    if (group.probability <= much || all.candidates.size() == most) continue;
+    all.candidates.push_back(group.members.front());
+    all.amplitudes.push_back(group.amplitudes.front());
+  }
+  return all;
+}
+
 PatchSearch::PatchSearch(const std::vector<PlacedEffect>& effects, const LumenSurface& lumen, std::string length)
     : laws_(laws_on_regions(effects)),
       lumen_(lumen),
@@ -80,28 +88,42 @@ PatchSearch::PatchSearch(const std::vector<PlacedEffect>& effects, const LumenSu
 }
 
 std::vector<PatchEffect> PatchSearch::next(const EffectProblem& problem, const Weighing& weighing,
-                                           const LocatedMisfit& left) {
+                                           const std::vector<Ball>& starts) {
   if (stage_ == Stage::done) return {};
   const SetEvidence evidence(problem, weighing.shown);
   if (stage_ == Stage::not_begun) {
-    begin(problem, evidence, left);
-    if (law_.empty()) return {};
+    choose_law(problem, evidence);
+    leading_ = leading_in(weighing.weighed).candidates;
     stage_ = Stage::moving;
-    std::vector<PatchEffect> wanted = neighbours();
-    wanted.push_back(told(law_, best_, number_));
-    return wanted;
+    return law_.empty() ? std::vector<PatchEffect>{} : first_patches(starts);
   }
-  if (!find_best(problem, evidence, leading_in(weighing.weighed))) {
+  const std::vector<Tried> all = tried(problem, evidence);
+  const auto is_better = [](const Tried& a, const Tried& b) { return a.evidence < b.evidence; };
+  const auto best = std::max_element(all.begin(), all.end(), is_better);
+  if (best == all.end() || best->evidence < evidence.fit(leading_, 0).log_evidence - still_possible) {
     stage_ = Stage::done;
     return {};
   }
+  best_ = best->ball;
   for (; step_ > best_.radius / 4 && told_.size() < most_told; step_ /= 2)
     if (std::vector<PatchEffect> wanted = neighbours(); !wanted.empty()) return wanted;
   stage_ = Stage::done;
+  set_place(all);
   return other_laws();
 }
 
-void PatchSearch::begin(const EffectProblem& problem, const SetEvidence& evidence, const LocatedMisfit& left) {
+std::vector<PatchEffect> PatchSearch::first_patches(const std::vector<Ball>& starts) {
+  std::vector<PatchEffect> wanted;
+  for (const Ball& start : starts) {
+    best_ = start;
+    step_ = std::max(step_, start.radius);
+    if (!is_known(start)) wanted.push_back(told(law_, start, number_));
+    for (PatchEffect& beside : neighbours()) wanted.push_back(std::move(beside));
+  }
+  return wanted;
+}
+
+void PatchSearch::choose_law(const EffectProblem& problem, const SetEvidence& evidence) {
   double most = -infinite;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     const Candidate& candidate = problem.candidates[c];
@@ -112,24 +134,32 @@ void PatchSearch::begin(const EffectProblem& problem, const SetEvidence& evidenc
     law_ = candidate.type;
     number_ = candidate.number;
   }
-  best_ = {left.centre, left.radius};
-  step_ = left.radius;
 }
 
-bool PatchSearch::find_best(const EffectProblem& problem, const SetEvidence& evidence,
-                            const std::vector<std::size_t>& leading) {
-  double most = evidence.fit(leading, 0).log_evidence - still_possible;
-  bool any = false;
+std::vector<PatchSearch::Tried> PatchSearch::tried(const EffectProblem& problem, const SetEvidence& evidence) const {
+  std::vector<Tried> all;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     const Candidate& candidate = problem.candidates[c];
-    if (!candidate.extent.about || candidate.type != law_ || candidate.number != number_) continue;
-    const double gain = evidence_of(c, leading, evidence);
-    if (gain <= most) continue;
-    any = true;
-    most = gain;
-    best_ = *candidate.extent.about;
+    if (candidate.is_tried && candidate.type == law_ && candidate.number == number_)
+      all.push_back({*candidate.extent.about, evidence_of(c, leading_, evidence)});
   }
-  return any;
+  return all;
+}
+
+void PatchSearch::set_place(const std::vector<Tried>& all) {
+  constexpr double within = 5.99 / 2;  // of the logarithm: chi-square, two numbers
+  place_ = PatchPlace{best_, infinite, best_.radius, best_.radius, static_cast<int>(all.size()), length_};
+  double most = -infinite;
+  for (const Tried& one : all) most = std::max(most, one.evidence);
+  const auto away = [&](const Tried& one) { return (one.ball.centre - best_.centre).norm(); };
+  for (const Tried& one : all)
+    if (away(one) > 0) place_->known_to = std::min(place_->known_to, away(one));
+  for (const Tried& one : all) {
+    if (one.evidence < most - within) continue;
+    place_->known_to = std::max(place_->known_to, away(one));
+    place_->least_radius = std::min(place_->least_radius, one.ball.radius);
+    place_->largest_radius = std::max(place_->largest_radius, one.ball.radius);
+  }
 }
 
 std::vector<PatchEffect> PatchSearch::neighbours() {
@@ -152,7 +182,10 @@ std::vector<PatchEffect> PatchSearch::neighbours() {
 
 std::vector<PatchEffect> PatchSearch::other_laws() {
   std::vector<PatchEffect> wanted;
-  for (const PlacedEffect& law : laws_) wanted.push_back(told(law.type, best_, {}));
+  for (const PlacedEffect& law : laws_) {
+    wanted.push_back(told(law.type, best_, {}));
+    if (law.type == law_) wanted.back().other_than = number_;
+  }
   return wanted;
 }
 
@@ -162,6 +195,7 @@ PatchEffect PatchSearch::told(const std::string& type, const Ball& ball, const s
   int count = 1;
   do result.effect.path = fmt::format("solid.effects.{}_patch_{}", type, count++);
   while (!paths_.insert(result.effect.path).second);
+  result.effect.is_tried = true;
   result.effect.extent.about = ball;
   result.effect.length = length_;
   result.effect.mostly_in = region_of_most(ball, lumen_, areas_);

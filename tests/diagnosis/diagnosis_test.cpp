@@ -207,9 +207,14 @@ TEST(Diagnosis, FindsTheEffectOnAPatchAcrossRegions) {
   const double element = 0.65;
   EXPECT_LT((patch.extent.about->centre - FakeRuns::dent).norm(), element);
   EXPECT_NEAR(patch.extent.about->radius, 1, 0.35);
-  EXPECT_NEAR(first.amplitudes(0), 0.8, 0.2);
+  EXPECT_NEAR(first.amplitudes(0) * std::pow(patch.extent.about->radius, 2) / 0.8, 1, 0.2) << "of all of it";
   EXPECT_TRUE(patch.where.starts_with("the wall within ")) << patch.where;
   EXPECT_LT(runs.patches.size(), 40U);
+  ASSERT_TRUE(found.patch.has_value());
+  EXPECT_EQ(found.patch->patch, *patch.extent.about);
+  EXPECT_LE(found.patch->known_to, 2 * element);
+  EXPECT_LE(found.patch->least_radius, found.patch->patch.radius);
+  EXPECT_GE(found.patch->largest_radius, found.patch->patch.radius);
   std::vector<std::string> elsewhere;
   for (const TestedEffect& effect : found.found.effects)
     if (const Candidate& named = found.problem.candidates[effect.candidate];
