@@ -159,12 +159,10 @@ void add_place_of_what_is_left(std::vector<std::string>& all, const Diagnosis& d
   for (const PatchShare& share : located->regions) regions.push_back(share.region);
   all.push_back(
       fmt::format("What is left is largest within {:.2g} {} of ({:.3g}, {:.3g}, {:.3g}), known to {:.2g} {}, in {}: "
-                  "the data lie up "
-                  "to {:.2g} {} {} the model there, at {:.3g} s{}",
+                  "the data lie up to {:.2g} {} {} the model there, at {:.3g} s",
                   located->radius, located->unit, located->centre[0], located->centre[1], located->centre[2],
                   located->resolution, located->unit, fmt::join(regions, ", "), std::abs(located->amount),
-                  located->unit, located->amount > 0 ? "outside" : "inside", located->time,
-                  regions.size() > 1 ? "; a region of its own there would let an effect act on just that" : ""));
+                  located->unit, located->amount > 0 ? "outside" : "inside", located->time));
 }
 
 /// How exactly the place of what was found is known, where that is a patch.
