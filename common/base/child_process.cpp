@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -79,10 +80,15 @@ int exit_code_in(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-int exit_code_of(pid_t pid) {
+/// Waits for its end; tells on stderr when it is stopped.
+int exit_code_of(pid_t pid, const std::string& name) {
   int status = 0;
-  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-  return exit_code_in(status);
+  while (true) {
+    const pid_t changed = waitpid(pid, &status, WUNTRACED);
+    if (changed < 0 && errno == EINTR) continue;
+    if (changed < 0 || !WIFSTOPPED(status)) return exit_code_in(status);
+    fmt::print(stderr, "{} (pid {}) is stopped: kill -CONT {} lets it go on\n", name, pid, pid);
+  }
 }
 
 volatile std::sig_atomic_t foreground_child = 0;
@@ -124,7 +130,7 @@ ChildEnd capture(const Command& command) {
     dup2(output.descriptor(), STDOUT_FILENO);
     dup2(errors.descriptor(), STDERR_FILENO);
   });
-  const int code = exit_code_of(pid);
+  const int code = exit_code_of(pid, command.words.front());
   return {code, output.text(), errors.text()};
 }
 
@@ -132,10 +138,11 @@ int run_in_foreground(const Command& command) {
   const Forwarding forwarding;
   const pid_t pid = start(command, detach_from_terminal);
   foreground_child = pid;
-  return exit_code_of(pid);
+  return exit_code_of(pid, command.words.front());
 }
 
-RunningProgram::RunningProgram(const Command& command) : pid_(start(command, detach_from_terminal)) {}
+RunningProgram::RunningProgram(const Command& command)
+    : name_(command.words.front()), pid_(start(command, detach_from_terminal)) {}
 
 RunningProgram::~RunningProgram() {
   if (exit_code()) return;
@@ -150,7 +157,7 @@ std::optional<int> RunningProgram::exit_code() {
 }
 
 int RunningProgram::wait() {
-  if (!code_) code_ = exit_code_of(pid_);
+  if (!code_) code_ = exit_code_of(pid_, name_);
   return *code_;
 }
 

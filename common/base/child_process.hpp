@@ -45,6 +45,7 @@ class RunningProgram {
   int wait();
 
  private:
+  std::string name_;
   pid_t pid_;
   std::optional<int> code_;
 };

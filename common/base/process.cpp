@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 namespace tether {
 
@@ -42,13 +44,30 @@ std::int64_t process_id() {
   return getpid();
 }
 
-bool is_running(std::int64_t pid) {
-  if (kill(static_cast<pid_t>(pid), 0) != 0) return false;
+/// Fields of /proc/PID/stat as in proc(5): behind the name in parentheses the state, then numbers, the 12th and 13th of
+/// them the ticks in user and system mode.
+ProcessStatus status_of(std::int64_t pid) {
+  if (kill(static_cast<pid_t>(pid), 0) != 0) return {};
+  ProcessStatus status{true};
   std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
   std::string line;
   std::getline(stat, line);
   const auto name_end = line.rfind(')');
-  return name_end == std::string::npos || name_end + 2 >= line.size() || line[name_end + 2] != 'Z';
+  if (name_end == std::string::npos) return status;
+  std::istringstream fields(line.substr(name_end + 1));
+  char state = ' ';
+  fields >> state;
+  status.runs = state != 'Z';
+  status.is_stopped = state == 'T';
+  double number = 0, ticks = 0;
+  for (int field = 1; field <= 12 && fields >> number; ++field)
+    if (field >= 11) ticks += number;
+  status.cpu_seconds = ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+  return status;
+}
+
+bool is_running(std::int64_t pid) {
+  return status_of(pid).runs;
 }
 
 }  // namespace tether

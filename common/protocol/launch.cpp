@@ -188,6 +188,7 @@ Session::Link Session::connect() {
   const auto greeting = unpack<Welcome>(channel->receive(infinite));
   channel->peer().host = greeting.host;
   channel->peer().pid = greeting.pid;
+  channel->peer().activity = "at work";
   parts_->watch.follow(channel->peer());
   return {std::move(channel), greeting};
 }

@@ -22,4 +22,8 @@ double setup_limit() {
   return seconds_from("TETHER_SETUP_LIMIT", 600);
 }
 
+double stopped_limit() {
+  return seconds_from("TETHER_STOPPED_LIMIT", 60);
+}
+
 }  // namespace tether::protocol

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How long a master waits for a partner before the first request [s]. Environment variables change both.
+/// How long processes wait for each other [s]. Environment variables change all of it.
 namespace tether::protocol {
 
 /// Until the program reaches MPI and arrives: TETHER_START_LIMIT, 60 if unset.
@@ -8,5 +8,8 @@ double start_limit();
 
 /// From then until it has read its case and says hello: TETHER_SETUP_LIMIT, 600 if unset.
 double setup_limit();
+
+/// While a process is stopped by a signal: TETHER_STOPPED_LIMIT, 60 if unset.
+double stopped_limit();
 
 }  // namespace tether::protocol

@@ -1,14 +1,19 @@
 #include "common/protocol/watch.hpp"
 
 #include <sys/prctl.h>
+#include <sys/types.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <thread>
 
 #include "common/base/process.hpp"
 #include "common/protocol/bell.hpp"
 #include "common/protocol/job.hpp"
+#include "common/protocol/limits.hpp"
 #include "common/protocol/signals.hpp"
 
 namespace tether::protocol {
@@ -20,7 +25,13 @@ using Clock = std::chrono::steady_clock;
 constexpr auto spin_time = std::chrono::microseconds(30);
 constexpr Clock::duration first_nap = std::chrono::microseconds(10), rung_nap = std::chrono::milliseconds(1);
 constexpr auto look_every = std::chrono::milliseconds(200);
-constexpr double follow_every = 0.1, follow_after = 0.5;  // seconds
+constexpr double follow_every = 0.1, follow_after = 0.5, tell_stopped_after = 2, tell_idle_after = 60;  // seconds
+
+/// Beside what a run reports: it goes on.
+void say(const std::string& news) {
+  fmt::print(stderr, "{}: {}\n", program_invocation_short_name, news);
+  std::fflush(stderr);
+}
 
 /// An eighth of the time waited so far, up to 0.3 ms; in long waits 4 % of it, up to 5 ms. At least 1 ms if a ring will
 /// end it: so much is lost with a ring that comes before its message.
@@ -59,12 +70,16 @@ void Watch::abandon(const Peer& peer) {
   if (forget_partner(peer) > 0) abandoned_.push_back(peer);
 }
 
-void Watch::check_partners() const {
-  for (const Partner& partner : partners_) {
-    if (!is_dead(*partner.peer)) continue;
+void Watch::check_partners() {
+  for (Partner& partner : partners_) {
+    if (!is_dead(*partner.peer)) {
+      check_stopped(partner);
+      continue;
+    }
     partner.hear();
     throw PeerDied(*partner.peer);
   }
+  tell_if_all_are_idle();
   try {
     check_interrupted();
   } catch (const Interrupted&) {
@@ -73,10 +88,41 @@ void Watch::check_partners() const {
   }
 }
 
+void Watch::check_stopped(Partner& partner) {
+  partner.stillness.look(*partner.peer);
+  const double stopped = partner.stillness.stopped();
+  if (stopped > stopped_limit()) throw PeerStopped(*partner.peer, stopped_limit());
+  if (stopped == 0) partner.is_told = false;
+  if (stopped < tell_stopped_after || partner.is_told) return;
+  partner.is_told = true;
+  say(stopped_text(*partner.peer));
+}
+
+/// A deadlock, a file server that does not answer: nobody can tell it from a code that waits for another machine.
+void Watch::tell_if_all_are_idle() {
+  std::string who;
+  for (const Partner& partner : partners_) {
+    if (partner.stillness.idle() < tell_idle_after) {
+      is_told_of_idleness_ = false;
+      return;
+    }
+    who += (who.empty() ? "" : ", ") + partner.peer->describe() + " while " + partner.peer->activity;
+  }
+  if (who.empty() || is_told_of_idleness_) return;
+  is_told_of_idleness_ = true;
+  say(fmt::format("for {:g} s no processor has been used by {}: stuck, or waiting for something else? This waits on",
+                  tell_idle_after, who));
+}
+
 void Watch::follow(const Peer& master) {
-  guard_ = std::make_unique<Guard>(follow_every, [master, alive = 0.0](double seconds) mutable {
+  guard_ = std::make_unique<Guard>(follow_every, [master, alive = 0.0, still = Stillness()](double seconds) mutable {
     if (!is_dead(master)) alive = seconds;
     if (seconds - alive > follow_after) end_job(exit_run_failed);
+    still.look(master);
+    if (still.stopped() < stopped_limit()) return;
+    if (is_first_to_tell_of(master)) say(PeerStopped(master, stopped_limit()).what());
+    kill(static_cast<pid_t>(master.pid), SIGKILL);  // else it wakes when the job ends, and calls its partners dead
+    end_job(exit_run_failed);
   });
 }
 

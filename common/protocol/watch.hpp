@@ -7,6 +7,7 @@
 #include "common/base/effect.hpp"
 #include "common/protocol/channel.hpp"
 #include "common/protocol/guard.hpp"
+#include "common/protocol/stillness.hpp"
 
 namespace tether::protocol {
 
@@ -25,8 +26,9 @@ class Watch {
   void abandon(const Peer& peer);
 
   /// Throws PeerDied for the first partner on this host that does not run any more, or Interrupted; or, instead, what
-  /// the partner that died (after a signal: any partner) has said before: it tells more.
-  void check_partners() const;
+  /// the partner that died (after a signal: any partner) has said before: it tells more. Tells that one is stopped, and
+  /// throws PeerStopped if it remains so; tells that none uses its processor any more.
+  void check_partners();
   /// From now on this process ends half a second after its master, even in the middle of a computation; until released.
   /// No sooner: between SIGTERM and SIGKILL mpirun waits a second, but only until any process ends, and in that second
   /// somebody may have to say what happened.
@@ -40,13 +42,18 @@ class Watch {
   struct Partner {
     const Peer* peer;
     Hear hear;
+    Stillness stillness = {};
+    bool is_told = false;  ///< that it is stopped
   };
+  void check_stopped(Partner& partner);
+  void tell_if_all_are_idle();
   std::size_t forget_partner(const Peer& peer);
 
   std::vector<Partner> partners_;
   std::vector<Peer> abandoned_;
   const Peer* master_ = nullptr;
   std::unique_ptr<Guard> guard_;
+  bool is_told_of_idleness_ = false;
 };
 
 /// Whether the peer is known to be gone: its pid does not run on this host. What other hosts do is mpirun's to notice.

@@ -27,9 +27,10 @@ inline void stamp() {
 
 /// What the fake called `role` is told to do wrong at `point` (a message's name, "start" or "hello").
 inline void misbehave(const std::string& role, const std::string& point) {
-  for (const char* fault : {"kill", "exit", "hang", "refuse", "fail"})
+  for (const char* fault : {"kill", "exit", "hang", "stop", "refuse", "fail"})
     if (option(role, fault) == point) stamp();
   if (option(role, "kill") == point) std::raise(SIGKILL);
+  if (option(role, "stop") == point) std::raise(SIGSTOP);
   if (option(role, "exit") == point) std::_Exit(0);
   if (option(role, "linger") == point) std::this_thread::sleep_for(std::chrono::seconds(8));
   if (option(role, "hang") == point) std::this_thread::sleep_for(std::chrono::hours(1));

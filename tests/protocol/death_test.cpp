@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/protocol/run_job.hpp"
 
 /// Whatever dies, whenever, however the job was started: one message, an end of its own accord, no process left.
@@ -99,6 +101,36 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"mpmd_input", Start::mpmd, "solid.refuse=hello", refused, 2},
                       Case{"mpmd_master", Start::mpmd, "master.kill=step1", "", 137}),
     [](const auto& info) { return std::string(info.param.name); });
+
+class Stopped : public ::testing::TestWithParam<Start> {};
+
+/// Told at once, and when it does not go on the run ends as with any other death.
+TEST_P(Stopped, APartnerIsToldOfAndEndsTheRunAfterAWhile) {
+  const auto job = run_job(command_for(GetParam()), {{"TETHER_FAKE", "solid.stop=SolidEvaluate"}, {"TETHER_STOPPED_LIMIT", "4"}});
+  const std::string errors = without_details(job.errors);
+  EXPECT_NE(errors.find("fake_master: solid is stopped while computing step 0 (SolidEvaluate): kill -CONT "), std::string::npos)
+      << errors;
+  EXPECT_NE(errors.find("fake_master: solid was stopped while computing step 0 (SolidEvaluate), and still is 4 s later"),
+            std::string::npos)
+      << errors;
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
+  EXPECT_NE(job.exit_code, 0) << errors;
+  EXPECT_FALSE(job.had_to_be_ended);
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Fault, Stopped, ::testing::Values(Start::alone, Start::mpirun, Start::mpmd));
+
+/// Nobody waits for a master but its partners: one of them speaks.
+TEST(Death, AStoppedMasterIsEndedByItsPartners) {
+  const auto job = run_job(command_for(Start::mpirun), {{"TETHER_FAKE", "master.stop=step1"}, {"TETHER_STOPPED_LIMIT", "4"}});
+  const std::string errors = without_details(job.errors);
+  EXPECT_NE(errors.find(": the master was stopped while at work, and still is 4 s later"), std::string::npos) << errors;
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  EXPECT_NE(job.exit_code, 0);
+  EXPECT_FALSE(job.had_to_be_ended);
+  EXPECT_TRUE(job.orphans.empty());
+}
 
 TEST(Death, Even_what_cleans_up_goes) {
   run_job(command_for(Start::alone), {{"TETHER_FAKE", "solid.kill=SolidEvaluate"}});
