@@ -16,17 +16,34 @@ struct Expression::Parser {
   std::vector<double> values;
 };
 
+namespace {
+
+/// "k = 3" would set what is given.
+bool assigns(const std::string& text) {
+  for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i + 1)) {
+    const char before = i > 0 ? text[i - 1] : ' ', after = i + 1 < text.size() ? text[i + 1] : ' ';
+    if (std::string("=<>!").find(before) == std::string::npos && after != '=') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 Expression::Expression(std::string text, const std::vector<std::string>& names)
     : text_(std::move(text)), parser_(std::make_unique<Parser>()) {
   parser_->values.assign(names.size(), 1.0);
+  if (assigns(text_)) throw input_error("\"{}\": a formula cannot set a value: two of them are compared by ==", text_);
+  double value = 0;
   try {
     parser_->parser.DefineConst("pi", std::numbers::pi);
     for (std::size_t i = 0; i < names.size(); ++i) parser_->parser.DefineVar(names[i], &parser_->values[i]);
     parser_->parser.SetExpr(text_);
-    parser_->parser.Eval();
+    value = parser_->parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
     throw input_error("\"{}\": {}", text_, error.GetMsg());
   }
+  if (parser_->parser.GetUsedVar().empty() && !std::isfinite(value))
+    throw input_error("\"{}\": is not a finite number", text_);
 }
 
 Expression::~Expression() = default;

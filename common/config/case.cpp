@@ -48,6 +48,8 @@ void TimeCase::declare(Fields& f) {
   f.number("start", start, dimension::time, range::any, "time at which the run starts");
   f.check(end > start, "end", "must be after time.start");
   f.check(step <= end - start, "step", "must not be longer than the run");
+  constexpr double most = 1e9;  // steps are counted in integers
+  f.check((end - start) / step <= most, "step", "must not make more than 1e9 steps of the run");
 }
 
 int TimeCase::steps() const {

@@ -188,6 +188,13 @@ const Mistake mistakes[] = {
      "'resistance'\ncase.yaml:20: fluid.outlets.outlet.compliance: only with 'type: windkessel'; here type is "
      "'resistance'"},
     {"EndBeforeStart", In::the_case, "end: 0.1", "end: -0.1", "case.yaml:3: time.end: -0.1: must be after time.start"},
+    {"MoreStepsThanCanBeCounted", In::the_case, "end: 0.1", "end: 1e9",
+     "case.yaml:3: time.step: 2e-3: must not make more than 1e9 steps of the run"},
+    {"FormulaThatSetsAValue", In::the_case, "solid:\n",
+     "solid:\n  effects: {e: {type: expression, normal: \"k=3\", parameters: {k: {value: 1}}}}\n",
+     "case.yaml:22: solid.effects.e: \"k=3\": a formula cannot set a value: two of them are compared by =="},
+    {"FormulaWithoutAValue", In::the_case, "solid:\n", "solid:\n  effects: {e: {type: expression, normal: \"1/0\"}}\n",
+     "case.yaml:22: solid.effects.e: \"1/0\": is not a finite number"},
     {"RegionNotOfTheMesh", In::the_case, "      spine: {stiffness", "      spin: {stiffness",
      "case.yaml:26: solid.support.regions.spin: the wall has no such part; it has: spine, rest"},
     {"OutletNotOfTheMesh", In::the_case, "    outlet: {", "    iliac: {",
