@@ -3,8 +3,8 @@
 namespace tether {
 namespace {
 
-const PointSeriesKind motion{"Tether lumen motion 1", "motion of a lumen"};
-const PointSeriesKind velocity{"Tether blood velocity 1", "blood's velocity"};
+const PointSeriesKind motion{"Tether lumen motion 2", "motion of a lumen"};
+const PointSeriesKind velocity{"Tether blood velocity 2", "blood's velocity"};
 
 }  // namespace
 

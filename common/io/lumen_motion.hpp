@@ -11,8 +11,10 @@ struct LumenMotionWriter : PointSeriesWriter {
 
 class LumenMotion {
  public:
-  /// Throws InputError for a file that is none.
+  /// Throws InputError for a file that is none, or damaged.
   explicit LumenMotion(const std::filesystem::path& path);
+  /// Throws InputError if it holds less than a run of so many steps.
+  void check_has(std::int64_t steps) const { series_.check_has(steps); }
 
   const Points& imaged() const { return series_.points(); }
   const std::vector<double>& times() const { return series_.times(); }

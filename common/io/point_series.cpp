@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 
 namespace tether {
@@ -23,11 +24,21 @@ std::string first_line(const PointSeriesKind& kind) {
 }
 
 std::uintmax_t header_size(const PointSeriesKind& kind, Eigen::Index points) {
-  return first_line(kind).size() + sizeof(std::int64_t) + 3 * static_cast<std::uintmax_t>(points) * sizeof(double);
+  return first_line(kind).size() + sizeof(std::int64_t) + 3 * static_cast<std::uintmax_t>(points) * sizeof(double) +
+         sizeof(std::uint64_t);
 }
 
 std::uintmax_t record_size(Eigen::Index points) {
-  return sizeof(double) + 3 * static_cast<std::uintmax_t>(points) * sizeof(float);
+  return sizeof(double) + 3 * static_cast<std::uintmax_t>(points) * sizeof(float) + sizeof(std::uint64_t);
+}
+
+std::uint64_t checksum_of(const Points& points) {
+  return hash_bytes(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
+}
+
+/// Of a record and of all before.
+std::uint64_t checksum_of(double time, const float* vectors, std::size_t count, std::uint64_t before) {
+  return hash_bytes(vectors, count * sizeof(float), hash_bytes(&time, sizeof time, before));
 }
 
 }  // namespace
@@ -41,6 +52,8 @@ void PointSeriesWriter::start() {
   const std::int64_t count = points_.cols();
   put(file_, &count, 1);
   put(file_, points_.data(), static_cast<std::size_t>(points_.size()));
+  checksum_ = checksum_of(points_);
+  put(file_, &checksum_, 1);
 }
 
 void PointSeriesWriter::resume(std::int64_t records) {
@@ -48,6 +61,7 @@ void PointSeriesWriter::resume(std::int64_t records) {
   if (found.points() != points_) throw input_error("{}: is the {} of another case", path_.string(), kind_.what);
   if (static_cast<std::int64_t>(found.times().size()) < records)
     throw input_error("{}: has {} records; the run to resume made {}", path_.string(), found.times().size(), records);
+  checksum_ = found.checksum_after(records);
   std::filesystem::resize_file(
       path_, header_size(kind_, points_.cols()) + static_cast<std::uintmax_t>(records) * record_size(points_.cols()));
   file_.open(path_, std::ios::binary | std::ios::app);
@@ -56,7 +70,10 @@ void PointSeriesWriter::resume(std::int64_t records) {
 void PointSeriesWriter::append(double time, const Points& vectors) {
   const Eigen::Matrix<float, 3, Eigen::Dynamic> rounded = vectors.cast<float>();
   put(file_, &time, 1);
-  put(file_, rounded.data(), static_cast<std::size_t>(rounded.size()));
+  const auto count = static_cast<std::size_t>(rounded.size());
+  put(file_, rounded.data(), count);
+  checksum_ = checksum_of(time, rounded.data(), count, checksum_);
+  put(file_, &checksum_, 1);
   file_.flush();
   if (!file_) throw run_error("{} cannot be written", path_.string());
 }
@@ -71,12 +88,26 @@ PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::pat
     throw input_error("{}: is not the {}", path.string(), kind.what);
   points_.resize(3, count);
   get(file, points_.data(), static_cast<std::size_t>(points_.size()));
+  std::uint64_t stated = 0;
+  get(file, &stated, 1);
+  checksums_.push_back(checksum_of(points_));
+  if (stated != checksums_.back()) throw input_error("{}: its points are damaged (checksum)", path.string());
   std::vector<float> record(static_cast<std::size_t>(points_.size()));
   double time = 0;
-  while (get(file, &time, 1) && get(file, record.data(), record.size())) {
+  while (get(file, &time, 1) && get(file, record.data(), record.size()) && get(file, &stated, 1)) {
+    checksums_.push_back(checksum_of(time, record.data(), record.size(), checksums_.back()));
+    if (stated != checksums_.back())
+      throw input_error("{}: record {} is damaged (checksum); without this file the run is made again", path.string(),
+                        times_.size());
     times_.push_back(time);
     vectors_.insert(vectors_.end(), record.begin(), record.end());
   }
+}
+
+void PointSeries::check_has(std::int64_t steps) const {
+  if (static_cast<std::int64_t>(times_.size()) <= steps)
+    throw input_error("{}: is cut short: it has {} records of a run of {} steps; without this file the run is made again",
+                      path_.string(), times_.size(), steps);
 }
 
 Points PointSeries::vectors(std::size_t record) const {

@@ -9,12 +9,13 @@
 
 /// A vector at each of some points over a run: after a line of text that says what it is, the number of points and
 /// their positions (int64, doubles), then for each step its time (double) and the vectors (floats: to 1e-7 of
-/// themselves), x y z of point after point, little-endian.
+/// themselves), x y z of point after point, little-endian. Behind the positions and behind each record stands the
+/// checksum (uint64, `hash_bytes`) of it and of all before.
 namespace tether {
 
 /// What a file holds.
 struct PointSeriesKind {
-  std::string title;  ///< its first line: "Tether lumen motion 1"
+  std::string title;  ///< its first line: "Tether lumen motion 2"
   std::string what;   ///< "motion of a lumen"
 };
 
@@ -25,7 +26,7 @@ class PointSeriesWriter {
   /// A new file.
   void start();
   /// Goes on behind the first `records` records of the file; later ones are dropped. Throws InputError if the file is
-  /// of other points or has fewer.
+  /// of other points, has fewer or is damaged.
   void resume(std::int64_t records);
   /// On the disk when this returns. Throws RunError if it cannot be written.
   void append(double time, const Points& vectors);
@@ -35,17 +36,22 @@ class PointSeriesWriter {
   PointSeriesKind kind_;
   std::filesystem::path path_;
   Points points_;
+  std::uint64_t checksum_ = 0;  ///< of all so far
   std::ofstream file_;
 };
 
 /// Such a file, read back.
 class PointSeries {
  public:
-  /// Throws InputError for a file that is none.
+  /// Throws InputError for a file that is none, or damaged. What a run that was killed has half written is no record.
   PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path);
+  /// Throws InputError if the file holds fewer than the state at the start and those after so many steps: it was cut.
+  void check_has(std::int64_t steps) const;
 
   const Points& points() const { return points_; }
   const std::vector<double>& times() const { return times_; }
+  /// The checksum behind the first so many records.
+  std::uint64_t checksum_after(std::int64_t records) const { return checksums_[static_cast<std::size_t>(records)]; }
   /// Linear between steps. Throws InputError for a time outside the run.
   Points vectors_at(double time) const;
 
@@ -56,6 +62,7 @@ class PointSeries {
   Points points_;
   std::vector<double> times_;
   std::vector<float> vectors_;
+  std::vector<std::uint64_t> checksums_;  ///< behind the positions, then behind each record
 };
 
 }  // namespace tether

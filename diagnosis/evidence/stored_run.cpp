@@ -1,5 +1,8 @@
 #include "diagnosis/evidence/stored_run.hpp"
 
+#include "common/io/record_file.hpp"
+#include "identification_master/results/made_run.hpp"
+
 namespace tether {
 
 StoredRun::StoredRun(const std::filesystem::path& folder)
@@ -7,6 +10,11 @@ StoredRun::StoredRun(const std::filesystem::path& folder)
       table(std::make_shared<CsvTable>(folder / "timeseries.csv")) {
   if (std::filesystem::exists(folder / "blood.velocity"))
     velocity = std::make_shared<BloodVelocity>(folder / "blood.velocity");
+  const std::filesystem::path made = folder / "run.json";
+  if (!std::filesystem::exists(made)) return;
+  const auto steps = static_cast<std::int64_t>(read_record<MadeRun>(made).steps);
+  lumen->check_has(steps);
+  if (velocity) velocity->check_has(steps);
 }
 
 FinishedMotion StoredRun::motion() const {

@@ -8,7 +8,7 @@ namespace tether {
 
 /// The lumen, the table and the velocities of a run's folder. What `motion` returns keeps them.
 struct StoredRun {
-  /// Throws InputError if the folder holds no run.
+  /// Throws InputError if the folder holds no run, or one that is damaged or cut short.
   explicit StoredRun(const std::filesystem::path& folder);
   FinishedMotion motion() const;
   std::shared_ptr<LumenMotion> lumen;

@@ -73,5 +73,33 @@ TEST(LumenMotion, AHalfWrittenRecordIsNone) {
   EXPECT_EQ(LumenMotion(file.path).times().size(), 2u);
 }
 
+/// Any bit that is wrong, wherever.
+TEST(LumenMotion, DamageIsSeen) {
+  MotionFile file;
+  file.write(3);
+  const auto size = std::filesystem::file_size(file.path);
+  for (std::uintmax_t at = 0; at < size; at += 3) {
+    std::fstream bytes(file.path, std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekg(static_cast<std::streamoff>(at));
+    const char was = static_cast<char>(bytes.get());
+    const auto put = [&](char value) {
+      bytes.seekp(static_cast<std::streamoff>(at));
+      bytes.put(value).flush();
+    };
+    put(static_cast<char>(was ^ 0x10));
+    EXPECT_THROW(LumenMotion{file.path}, InputError) << at;
+    put(was);
+  }
+  EXPECT_EQ(LumenMotion(file.path).times().size(), 3U);
+}
+
+TEST(LumenMotion, ACutRunIsNotTakenForAWholeOne) {
+  MotionFile file;
+  file.write(4);
+  EXPECT_NO_THROW(LumenMotion(file.path).check_has(3));
+  std::filesystem::resize_file(file.path, std::filesystem::file_size(file.path) - 1);
+  EXPECT_THROW(LumenMotion(file.path).check_has(3), InputError);
+}
+
 }  // namespace
 }  // namespace tether

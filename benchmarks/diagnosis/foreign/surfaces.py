@@ -79,10 +79,11 @@ def motion_of(run):
         data = np.load(run)
         return data["X"], data["U"].astype(float), data["t"]
     with open(run, "rb") as file:
-        file.readline()
+        checksum = [("checksum", "<u8")] if file.readline().strip().endswith(b"2") else []  # those of before had none
         count = int(np.fromfile(file, "<i8", 1)[0])
         nodes = np.fromfile(file, "<f8", 3 * count).reshape(count, 3)
-        records = np.fromfile(file, np.dtype([("time", "<f8"), ("vectors", "<f4", (count, 3))]))
+        file.seek(8 * len(checksum), 1)
+        records = np.fromfile(file, np.dtype([("time", "<f8"), ("vectors", "<f4", (count, 3)), *checksum]))
     later = records["time"] > 0
     return nodes, records["vectors"][later].astype(float), records["time"][later]
 
