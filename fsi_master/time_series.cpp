@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 
@@ -35,7 +36,7 @@ std::string TimeSeries::headings() const {
 
 void TimeSeries::open(std::ios::openmode mode) {
   file_.open(path_, mode);
-  if (!file_) throw run_error("{} cannot be written", path_.string());
+  if (!file_) throw write_error(path_);
 }
 
 void TimeSeries::start() {
@@ -65,7 +66,7 @@ void TimeSeries::append(const std::vector<double>& values) {
   for (std::size_t i = 1; i < values.size(); ++i) line += fmt::format(",{}", values[i]);
   for (const Copy& copy : copies_) line += fmt::format(",{}", copy.factor * values[copy.source]);
   file_ << line << std::endl;
-  if (!file_) throw run_error("{} cannot be written (disk full?)", path_.string());
+  if (!file_) throw write_error(path_);
 }
 
 }  // namespace tether

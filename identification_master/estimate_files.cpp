@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
 #include "common/io/record_file.hpp"
@@ -21,7 +22,7 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   const std::filesystem::path part = path.string() + ".part";
   std::ofstream file(part, std::ios::binary);
   file << text << std::flush;
-  if (!file) throw run_error("{}: cannot be written", part.string());
+  if (!file) throw write_error(part);
   file.close();
   std::filesystem::rename(part, path);
 }

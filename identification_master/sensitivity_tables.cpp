@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 void write(const fs::path& path, const std::string& text, std::ios::openmode mode) {
   std::ofstream file(path, std::ios::binary | mode);
   file << text << std::flush;
-  if (!file) throw run_error("{}: cannot be written", path.string());
+  if (!file) throw write_error(path);
 }
 
 /// A table without the rows of later times.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "report/collect.hpp"
 #include "report/page.hpp"
 
@@ -15,7 +16,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "report.html";
   std::ofstream file(path, std::ios::binary);
   file << page_of(title, document) << std::flush;
-  if (!file) throw run_error("{} cannot be written", path.string());
+  if (!file) throw write_error(path);
   return path;
 }
 

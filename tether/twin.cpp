@@ -2,6 +2,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "common/config/describe.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/config/overlay.hpp"
@@ -80,7 +81,7 @@ void write_trace(const fs::path& file, const TwinTrace& trace, const std::string
   table << fmt::format("time [s], value{}\n", unit.empty() ? "" : " [" + unit + "]");
   for (std::size_t i = 0; i < trace.times.size(); ++i)
     table << fmt::format("{}, {}\n", trace.times[i], trace.values[i]);
-  if (!table.flush()) throw run_error("{} cannot be written", file.string());
+  if (!table.flush()) throw write_error(file);
 }
 
 std::string text_of(const NoiseCase& noise, double deviation) {

@@ -4,6 +4,7 @@
 
 #include "common/base/base64.hpp"
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "common/io/record_file.hpp"
 
 namespace tether {
@@ -29,7 +30,7 @@ void seal(const std::filesystem::path& file, const Answer& answer) {
   const std::string text = json_of(answer);
   to << base64(text.data(), text.size()) << "\n";
   to.close();
-  if (!to) throw run_error("{} cannot be written", file.string());
+  if (!to) throw write_error(file);
 }
 
 Answer unsealed(const std::filesystem::path& file) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
@@ -52,7 +53,7 @@ void write_checked(const std::filesystem::path& path, std::uint64_t fingerprint,
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) throw run_error("{}: cannot be written (disk full?)", path.string());
+  if (!file) throw write_error(path);
   flush_to_disk(path);
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
@@ -75,7 +76,7 @@ void PointSeriesWriter::append(double time, const Points& vectors) {
   checksum_ = checksum_of(time, rounded.data(), count, checksum_);
   put(file_, &checksum_, 1);
   file_.flush();
-  if (!file_) throw run_error("{} cannot be written", path_.string());
+  if (!file_) throw write_error(path_);
 }
 
 PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path) : path_(path) {

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 
@@ -68,7 +69,7 @@ void PvdSeries::add(double time, const std::string& file) {
     out << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", at, name);
   out << "</Collection>\n</VTKFile>\n";
   out.close();
-  if (!out) throw run_error("{}: cannot be written", partial.string());
+  if (!out) throw write_error(partial);
   std::filesystem::rename(partial, path_);
 }
 

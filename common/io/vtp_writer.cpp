@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 
@@ -56,7 +57,7 @@ void write_vtp(const std::filesystem::path& path, const std::vector<Points>& lin
 )",
                       count, lines.size(), points, point_data(name, values), connectivity, offsets);
   file.flush();
-  if (!file) throw run_error("{} cannot be written", path.string());
+  if (!file) throw write_error(path);
 }
 
 void write_vtp(const std::filesystem::path& path, const Points& points, const std::vector<Triangle>& triangles,
@@ -82,7 +83,7 @@ void write_vtp(const std::filesystem::path& path, const Points& points, const st
 )",
                       points.cols(), triangles.size(), coordinates, cell_data(labels), connectivity, offsets);
   file.flush();
-  if (!file) throw run_error("{} cannot be written", path.string());
+  if (!file) throw write_error(path);
 }
 
 }  // namespace tether

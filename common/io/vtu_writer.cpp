@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 
@@ -44,7 +45,7 @@ class VtuText {
     file.write(binary_.data(), static_cast<std::streamsize>(binary_.size()));
     file << "\n</AppendedData>\n</VTKFile>\n";
     file.close();
-    if (!file) throw run_error("{}: cannot be written", path.string());
+    if (!file) throw write_error(path);
   }
 
  private:

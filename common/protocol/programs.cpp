@@ -94,7 +94,7 @@ int report_failure(int code, const std::string& master, const char* verb, const 
   if (code > 128 && !is_told)
     std::cerr << fmt::format("tether: {} was ended by signal {}{}\n", master, code - 128,
                              code == 128 + 9 ? " (killed; out of memory?)" : "");
-  if (code > 128) std::cerr << way_on(verb, command);
+  if (code != exit_input_wrong) std::cerr << way_on(verb, command);
   return code == exit_input_wrong ? code : exit_run_failed;
 }
 

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "diagnosis/comparison/comparison.hpp"
 
 namespace tether {
@@ -127,7 +128,7 @@ void write_blood_csv(const std::filesystem::path& path, const Comparison& compar
   for (const VelocityDiscrepancy& velocity : comparison.velocities) file << rows_of(velocity);
   for (const OtherDiscrepancy& other : comparison.others) file << rows_of(other);
   file.flush();
-  if (!file) throw run_error("{} cannot be written", path.string());
+  if (!file) throw write_error(path);
 }
 
 void write_csv(const std::filesystem::path& path, const Comparison& comparison) {
@@ -138,7 +139,7 @@ void write_csv(const std::filesystem::path& path, const Comparison& comparison) 
       for (const Group& group : moment.groups)
         if (group.model.used() > 0) file << row(group, moment, source);
   file.flush();
-  if (!file) throw run_error("{} cannot be written", path.string());
+  if (!file) throw write_error(path);
 }
 
 }  // namespace tether

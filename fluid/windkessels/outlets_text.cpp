@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "pictures/gnuplot.hpp"
 
 namespace tether {
@@ -86,7 +87,7 @@ void write_beat(const std::filesystem::path& file, const OutletsFit& fit) {
       table << fmt::format(",{:.9g},{:.9g}", fit.beat.flow(one, k), fit.beat.stored(one, k));
     table << "\n";
   }
-  if (!table.flush()) throw run_error("{}: cannot be written", file.string());
+  if (!table.flush()) throw write_error(file);
 }
 
 bool draw_outlets(const std::filesystem::path& output, const OutletsFit& fit) {

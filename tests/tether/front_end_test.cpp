@@ -185,6 +185,16 @@ TEST_F(FrontEnd, AddsHowToGoOnToWhatTheRunSaid) {
             "fsi_master: solid died\nTo continue: tether simulate case.yaml --output results --resume\n");
 }
 
+/// A full disk, a step that does not converge: what was saved is there, and can be gone on from.
+TEST_F(FrontEnd, AddsHowToGoOnToAnyFailureOfARunThatWasSaved) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; touch results/checkpoint/state; "
+          "echo 'fsi_master: lumen.motion: cannot be written' >&2; touch $TETHER_TOLD; exit 1");
+  EXPECT_EQ(tether("simulate case.yaml --quiet --output results").errors,
+            "fsi_master: lumen.motion: cannot be written\n"
+            "To continue: tether simulate case.yaml --output results --resume\n");
+}
+
 TEST_F(FrontEnd, ValidatesAnIdentificationToo) {
   program("identification_master", "echo 'case.yaml:5: identification.observe: sometimes' >&2; exit 2");
   EXPECT_EQ(tether("validate case.yaml").exit_code, 0) << "the case identifies nothing";

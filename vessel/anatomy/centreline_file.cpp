@@ -5,6 +5,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 
@@ -52,7 +53,7 @@ void write_centreline(const std::filesystem::path& file, const CentrelineTree& t
       const std::string parent = branch.parent < 0 ? "" : tree.branches[static_cast<std::size_t>(branch.parent)].name;
       out << fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", branch.name, parent, x[0], x[1], x[2], branch.radii[i]);
     }
-  if (!out.flush()) throw run_error("{}: cannot be written", file.string());
+  if (!out.flush()) throw write_error(file);
 }
 
 }  // namespace tether

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
@@ -33,7 +34,7 @@ class Canvas {
     writer->SetFileName(file.c_str());
     writer->SetInputData(image_);
     writer->Write();
-    if (writer->GetErrorCode() != 0) throw run_error("{}: cannot be written", file.string());
+    if (writer->GetErrorCode() != 0) throw write_error(file);
   }
 
  private:

@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "common/config/echo.hpp"
 #include "common/io/record_file.hpp"
 #include "common/io/vtu_writer.hpp"
@@ -50,7 +51,7 @@ VectorXd on_all_layers(const VectorXd& values, Eigen::Index nodes) {
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file);
   out << text;
-  if (!out.flush()) throw run_error("{}: cannot be written", file.string());
+  if (!out.flush()) throw write_error(file);
 }
 
 /// The section `mesh`, its files named relative to the folder, so that the folder can be moved.

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "pictures/gnuplot.hpp"
 
 namespace tether {
@@ -30,7 +31,7 @@ void write_poses(const std::filesystem::path& file, const TrackedRing& ring) {
   for (const RingPose& pose : ring.poses)
     table << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", pose.time, pose.centre[0],
                          pose.centre[1], pose.centre[2], pose.turn[0], pose.turn[1], pose.turn[2], pose.radius);
-  if (!table.flush()) throw run_error("{}: cannot be written", file.string());
+  if (!table.flush()) throw write_error(file);
 }
 
 bool draw_ring(const std::filesystem::path& output) {
