@@ -27,7 +27,9 @@ namespace {
 
 MeshFile read_by_extension(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  if (extension == ".vtu" || extension == ".vtp" || extension == ".vtk" || extension == ".ply") return read_vtk(path);
+  if (extension == ".vtu" || extension == ".vtp") return read_xml_vtk(path);
+  if (extension == ".vtk") return read_legacy_vtk(path);
+  if (extension == ".ply") return read_ply(path);
   if (extension == ".msh") return read_gmsh(path);
   if (extension == ".stl") return read_stl(path);
   if (extension == ".obj") return read_obj(path);
@@ -83,6 +85,8 @@ void check_coordinates(const MeshFile& mesh) {
 MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (!std::ifstream(path)) throw input_error("{}: cannot be opened", path.string());
   MeshFile mesh = read_by_extension(path);
+  if (mesh.tetrahedra.empty() && mesh.prisms.empty() && mesh.triangles.empty())
+    throw input_error("{}: holds no cell of a surface or a volume", mesh.name);
   drop_unused_nodes(mesh);
   check_coordinates(mesh);
   turn_prisms(mesh);

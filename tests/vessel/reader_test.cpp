@@ -182,8 +182,8 @@ TEST(Vtk, ACellThatNamesNoPointIsNamed) {
   };
   EXPECT_EQ(message("good.ply", ply("0 1 2")), "accepted");
   expect_part(message("a.ply", ply("0 1 99")),
-              "a.ply: cell 0 (from 0) names point 99: the file has 3, numbered from 0");
-  expect_part(message("a.ply", ply("0 -1 2")), "a.ply: cell 0 (from 0) names point -1");
+              "a.ply:13: cell 0 (from 0) names point 99: the file has 3, numbered from 0");
+  expect_part(message("a.ply", ply("0 -1 2")), "a.ply:13: cell 0 (from 0) names point -1");
   const auto vtp = [](const std::string& nodes) {
     return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\"3\" "
            "NumberOfPolys=\"2\"><Points>"
@@ -199,15 +199,15 @@ TEST(Vtk, ACellThatNamesNoPointIsNamed) {
   expect_part(message("a.vtk",
                       "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0 1 "
                       "0 0 0 1 0\nCELLS 1 4\n3 0 1 3\nCELL_TYPES 1\n5\n"),
-              "a.vtk: cell 0 (from 0) names point 3: the file has 3");
+              "a.vtk:8: cell 0 (from 0) names point 3: the file has 3");
   expect_part(message("word.vtk",
                       "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 none 0 1 0\n"
                       "POLYGONS 1 4\n3 0 1 2\n"),
-              "word.vtk: is not a readable VTK file of its kind");
+              "word.vtk:6: \"none\" found where a number was expected");
   std::string without = ply("0 1 2");
   without.replace(without.find("\n1 0 0\n"), 7, "\n1 0 nan\n");
   expect_part(message("nan.ply", without),
-              "nan.ply: the point (1, 0, nan) has a coordinate that is not a finite number");
+              "nan.ply:11: the coordinate nan is not a finite number");
 }
 
 TEST(Vtk, MistakesAreNamed) {
@@ -215,7 +215,7 @@ TEST(Vtk, MistakesAreNamed) {
   const auto message = [&](const std::string& name, const std::string& content) {
     return message_of([&] { read_mesh_file(folder.file(name, content)); });
   };
-  expect_part(message("x.vtu", "no xml"), "is not a readable VTK file");
+  expect_part(message("x.vtu", "no xml"), "x.vtu:1: a tag was expected");
   expect_part(message("x.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\n"),
               "is not a VTK file with an unstructured grid");
   expect_part(message("x.step", ""), "unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh, .stl or .obj");
