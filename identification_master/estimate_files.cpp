@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
-#include "common/base/write_error.hpp"
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
+#include "common/base/write_error.hpp"
 #include "common/io/record_file.hpp"
 #include "identification_master/identifiability.hpp"
 #include "identification_master/results/estimate.hpp"

@@ -184,7 +184,8 @@ Patch part_between(const Patch& patch, const VectorXd& function, double from, do
     const Polygon corners{whole.corners.col(0), whole.corners.col(1), whole.corners.col(2)};
     const Polygon beyond = split(corners, {values, from, rounding}).more;
     if (beyond.empty()) continue;
-    for (const TrianglePart& piece : triangulated(split(beyond, {values, to, rounding}).less, whole.of)) part.add(piece);
+    for (const TrianglePart& piece : triangulated(split(beyond, {values, to, rounding}).less, whole.of))
+      part.add(piece);
   }
   return part.finished();
 }

@@ -32,9 +32,9 @@ std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, con
 /// growing along the vessel: its border cuts triangles too. Of `triangles` those of which it has half or more.
 Patch part_between(const Patch& patch, const VectorXd& function, double from, double to);
 
-/// What of a patch lies within a distance of a point, and what beyond, by areas that depend little on the mesh: triangles
-/// are divided down to an eighth of the distance before their edges are cut. Of `triangles` those of which each has
-/// half or more.
+/// What of a patch lies within a distance of a point, and what beyond, by areas that depend little on the mesh:
+/// triangles are divided down to an eighth of the distance before their edges are cut. Of `triangles` those of which
+/// each has half or more.
 struct NearAndFar {
   Patch near, far;
 };

@@ -28,7 +28,7 @@ struct Ball {
 /// point.
 struct Extent {
   double from = 0, to = 1;
-  std::string toward = {};          ///< the neighbour; empty: all around
+  std::string toward = {};         ///< the neighbour; empty: all around
   std::optional<Ball> about = {};  ///< none: anywhere
   bool is_all_along() const { return from <= 0 && to >= 1; }
   bool is_all() const { return is_all_along() && toward.empty() && !about; }

@@ -107,8 +107,9 @@ PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::pat
 
 void PointSeries::check_has(std::int64_t steps) const {
   if (static_cast<std::int64_t>(times_.size()) <= steps)
-    throw input_error("{}: is cut short: it has {} records of a run of {} steps; without this file the run is made again",
-                      path_.string(), times_.size(), steps);
+    throw input_error(
+        "{}: is cut short: it has {} records of a run of {} steps; without this file the run is made again",
+        path_.string(), times_.size(), steps);
 }
 
 Points PointSeries::vectors(std::size_t record) const {

@@ -153,7 +153,8 @@ std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase
     if (is_wanted(e, diagnosis))
       all.push_back({path_of(e), e.type, e.part, e.meaning, true, e.required, e.variant_of, e.extent, length});
   for (const PresentEffect& e : list.present)
-    all.push_back({e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of, e.extent, length});
+    all.push_back(
+        {e.path, e.type, e.part, "An effect that the model has, at zero", false, {}, e.variant_of, e.extent, length});
   return all;
 }
 
@@ -193,8 +194,8 @@ void add_extent(Overlay& overlay, const PlacedEffect& effect) {
   if (!effect.extent.toward.empty()) overlay.values.push_back({effect.path + ".toward", effect.extent.toward});
   if (const auto& ball = effect.extent.about) {
     const Vec3& at = ball->centre;
-    overlay.values.push_back({effect.path + ".about.point", fmt::format("[{}, {}, {}]", number_text(at[0]),
-                                                                        number_text(at[1]), number_text(at[2]))});
+    overlay.values.push_back({effect.path + ".about.point",
+                              fmt::format("[{}, {}, {}]", number_text(at[0]), number_text(at[1]), number_text(at[2]))});
     overlay.values.push_back({effect.path + ".about.within", number_text(ball->radius)});
   }
 }

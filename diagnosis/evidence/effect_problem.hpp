@@ -51,11 +51,11 @@ struct Candidate {
   DataPlace data = {};                   ///< of an error of the data
   std::string variant_of = {};           ///< the effect that it is a special shape of
   std::string type = {}, part = {},
-              number = {};  ///< of an effect, new or in the model: what, where, which of its numbers
-  Extent extent = {};           ///< of the part, where in it it acts
-  std::string mostly_in = {};   ///< of a patch without a part, the region that has more than half of it
-  double one_of = 1;            ///< how many such patches the wall has
-  bool is_tried = false;        ///< on one of several patches that are compared
+              number = {};     ///< of an effect, new or in the model: what, where, which of its numbers
+  Extent extent = {};          ///< of the part, where in it it acts
+  std::string mostly_in = {};  ///< of a patch without a part, the region that has more than half of it
+  double one_of = 1;           ///< how many such patches the wall has
+  bool is_tried = false;       ///< on one of several patches that are compared
   /// Whether the model is run with it; what the data or the numerics do follows to first order.
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };

@@ -10,8 +10,8 @@
 #include "diagnosis/results/further_data.hpp"
 #include "diagnosis/results/lack_of_fit.hpp"
 #include "diagnosis/results/located_misfit.hpp"
-#include "diagnosis/results/patch_place.hpp"
 #include "diagnosis/results/noise.hpp"
+#include "diagnosis/results/patch_place.hpp"
 #include "diagnosis/results/probability_table.hpp"
 #include "diagnosis/results/published.hpp"
 #include "diagnosis/results/statement.hpp"
@@ -135,7 +135,8 @@ struct Diagnosis {
     field("detectable", self.detectable, "per candidate, in the order of `effects`");
     field("lack_of_fit", self.lack_of_fit, "of the model as it is, and with what was accepted");
     field("located", self.located, "where on the wall the misfit is largest, whatever the regions");
-    field("patch", self.patch, "of the wall on which effects were tried beside regions; null: none was needed, or helped");
+    field("patch", self.patch,
+          "of the wall on which effects were tried beside regions; null: none was needed, or helped");
     field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
     field("noise", self.noise, "what the case states of it, held against what the accepted model leaves, by source");
     field("more", self.more, "another effect is wanted, but no more were to be added");

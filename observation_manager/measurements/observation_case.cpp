@@ -7,7 +7,8 @@ void NoiseCase::declare(Fields& f) {
   f.number("deviation", deviation, dimension, range::not_negative,
            "standard deviation of a single value; 0: not known");
   constexpr double least = 1e-12;  // of the unit: its square is divided by
-  f.check(deviation == 0 || deviation >= least, "deviation", "must not be smaller than 1e-12: nothing is measured so well");
+  f.check(deviation == 0 || deviation >= least, "deviation",
+          "must not be smaller than 1e-12: nothing is measured so well");
   f.number("correlation_length", correlation_length, dimension::length, range::not_negative,
            "distance along the wall within which errors are alike; 0: not known");
   f.number("correlation_time", correlation_time, dimension::time, range::not_negative,

@@ -106,12 +106,15 @@ class Stopped : public ::testing::TestWithParam<Start> {};
 
 /// Told at once, and when it does not go on the run ends as with any other death.
 TEST_P(Stopped, APartnerIsToldOfAndEndsTheRunAfterAWhile) {
-  const auto job = run_job(command_for(GetParam()), {{"TETHER_FAKE", "solid.stop=SolidEvaluate"}, {"TETHER_STOPPED_LIMIT", "4"}});
+  const auto job =
+      run_job(command_for(GetParam()), {{"TETHER_FAKE", "solid.stop=SolidEvaluate"}, {"TETHER_STOPPED_LIMIT", "4"}});
   const std::string errors = without_details(job.errors);
-  EXPECT_NE(errors.find("fake_master: solid is stopped while computing step 0 (SolidEvaluate): kill -CONT "), std::string::npos)
-      << errors;
-  EXPECT_NE(errors.find("fake_master: solid was stopped while computing step 0 (SolidEvaluate), and still is 4 s later"),
+  EXPECT_NE(errors.find("fake_master: solid is stopped while computing step 0 (SolidEvaluate): kill -CONT "),
             std::string::npos)
+      << errors;
+  EXPECT_NE(
+      errors.find("fake_master: solid was stopped while computing step 0 (SolidEvaluate), and still is 4 s later"),
+      std::string::npos)
       << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
   EXPECT_NE(job.exit_code, 0) << errors;
@@ -123,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Fault, Stopped, ::testing::Values(Start::alone, Start::
 
 /// Nobody waits for a master but its partners: one of them speaks.
 TEST(Death, AStoppedMasterIsEndedByItsPartners) {
-  const auto job = run_job(command_for(Start::mpirun), {{"TETHER_FAKE", "master.stop=step1"}, {"TETHER_STOPPED_LIMIT", "4"}});
+  const auto job =
+      run_job(command_for(Start::mpirun), {{"TETHER_FAKE", "master.stop=step1"}, {"TETHER_STOPPED_LIMIT", "4"}});
   const std::string errors = without_details(job.errors);
   EXPECT_NE(errors.find(": the master was stopped while at work, and still is 4 s later"), std::string::npos) << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;

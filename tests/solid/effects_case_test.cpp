@@ -258,14 +258,14 @@ TEST(EffectsOfACase, WhatIsNearAPointHasItsAreaOnAnyMesh) {
   for (const double radius : {0.3, 0.6, 1.5}) {
     const double finest = area(64, radius);
     EXPECT_NEAR(finest / (pi * radius * radius), 1, 0.01 + 0.1 * std::pow(radius / 2.2, 2));
-    for (const int around : {16, 24, 32}) EXPECT_NEAR(area(around, radius) / finest, 1, 0.02) << around << " " << radius;
+    for (const int around : {16, 24, 32})
+      EXPECT_NEAR(area(around, radius) / finest, 1, 0.02) << around << " " << radius;
   }
 }
 
 TEST(EffectsOfACase, ASupportActsOnWhatIsNearAPoint) {
   const auto force = [](const std::string& more) {
-    const PreparedWall wall =
-        divided_wall_with("  effects: {e: {type: visco_elastic, stiffness: 1e5" + more + "}}\n");
+    const PreparedWall wall = divided_wall_with("  effects: {e: {type: visco_elastic, stiffness: 1e5" + more + "}}\n");
     const Points moved = Points::Constant(3, wall.model->mesh().points.cols(), 0.01),
                  still = Points::Zero(3, moved.cols());
     return -wall.model->supports()[2].resultant({moved, still, 0, 1e-3})[0];
@@ -288,9 +288,12 @@ TEST(EffectsOfACase, TheWallDiffersNearPoints) {
     return wall.model->step_forces(moved, still, still, 0, 1e-3, nullptr).dot(moved.reshaped());
   };
   const std::string one = "    a: {type: stiffness_factor, factor: 3, about: {point: [2.2, 0, 1.8], within: 0.5}}\n",
-                    overlapping = "    b: {type: stiffness_factor, factor: 3, about: {point: [2.2, 0, 2.1], within: 0.5}}\n";
-  const std::string absent = "    c: {type: stiffness_factor, factor: 1}\n", all = "    c: {type: stiffness_factor, factor: 3, from: 0.25, to: 0.75}\n";
-  const double none = energy(absent), whole = energy(all) - none, first = energy(one) - none, second = energy(overlapping) - none;
+                    overlapping =
+                        "    b: {type: stiffness_factor, factor: 3, about: {point: [2.2, 0, 2.1], within: 0.5}}\n";
+  const std::string absent = "    c: {type: stiffness_factor, factor: 1}\n",
+                    all = "    c: {type: stiffness_factor, factor: 3, from: 0.25, to: 0.75}\n";
+  const double none = energy(absent), whole = energy(all) - none, first = energy(one) - none,
+               second = energy(overlapping) - none;
   const double area = 2 * pi * 2.2 * 2;
   EXPECT_NEAR(first / whole / (pi * 0.25 / area), 1, 0.05);
   EXPECT_NEAR(second / first, 1, 0.05);
