@@ -14,6 +14,8 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -117,6 +119,7 @@ class XmlCheck {
   void run(const std::string& kind) {
     check_root(tags_.next(), kind);
     while (!appended_ && !tags_.at_end()) take(tags_.next());
+    check_names();
     for (const XmlArray& array : arrays_)
       if (is_cells(array.section) && array.name() == "offsets") check_offsets(array);
     for (const XmlArray& array : arrays_) check_values(array);
@@ -156,8 +159,9 @@ class XmlCheck {
       XmlPiece& piece = pieces_.emplace_back();
       for (const auto& [name, value] : tag.attributes)
         if (name.starts_with("NumberOf")) piece.emplace(name, *xml_count(value));
-    } else if (tag.name == "DataArray") {
-      take_array(tag);
+    } else if (tag.name == "DataArray" || tag.name == "Array") {
+      take_name(tag);
+      if (tag.name == "DataArray") take_array(tag);
     } else if (tag.name == "AppendedData") {
       require_one_of(tag, "encoding", {"", "raw", "base64"});
       appended_ = tag;
@@ -178,10 +182,32 @@ class XmlCheck {
     return section == "Verts" || section == "Lines" || section == "Polys" || section == "Strips" || section == "Cells";
   }
 
-  void take_array(const XmlTag& tag) {
+  /// That this tag stands in.
+  std::string section_of(const XmlTag& tag) const {
     const auto& open = tags_.open();
     const std::size_t outside = open.size() - (tag.empty ? 0 : 1);
-    XmlArray array{tag, outside > 0 ? std::string(open[outside - 1]) : "", pieces_.size(), 0, 1};
+    return outside > 0 ? std::string(open[outside - 1]) : "";
+  }
+
+  /// VTK finds the arrays of data by their place among those of different names in the first piece.
+  void take_name(const XmlTag& tag) {
+    const std::string section = section_of(tag), name(tag.attribute("Name"));
+    if (section != "PointData" && section != "CellData") return;
+    if (name.empty()) refuse(tag, "Name", "an array of data must have one");
+    if (pieces_.size() > 1 && !names_[{1, section}].contains(name)) refuse(tag, "Name", "the first piece has none");
+    if (!names_[{pieces_.size(), section}].insert(name).second) refuse(tag, "Name", "occurs twice");
+  }
+
+  /// Throws InputError unless each piece has the arrays of the first one.
+  void check_names() {
+    for (std::size_t piece = 2; piece <= pieces_.size(); ++piece)
+      for (const std::string section : {"PointData", "CellData"})
+        if (names_[{piece, section}].size() != names_[{1, section}].size())
+          tags_.fail(content_.size(), fmt::format("piece {} has not all arrays {} of the first", piece, section));
+  }
+
+  void take_array(const XmlTag& tag) {
+    XmlArray array{tag, section_of(tag), pieces_.size(), 0, 1};
     const auto size = xml_type_size(tag.attribute("type"));
     const bool geometry = array.section == "Points" || is_cells(array.section);
     if (!size || (geometry && *size == 0)) refuse(tag, "type", "no type of numbers that can be read");
@@ -227,6 +253,8 @@ class XmlCheck {
       check_text(array, values);
     } else if (const std::uint64_t bytes = stated_bytes(array); bytes / array.type_size < values) {
       fail(array, fmt::format("{} values are needed, it has {} bytes", values, bytes));
+    } else if (!compressor_.empty()) {
+      data(array, values * array.type_size);  // VTK must not fail: telling so it follows a null pointer
     }
   }
 
@@ -241,13 +269,36 @@ class XmlCheck {
     std::string_view text = text_of(array);
     for (std::uint64_t i = 0; i < values; ++i) {
       const std::string_view word = next_word(text);
-      double value = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      const auto place = static_cast<std::size_t>(word.data() - content_.data());
       if (word.empty()) fail(array, fmt::format("{} values are needed, it has {}", values, i));
-      if (error == std::errc::invalid_argument || end != word.data() + word.size())
-        tags_.fail(place, fmt::format("\"{}\" found where a number was expected", word.substr(0, 40)));
+      if (!is_value(array, word))
+        tags_.fail(static_cast<std::size_t>(word.data() - content_.data()),
+                   fmt::format("\"{}\" found where a number ({}) was expected", word.substr(0, 40),
+                               array.tag.attribute("type")));
     }
+  }
+
+  /// Whether VTK can read it as a number of the array's type.
+  static bool is_value(const XmlArray& array, std::string_view word) {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+    const std::string_view type = array.tag.attribute("type");
+    if (type == "Float32") return is_number<float>(word);
+    if (type == "Float64") return is_number<double>(word);
+    if (type == "UInt64") return is_number<std::uint64_t>(word);
+    if (!is_number<std::int64_t>(word)) return false;
+    std::int64_t value = 0;
+    std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto bits = static_cast<int>(8 * array.type_size);
+    if (type.starts_with('U')) return value >= 0 && value >> bits == 0;
+    return bits == 64 || value >> (bits - 1) == 0 || value >> (bits - 1) == -1;
+  }
+
+  template <class Number>
+  static bool is_number(std::string_view word) {
+    const bool named = word == "nan" || word == "inf" || word == "-inf";
+    if (word.find_first_of("niNI") != std::string_view::npos) return named && std::is_floating_point_v<Number>;
+    Number value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
   }
 
   /// Cuts it off.
@@ -421,6 +472,7 @@ class XmlCheck {
   std::uint64_t most_ = 0;  ///< of anything that the file can hold
   std::vector<XmlPiece> pieces_;
   std::vector<XmlArray> arrays_;
+  std::map<std::pair<std::size_t, std::string>, std::set<std::string>> names_;  ///< of arrays, by piece and section
   std::optional<XmlTag> appended_;
   std::map<std::pair<std::size_t, std::string>, std::uint64_t> last_offset_;  ///< by piece and section
 };
