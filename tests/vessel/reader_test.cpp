@@ -206,8 +206,7 @@ TEST(Vtk, ACellThatNamesNoPointIsNamed) {
               "word.vtk:6: \"none\" found where a number was expected");
   std::string without = ply("0 1 2");
   without.replace(without.find("\n1 0 0\n"), 7, "\n1 0 nan\n");
-  expect_part(message("nan.ply", without),
-              "nan.ply:11: the coordinate nan is not a finite number");
+  expect_part(message("nan.ply", without), "nan.ply:11: the coordinate nan is not a finite number");
 }
 
 TEST(Vtk, MistakesAreNamed) {
