@@ -381,8 +381,10 @@ class LegacyVtkReader {
   }
 
   void take(const std::string& array, std::vector<double> values) {
-    if (where_ == Where::cells) cell_arrays_.emplace_back(array, std::move(values));
-    if (where_ == Where::points && array == "GlobalNodeID") node_ids_ = std::move(values);
+    if (where_ == Where::cells)
+      cell_arrays_.emplace_back(array, std::move(values));
+    else if (where_ == Where::points && array == "GlobalNodeID")
+      node_ids_ = std::move(values);
   }
 
   /// In VTK's order, whatever the file's: arrays of the cells have it.
