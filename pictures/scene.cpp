@@ -29,6 +29,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/types.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
@@ -211,6 +212,7 @@ void write(vtkRenderWindow* window, const std::filesystem::path& png) {
   writer->SetFileName(png.c_str());
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
+  if (writer->GetErrorCode() != 0 || !std::filesystem::exists(png)) throw write_error(png);
 }
 
 }  // namespace

@@ -96,32 +96,32 @@ MisfitMap misfit_map(const EffectProblem& problem, const DiagnosedCase& given, c
 }
 
 /// Where the misfit is largest that what leads leaves, and that it leaves without the one that is missed least; none if
-/// what leads leaves no more than chance makes.
-std::vector<Ball> misfits_left(const EffectProblem& problem, const Weighed& weighed, const ShowingRuns& runs,
-                               const MisfitMap& map, double alpha) {
+/// what leads leaves no more than chance makes. residual_at: of the model itself, since a coarser one is off by more
+/// than the noise where what leads changes much; first_at: of the runs that explore, where only the place is asked.
+std::vector<Ball> misfits_left(const EffectProblem& problem, const Weighed& weighed, const ResidualAt& residual_at,
+                               const ResidualAt& first_at, const MisfitMap& map, double alpha) {
   const Leading leading = leading_in(weighed);
   const auto count = static_cast<Eigen::Index>(leading.candidates.size());
-  MatrixXd amplitudes = MatrixXd::Zero(problem.changes.cols(), count + 1);  // all of them, and without each
+  VectorXd together = VectorXd::Zero(problem.changes.cols());
+  MatrixXd without = MatrixXd::Zero(together.size(), count);  // each of them
   for (std::size_t k = 0; k < leading.candidates.size(); ++k) {
     const auto& own = problem.candidates[leading.candidates[k]].amplitudes;
-    if (own.size() != 1) continue;  // it has several, and no single one that is most probable
-    amplitudes.row(own.front()).setConstant(leading.amplitudes[k]);
-    amplitudes(own.front(), static_cast<Eigen::Index>(k) + 1) = 0;
+    if (own.size() == 1)  // one that has several has no single one that is most probable
+      together[own.front()] = leading.amplitudes[k];
   }
-  const MatrixXd left = runs.residual_at(amplitudes);
-  std::optional<LocatedMisfit> of_all, without_one;
-  for (Eigen::Index k = 0; k <= count; ++k) {
-    if (!left.col(k).allFinite()) continue;
-    const auto misfit = map.worst(left.col(k));
-    if (!misfit) return {};
-    if (k == 0)
-      of_all = misfit;
-    else if (!without_one || misfit->z < without_one->z)
-      without_one = misfit;
-  }
+  const auto of_all = map.worst(residual_at(together).col(0));
   if (!of_all || of_all->p > alpha / 5) return {};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    without.col(k) = together;
+    for (const Eigen::Index i : problem.candidates[leading.candidates[static_cast<std::size_t>(k)]].amplitudes)
+      without(i, k) = 0;
+  }
+  const MatrixXd left = first_at(without);
+  std::optional<LocatedMisfit> least;
+  for (const auto& one : left.colwise())
+    if (const auto misfit = map.worst(one); misfit && (!least || misfit->z < least->z)) least = misfit;
   std::vector<Ball> starts{{of_all->centre, of_all->radius}};
-  if (without_one) starts.push_back({without_one->centre, without_one->radius});
+  if (least) starts.push_back({least->centre, least->radius});
   return starts;
 }
 
@@ -225,8 +225,13 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   }
   const MisfitMap map = misfit_map(report.problem, given, evidence, whitening);
   PatchSearch patches(effects, given.lumen, given.file.units().symbol(dimension::length));
+  const auto tell = [&] {
+    weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
+  };
+  tell();
   std::vector<Ball> starts;
-  if (model.extend) starts = misfits_left(report.problem, weighing.weighed, exploring, map, given.diagnosis.alpha);
+  if (model.extend)
+    starts = misfits_left(report.problem, weighing.weighed, residual_at, first_at, map, given.diagnosis.alpha);
   while (!starts.empty()) {
     const std::vector<PatchEffect> wanted = patches.next(report.problem, weighing, starts);
     if (wanted.empty()) break;
@@ -234,9 +239,11 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
     for (const PatchEffect& patch : wanted) report.effects.push_back(patch.effect);
     explore(numbers_of(wanted, varied_numbers(first_order.parameters(), given.diagnosis, given.file)));
   }
-  settle(report.problem.candidates, patches.place());
-  report.patch = patches.place();
-  weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
+  if (!starts.empty()) {
+    settle(report.problem.candidates, patches.place());
+    report.patch = patches.place();
+    tell();
+  }
   report.found = search_effects(report.problem, how, residual_at, weighing);
   locate_misfit(report, given, map);
   report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);

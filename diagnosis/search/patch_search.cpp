@@ -154,6 +154,7 @@ void PatchSearch::set_place(const std::vector<Tried>& all) {
   const auto away = [&](const Tried& one) { return (one.ball.centre - best_.centre).norm(); };
   for (const Tried& one : all)
     if (away(one) > 0) place_->known_to = std::min(place_->known_to, away(one));
+  if (!std::isfinite(place_->known_to)) place_->known_to = best_.radius;  // no run of another place came to its end
   for (const Tried& one : all) {
     if (one.evidence < most - within) continue;
     place_->known_to = std::max(place_->known_to, away(one));

@@ -78,6 +78,14 @@ TEST_F(Picture, ShowsWhatIsNotKnownAndLines) {
   EXPECT_LT(darkest, 60);
 }
 
+TEST_F(Picture, SaysThatItCannotBeWritten) {
+  png_ = folder_ / "gone/picture.png";
+  const ChildEnd end = draw("--field height");
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_NE(end.errors.find("gone/picture.png: cannot be written: its folder is gone"), std::string::npos)
+      << end.errors;
+}
+
 TEST_F(Picture, NamesAFieldThatIsNotThere) {
   const ChildEnd end = draw("--field stress");
   EXPECT_EQ(end.exit_code, 1);

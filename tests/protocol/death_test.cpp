@@ -117,7 +117,7 @@ TEST_P(Stopped, APartnerIsToldOfAndEndsTheRunAfterAWhile) {
       std::string::npos)
       << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
-  EXPECT_NE(job.exit_code, 0) << errors;
+  EXPECT_EQ(job.exit_code, 1) << errors;
   EXPECT_FALSE(job.had_to_be_ended);
   EXPECT_TRUE(job.orphans.empty());
 }
