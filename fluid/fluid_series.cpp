@@ -7,7 +7,7 @@
 namespace tether::fluid {
 
 void FluidSeries::write(const FluidSolver& solver, int step, double time) {
-  if (!series_) series_ = PvdSeries::resumed(folder_ / "fluid.pvd", time * (1 - 1e-12) - 1e-300);
+  if (!series_) series_ = PvdSeries::rescued(folder_ / "fluid.pvd", time * (1 - 1e-12) - 1e-300);
   const std::string file = fmt::format("vtk/fluid_{:06}.vtu", step);
   std::filesystem::create_directories(folder_ / "vtk");
   const FluidMesh& mesh = solver.domain().mesh();

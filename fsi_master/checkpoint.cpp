@@ -42,12 +42,20 @@ Checkpoint read_folder(const fs::path& folder) {
   return c;
 }
 
-/// The folder of the last checkpoint that is whole.
-fs::path newest_in(const fs::path& output) {
-  fs::path folder = output / "checkpoint";
-  if (!fs::exists(folder)) folder = output / "checkpoint.previous";  // stopped between the two renames
-  if (!fs::exists(folder)) throw input_error("{}: holds no checkpoint to resume from", output.string());
-  return folder;
+/// The newest that is whole.
+Checkpoint newest_in(const fs::path& output) {
+  const fs::path newest = output / "checkpoint", before = output / "checkpoint.previous";
+  if (!fs::exists(newest) && !fs::exists(before))
+    throw input_error("{}: holds no checkpoint to resume from", output.string());
+  if (!fs::exists(newest)) return read_folder(before);  // stopped between the two renames
+  try {
+    return read_folder(newest);
+  } catch (const InputError& error) {
+    if (!fs::exists(before)) throw;
+    Checkpoint checkpoint = read_folder(before);
+    checkpoint.refused = error.what();
+    return checkpoint;
+  }
 }
 
 void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
@@ -82,19 +90,19 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
 }
 
 Checkpoint read_checkpoint(const fs::path& output) {
-  Checkpoint checkpoint = read_folder(newest_in(output));
+  Checkpoint checkpoint = newest_in(output);
+  if (!checkpoint.refused.empty()) throw InputError(checkpoint.refused);
   check_has_states(checkpoint, output);
   return checkpoint;
 }
 
 Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
-  const fs::path folder = newest_in(output);
-  Checkpoint checkpoint = read_folder(folder);
+  Checkpoint checkpoint = newest_in(output);
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
         "{}: is a checkpoint of another case, step or mesh; give the case as it was, or start anew without --resume, "
         "or let the case begin with that state (initial_state)",
-        folder.string());
+        (output / "checkpoint").string());
   check_has_states(checkpoint, output);
   return checkpoint;
 }

@@ -31,16 +31,17 @@ struct Checkpoint {
   std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
   std::string coupling;       ///< how its steps were coupled: the section of the case, JSON
   StateOrigin origin{};
+  std::string refused{};  ///< why a newer one is not taken: it is damaged
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed
 /// to the disk and renamed; the one before stays as checkpoint.previous. Throws RunError if the disk refuses.
 void write_checkpoint(const std::filesystem::path& output, const Checkpoint& checkpoint);
 
-/// The newest complete checkpoint in OUTPUT. Throws InputError: none, damaged, of another case, step or mesh
-/// (fingerprint), or without a code's state.
+/// The newest whole checkpoint in OUTPUT, or the one before if that is damaged. Throws InputError: none, both damaged,
+/// of another case, step or mesh (fingerprint), or without a code's state.
 Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
-/// The same of any case.
+/// The newest of any case. Throws InputError also if it is damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& output);
 
 /// Names a case and its mesh: the codes' effective cases (JSON) and the interface. What may change between a run and

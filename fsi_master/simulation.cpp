@@ -61,6 +61,9 @@ void Simulation::begin() {
     return write_files(0);
   }
   const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
+  if (!checkpoint.refused.empty())
+    fmt::print(stderr, "{}: the run goes on from the checkpoint before, step {}\n", checkpoint.refused,
+               checkpoint.step);
   loop_.restore(checkpoint.snapshot);
   statistics_ = checkpoint.statistics;
   count_costs(false);

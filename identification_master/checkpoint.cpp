@@ -53,30 +53,14 @@ EstimateRecord unpacked(const PackedRecord& p) {
           p.numbers[3], p.numbers[4],    p.numbers[5],          p.numbers[6]};
 }
 
-}  // namespace
-
-void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state,
-                      const IdentificationCost& cost) {
-  std::vector<PackedRecord> records;
-  for (const EstimateRecord& record : state.records) records.push_back(packed(record));
-  protocol::Writer writer;
-  writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, records,
-         std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
-         PackedMatrix(state.last_mean), PackedMatrix(state.lasting.mean), PackedMatrix(state.lasting.slope),
-         PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),
-         std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
-                             static_cast<double>(cost.moved_values)});
-  const fs::path folder = output / "checkpoint", fresh = folder / "identification.new";
-  fs::create_directories(folder);
-  write_checked(fresh, fingerprint, state.step, writer.take());
-  fs::rename(fresh, folder / "identification.bin");
-  flush_to_disk(folder);
+fs::path newest_in(const fs::path& folder) {
+  return folder / "identification.bin";
+}
+fs::path before_in(const fs::path& folder) {
+  return folder / "identification.previous";
 }
 
-IdentificationCheckpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
-  const fs::path path = output / "checkpoint" / "identification.bin";
-  if (!fs::exists(path))
-    throw input_error("{}: holds no checkpoint of an identification to resume from", output.string());
+IdentificationCheckpoint read_file(const fs::path& path, std::uint64_t fingerprint) {
   const CheckedContent content = read_checked(path);
   if (content.fingerprint != fingerprint)
     throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
@@ -100,6 +84,42 @@ IdentificationCheckpoint read_checkpoint(const fs::path& output, std::uint64_t f
   state.innovations = {innovations.at(0), innovations.at(1), innovations.at(2)};
   checkpoint.cost = {cost.at(0), cost.at(1), cost.at(2), static_cast<int>(cost.at(3))};
   return checkpoint;
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state,
+                      const IdentificationCost& cost) {
+  std::vector<PackedRecord> records;
+  for (const EstimateRecord& record : state.records) records.push_back(packed(record));
+  protocol::Writer writer;
+  writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, records,
+         std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
+         PackedMatrix(state.last_mean), PackedMatrix(state.lasting.mean), PackedMatrix(state.lasting.slope),
+         PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),
+         std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
+                             static_cast<double>(cost.moved_values)});
+  const fs::path folder = output / "checkpoint", fresh = folder / "identification.new";
+  fs::create_directories(folder);
+  write_checked(fresh, fingerprint, state.step, writer.take());
+  if (const fs::path newest = newest_in(folder); fs::exists(newest)) fs::rename(newest, before_in(folder));
+  fs::rename(fresh, newest_in(folder));
+  flush_to_disk(folder);
+}
+
+IdentificationCheckpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
+  const fs::path folder = output / "checkpoint", newest = newest_in(folder), before = before_in(folder);
+  if (!fs::exists(newest) && !fs::exists(before))
+    throw input_error("{}: holds no checkpoint of an identification to resume from", output.string());
+  if (!fs::exists(newest)) return read_file(before, fingerprint);  // stopped between the two renames
+  try {
+    return read_file(newest, fingerprint);
+  } catch (const InputError& error) {
+    if (!fs::exists(before)) throw;
+    IdentificationCheckpoint checkpoint = read_file(before, fingerprint);
+    checkpoint.refused = error.what();
+    return checkpoint;
+  }
 }
 
 }  // namespace tether

@@ -15,14 +15,15 @@ struct IdentificationCost {
 struct IdentificationCheckpoint {
   IdentificationState state;
   IdentificationCost cost;
+  std::string refused = {};  ///< why a newer one is not taken: it is damaged
 };
 
-/// OUTPUT/checkpoint/identification.bin: written beside the old one, flushed, renamed. Throws RunError if the disk
-/// refuses.
+/// OUTPUT/checkpoint/identification.bin: written beside the old one, flushed, renamed; the one before stays as
+/// identification.previous. Throws RunError if the disk refuses.
 void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint, const IdentificationState& state,
                       const IdentificationCost& cost);
 
-/// Throws InputError: none, damaged, of another case.
+/// The newest whole one. Throws InputError: none, both damaged, of another case.
 IdentificationCheckpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
 
 }  // namespace tether

@@ -136,6 +136,9 @@ class Job {
     fingerprint_ = fingerprint_of(given_, pool_, data_);
     if (command_.resume) {
       IdentificationCheckpoint checkpoint = read_checkpoint(output_, fingerprint_);
+      if (!checkpoint.refused.empty())
+        fmt::print(stderr, "{}: the identification goes on from the checkpoint before, step {}\n", checkpoint.refused,
+                   checkpoint.state.step);
       filter_.restore(std::move(checkpoint.state));
       cost_before_ = checkpoint.cost;
       saved_ = filter_.state().step;

@@ -7,6 +7,7 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/io/lumen_motion.hpp"
 #include "common/io/record_file.hpp"
 
 namespace tether {
@@ -34,7 +35,9 @@ void move_folder(const fs::path& from, const fs::path& to) {
 std::optional<MadeRun> made_run_in(const fs::path& folder) {
   if (!fs::exists(record_in(folder))) return std::nullopt;
   try {
-    return read_record<MadeRun>(record_in(folder));
+    MadeRun run = read_record<MadeRun>(record_in(folder));
+    if (!run.failure) check_is_whole(folder, run.steps);
+    return run;
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -67,6 +70,7 @@ void RunStore::take(const MadeRun& made, const fs::path& folder) const {
   if (folder_.empty() || fs::is_symlink(folder)) return;
   const fs::path place = place_of(made);
   fs::create_directories(place.parent_path());
+  if (fs::exists(place) && !made_run_in(place)) fs::remove_all(place);  // of another version, or damaged
   move_folder(folder, place);
   lend(made, folder);
 }

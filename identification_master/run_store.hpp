@@ -7,7 +7,7 @@
 
 namespace tether {
 
-/// What a folder holds; nothing if no run ended there that this version understands.
+/// What a folder holds; nothing if no run ended there that this version understands, or what it left is damaged.
 std::optional<MadeRun> made_run_in(const std::filesystem::path& folder);
 
 /// Writes that record.

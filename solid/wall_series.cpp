@@ -27,7 +27,7 @@ std::vector<Field> stress_fields(const Eigen::Matrix<double, 6, Eigen::Dynamic>&
 }  // namespace
 
 void WallSeries::write(const WallModel& model, const SolidSolver& solver, int step, double time) {
-  if (!series_) series_ = PvdSeries::resumed(folder_ / "solid.pvd", time * (1 - 1e-12) - 1e-300);
+  if (!series_) series_ = PvdSeries::rescued(folder_ / "solid.pvd", time * (1 - 1e-12) - 1e-300);
   const std::string file = fmt::format("vtk/solid_{:06}.vtu", step);
   std::filesystem::create_directories(folder_ / "vtk");
   const Points& reference = model.mesh().points;

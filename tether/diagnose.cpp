@@ -1,12 +1,12 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/evidence/coarse_runs.hpp"
 #include "diagnosis/evidence/growing_runs.hpp"
 #include "diagnosis/evidence/living_runs.hpp"
-#include "diagnosis/explanation/interruption.hpp"
 #include "diagnosis/search/diagnosis_text.hpp"
 #include "diagnosis/search/misfit_drawing.hpp"
 #include "diagnosis/search/suggested_case.hpp"
@@ -138,7 +138,7 @@ Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSett
 }
 
 Made<Diagnosis> diagnose(const CommandLine& command) {
-  say_when_interrupted();
+  const WhenInterrupted way_on("the same command goes on from here");
   return diagnose_further(command, {});
 }
 

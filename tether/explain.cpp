@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/explanation/explainer.hpp"
-#include "diagnosis/explanation/interruption.hpp"
 #include "report/report.hpp"
 #include "tether/diagnosed.hpp"
 #include "tether/verbs.hpp"
@@ -68,7 +68,7 @@ std::string text_of(const Explanation& explanation, double millimetres, const fs
 }  // namespace
 
 Made<Explanation> explain(const CommandLine& command) {
-  say_when_interrupted();
+  const WhenInterrupted way_on("the same command goes on from here");
   check_case(command);
   const DiagnosedCase given(command.case_file);
   CommandLine own = command;

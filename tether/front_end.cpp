@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/protocol/programs.hpp"
 #include "fluid/windkessels/outlets_case.hpp"
 #include "tether/schemas.hpp"
@@ -88,7 +89,7 @@ int conform(int argc, char** argv) {
   }
   Command command{{sibling("tether_conform").string()}, {}};
   command.words.insert(command.words.end(), argv, argv + argc);
-  return run_in_foreground(command);
+  return run_in_foreground(command).exit_code;
 }
 
 std::string usage() {
@@ -104,6 +105,7 @@ std::string usage() {
 }  // namespace
 
 int front_end(int argc, char** argv) {
+  end_when_interrupted();
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "conform") return conform(argc - 2, argv + 2);
   if (word == "measure-noise" && argc > 3 && argv[2][0] != '-' && argv[3][0] != '-')

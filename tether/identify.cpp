@@ -1,4 +1,5 @@
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
@@ -105,6 +106,7 @@ Made<Estimate> identify(const CommandLine& command) {
   const CaseFile file(command.case_file);
   const fs::path output = claim_output(command, file);
   run_to_end("identification_master", "identify", command);
+  const WhenInterrupted way_on("the identification has come to its end; with --resume the same command draws it");
   auto estimate = read_record<Estimate>(output / "estimate.json");
   const auto pictures = draw(output, estimate);
   std::string told = text_of(estimate, output, pictures);

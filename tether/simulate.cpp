@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -67,6 +68,7 @@ Made<RunSummary> simulate(const CommandLine& command) {
   CommandLine one = command;
   one.processes = 0;  // how many runs at once is no matter of one
   run_to_end("fsi_master", "simulate", one);
+  const WhenInterrupted way_on("the run has come to its end; with --resume the same command draws its plots");
   auto plots = draw_plots(output, file.units(), file.common().image.pressure);
   const auto pictures = draw_pictures(output, file.units());
   plots.insert(plots.begin(), pictures.begin(), pictures.end());

@@ -80,20 +80,21 @@ int exit_code_in(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Waits for its end; tells on stderr when it is stopped.
-int exit_code_of(pid_t pid, const std::string& name) {
+/// Waits for its end, which it returns as waitpid has it; tells on stderr when it is stopped.
+int end_of(pid_t pid, const std::string& name) {
   int status = 0;
   while (true) {
     const pid_t changed = waitpid(pid, &status, WUNTRACED);
     if (changed < 0 && errno == EINTR) continue;
-    if (changed < 0 || !WIFSTOPPED(status)) return exit_code_in(status);
+    if (changed < 0 || !WIFSTOPPED(status)) return status;
     fmt::print(stderr, "{} (pid {}) is stopped: kill -CONT {} lets it go on\n", name, pid, pid);
   }
 }
 
-volatile std::sig_atomic_t foreground_child = 0;
+volatile std::sig_atomic_t foreground_child = 0, handed_on = 0;
 
 void forward(int signal) {
+  handed_on = signal;
   if (foreground_child > 0) kill(foreground_child, signal);
 }
 
@@ -101,6 +102,7 @@ void forward(int signal) {
 class Forwarding {
  public:
   Forwarding() {
+    handed_on = 0;
     struct sigaction action {};
     action.sa_handler = forward;
     for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &before_[i]);
@@ -127,18 +129,20 @@ void detach_from_terminal() {
 ChildEnd capture(const Command& command) {
   const Capture output, errors;
   const pid_t pid = start(command, [&] {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
     dup2(output.descriptor(), STDOUT_FILENO);
     dup2(errors.descriptor(), STDERR_FILENO);
   });
-  const int code = exit_code_of(pid, command.words.front());
-  return {code, output.text(), errors.text()};
+  const int status = end_of(pid, command.words.front());
+  return {exit_code_in(status), output.text(), errors.text()};
 }
 
-int run_in_foreground(const Command& command) {
+ForegroundEnd run_in_foreground(const Command& command) {
   const Forwarding forwarding;
   const pid_t pid = start(command, detach_from_terminal);
   foreground_child = pid;
-  return exit_code_of(pid, command.words.front());
+  const int status = end_of(pid, command.words.front());
+  return {exit_code_in(status), WIFSIGNALED(status), handed_on};
 }
 
 RunningProgram::RunningProgram(const Command& command)
@@ -157,7 +161,7 @@ std::optional<int> RunningProgram::exit_code() {
 }
 
 int RunningProgram::wait() {
-  if (!code_) code_ = exit_code_of(pid_, name_);
+  if (!code_) code_ = exit_code_in(end_of(pid_, name_));
   return *code_;
 }
 

@@ -24,10 +24,15 @@ struct ChildEnd {
 /// Runs a program to its end and keeps what it writes to stdout and stderr. Throws RunError if it cannot be started.
 ChildEnd capture(const Command& command);
 
+/// How a program ended that ran in this process's place.
+struct ForegroundEnd {
+  int exit_code = 0;        ///< as ChildEnd has it
+  bool was_killed = false;  ///< a signal ended the program itself, not one that it ran
+  int handed_on = 0;        ///< the last signal that this process got meanwhile and handed on
+};
 /// Runs a program to its end in this process's place: it writes where this process writes, reads nothing, gets the
-/// signals INT, TERM and HUP that this process gets, and TERM if this process dies. Returns its exit code. One at a
-/// time.
-int run_in_foreground(const Command& command);
+/// signals INT, TERM and HUP that this process gets, and TERM if this process dies. One at a time.
+ForegroundEnd run_in_foreground(const Command& command);
 
 /// A program that runs beside this process: it writes where this process writes, reads nothing, and gets TERM if this
 /// process or this object goes first.

@@ -36,4 +36,8 @@ struct BloodVelocity : PointSeries {
   explicit BloodVelocity(const std::filesystem::path& path);
 };
 
+/// Throws InputError if what a run of so many steps left in its folder (lumen.motion, timeseries.csv, and
+/// blood.velocity where there is one) is missing, damaged or cut short.
+void check_is_whole(const std::filesystem::path& folder, std::int64_t steps);
+
 }  // namespace tether

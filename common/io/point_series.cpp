@@ -98,8 +98,7 @@ PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::pat
   while (get(file, &time, 1) && get(file, record.data(), record.size()) && get(file, &stated, 1)) {
     checksums_.push_back(checksum_of(time, record.data(), record.size(), checksums_.back()));
     if (stated != checksums_.back())
-      throw input_error("{}: record {} is damaged (checksum); without this file the run is made again", path.string(),
-                        times_.size());
+      throw input_error("{}: record {} is damaged (checksum)", path.string(), times_.size());
     times_.push_back(time);
     vectors_.insert(vectors_.end(), record.begin(), record.end());
   }
@@ -107,9 +106,7 @@ PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::pat
 
 void PointSeries::check_has(std::int64_t steps) const {
   if (static_cast<std::int64_t>(times_.size()) <= steps)
-    throw input_error(
-        "{}: is cut short: it has {} records of a run of {} steps; without this file the run is made again",
-        path_.string(), times_.size(), steps);
+    throw input_error("{}: is cut short: it has {} records of a run of {} steps", path_.string(), times_.size(), steps);
 }
 
 Points PointSeries::vectors(std::size_t record) const {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <regex>
 
 #include "common/base/error.hpp"
 #include "common/base/write_error.hpp"
@@ -58,6 +59,23 @@ PvdSeries PvdSeries::resumed(std::filesystem::path path, double last_time) {
     ++number;
   }
   return series;
+}
+
+PvdSeries PvdSeries::rescued(const std::filesystem::path& path, double last_time) {
+  try {
+    return resumed(path, last_time);
+  } catch (const InputError& error) {
+    PvdSeries series(path);
+    std::ifstream file(path);
+    const std::regex entry("<DataSet timestep=\"([-+.e0-9]+)\" part=\"0\" file=\"([^\"]+)\"/>");
+    std::smatch found;
+    for (std::string line; std::getline(file, line);)
+      if (std::regex_match(line, found, entry) && std::stod(found[1]) <= last_time)
+        series.entries_.emplace_back(std::stod(found[1]), found[2]);
+    fmt::print(stderr, "{}; it is written anew, with the {} files that it still names\n", error.what(),
+               series.entries_.size());
+    return series;
+  }
 }
 
 void PvdSeries::add(double time, const std::string& file) {

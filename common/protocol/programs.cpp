@@ -3,6 +3,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -89,18 +90,22 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
   return run;
 }
 
-int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command) {
+int report_failure(const ForegroundEnd& end, const std::string& master, const char* verb, const CommandLine& command) {
   const bool is_told = note_of_failure().remove();
-  if (code > 128 && !is_told)
-    std::cerr << fmt::format("tether: {} was ended by signal {}{}\n", master, code - 128,
-                             code == 128 + 9 ? " (killed; out of memory?)" : "");
-  if (code != exit_input_wrong) std::cerr << way_on(verb, command);
-  return code == exit_input_wrong ? code : exit_run_failed;
+  if (!is_told && end.handed_on != 0)
+    std::cerr << "tether: interrupted\n";
+  else if (!is_told && end.exit_code > 128)
+    std::cerr << fmt::format("tether: {} was ended by signal {}{}\n", end.was_killed ? "mpirun" : master,
+                             end.exit_code - 128, end.exit_code == 128 + SIGKILL ? " (killed; out of memory?)" : "");
+  if (end.exit_code == exit_input_wrong) return exit_input_wrong;
+  std::cerr << way_on(verb, command);
+  return exit_run_failed;
 }
 
 void run_to_end(const std::string& master, const char* verb, const CommandLine& command) {
-  if (const int code = run_in_foreground(parallel_run(master, command)); code != exit_done)
-    throw ToldFailure(report_failure(code, master, verb, command));
+  const ForegroundEnd end = run_in_foreground(parallel_run(master, command));
+  if (end.exit_code != exit_done) throw ToldFailure(report_failure(end, master, verb, command));
+  if (end.handed_on != 0) std::raise(end.handed_on);  // too late for the run, not for what follows
 }
 
 }  // namespace tether

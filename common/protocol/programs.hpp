@@ -17,9 +17,9 @@ std::filesystem::path sibling(const std::string& name);
 Command parallel_run(const std::string& master, const CommandLine& command);
 
 /// The master says why a run failed, unless it was killed itself: mpirun ends with 128 and the signal's number if any
-/// process was. Says so if the master could not, and how to go on from what is saved; returns the front-end's exit
-/// code.
-int report_failure(int code, const std::string& master, const char* verb, const CommandLine& command);
+/// process was. Says so if the master could not, or that a person interrupted it, and how to go on from what is saved;
+/// returns the front-end's exit code.
+int report_failure(const ForegroundEnd& end, const std::string& master, const char* verb, const CommandLine& command);
 
 /// Runs a master to its end. Throws ToldFailure as `report_failure` says.
 void run_to_end(const std::string& master, const char* verb, const CommandLine& command);

@@ -120,7 +120,7 @@ void LivingRuns::note(const protocol::RunEnded& ended) {
 /// The service has said why it ended, on stderr, unless it was killed.
 void LivingRuns::fail() {
   const std::string name = command_.case_file.string();
-  if (report_failure(service_.wait(), program, "diagnose", command_) == exit_input_wrong)
+  if (report_failure({service_.wait()}, program, "diagnose", command_) == exit_input_wrong)
     throw input_error("the runs of {} are refused (see above)", name);
   throw run_error("the runs of {} failed (see above); the same command goes on from there", name);
 }

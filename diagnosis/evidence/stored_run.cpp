@@ -10,11 +10,8 @@ StoredRun::StoredRun(const std::filesystem::path& folder)
       table(std::make_shared<CsvTable>(folder / "timeseries.csv")) {
   if (std::filesystem::exists(folder / "blood.velocity"))
     velocity = std::make_shared<BloodVelocity>(folder / "blood.velocity");
-  const std::filesystem::path made = folder / "run.json";
-  if (!std::filesystem::exists(made)) return;
-  const auto steps = static_cast<std::int64_t>(read_record<MadeRun>(made).steps);
-  lumen->check_has(steps);
-  if (velocity) velocity->check_has(steps);
+  if (const auto made = folder / "run.json"; std::filesystem::exists(made))
+    check_is_whole(folder, read_record<MadeRun>(made).steps);
 }
 
 FinishedMotion StoredRun::motion() const {

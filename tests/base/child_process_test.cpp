@@ -42,15 +42,25 @@ TEST(Capture, NamesAProgramThatCannotBeStarted) {
 }
 
 TEST(RunInForeground, ReturnsTheExitCode) {
-  EXPECT_EQ(run_in_foreground(shell("exit 0")), 0);
-  EXPECT_EQ(run_in_foreground(shell("exit 2")), 2);
-  EXPECT_EQ(run_in_foreground(shell("cat")), 0) << "there is nothing to read";
+  EXPECT_EQ(run_in_foreground(shell("exit 0")).exit_code, 0);
+  EXPECT_EQ(run_in_foreground(shell("exit 2")).exit_code, 2);
+  EXPECT_EQ(run_in_foreground(shell("cat")).exit_code, 0) << "there is nothing to read";
 }
 
 TEST(RunInForeground, HandsSignalsOn) {
-  EXPECT_EQ(run_in_foreground(
-                shell("trap 'exit 7' TERM; sleep 0.2; kill -TERM $PPID; for i in $(seq 60); do sleep 1; done; exit 1")),
-            7);
+  const ForegroundEnd end = run_in_foreground(
+      shell("trap 'exit 7' TERM; sleep 0.2; kill -TERM $PPID; for i in $(seq 60); do sleep 1; done; exit 1"));
+  EXPECT_EQ(end.exit_code, 7);
+  EXPECT_EQ(end.handed_on, SIGTERM);
+  EXPECT_FALSE(end.was_killed);
+}
+
+TEST(RunInForeground, TellsASignalThatEndedItFromOneThatItTells) {
+  EXPECT_FALSE(run_in_foreground(shell("exit 137")).was_killed);
+  const ForegroundEnd end = run_in_foreground(shell("kill -KILL $$"));
+  EXPECT_TRUE(end.was_killed);
+  EXPECT_EQ(end.exit_code, 137);
+  EXPECT_EQ(end.handed_on, 0);
 }
 
 }  // namespace

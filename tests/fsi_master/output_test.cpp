@@ -116,6 +116,19 @@ TEST_F(Output, DamagedCheckpointsAreNoticed) {
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("fluid.bin: is cut short"), std::string::npos);
 }
 
+TEST_F(Output, TheCheckpointBeforeIsTakenIfTheNewestIsDamaged) {
+  write_checkpoint(folder, some_checkpoint(7));
+  write_checkpoint(folder, some_checkpoint(8));
+  fs::resize_file(folder / "checkpoint/solid.bin", fs::file_size(folder / "checkpoint/solid.bin") - 3);
+  const Checkpoint taken = read_checkpoint(folder, 77);
+  EXPECT_EQ(taken.step, 7);
+  EXPECT_NE(taken.refused.find("checkpoint/solid.bin: is cut short"), std::string::npos) << taken.refused;
+  EXPECT_NE(error_of([&] { read_checkpoint(folder); }).find("is cut short"), std::string::npos)
+      << "another run would begin with another state";
+  write_checkpoint(folder, some_checkpoint(9));
+  EXPECT_EQ(read_checkpoint(folder, 77).refused, "");
+}
+
 TEST(Fingerprint, CountsPhysicsAndMeshButNotWhereAndHowLong) {
   const auto of = [](const std::string& text, double x = 1) {
     return fingerprint({text}, 0.1, Points::Constant(3, 2, x));

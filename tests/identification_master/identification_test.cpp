@@ -331,6 +331,26 @@ TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
   }
 }
 
+TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing) {
+  const TemporaryFolder folder;
+  Observations data;
+  data.traces.push_back(front_trace({0.2, 0.4}));
+  IdentificationState state = state_after(data, false);
+  const auto step = state.step;
+  write_checkpoint(folder.path(), 7, state, {});
+  ++state.step;
+  write_checkpoint(folder.path(), 7, state, {});
+  EXPECT_EQ(read_checkpoint(folder.path(), 7).state.step, step + 1);
+  const auto newest = folder / "checkpoint/identification.bin";
+  std::filesystem::resize_file(newest, std::filesystem::file_size(newest) - 1);
+  EXPECT_EQ(read_checkpoint(folder.path(), 7).state.step, step);
+  EXPECT_NE(read_checkpoint(folder.path(), 7).refused.find("identification.bin: is cut short"), std::string::npos);
+  std::filesystem::remove(newest);
+  EXPECT_EQ(read_checkpoint(folder.path(), 7).state.step, step);
+  std::filesystem::resize_file(folder / "checkpoint/identification.previous", 9);
+  EXPECT_THROW(read_checkpoint(folder.path(), 7), InputError);
+}
+
 TEST(Observations, TheirContentNamesWhatWasMeasured) {
   Observations data = surfaces(12, 10, 0.3, -0.1, 12, 10);
   data.traces.push_back(front_trace({0.2, 0.4}));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/io/lumen_motion.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {
@@ -22,6 +23,14 @@ struct FakeMakers : RunMakers {
   std::size_t groups() const override { return 2; }
   void begin(std::size_t group, const protocol::Simulate& run) override {
     std::filesystem::create_directories(run.output);
+    LumenMotionWriter motion(std::filesystem::path(run.output) / "lumen.motion", Points::Zero(3, 2));
+    motion.start();
+    std::ofstream table(std::filesystem::path(run.output) / "timeseries.csv");
+    table << "time [s]\n";
+    for (int step = 0; step <= run.steps; ++step) {
+      motion.append(0.1 * step, Points::Ones(3, 2));
+      table << 0.1 * step << "\n";
+    }
     busy.emplace_back(group, run);
     begun.push_back(run);
   }
@@ -96,11 +105,11 @@ TEST_F(Service, SharesRunsByWhatTheyDependOn) {
   const RunStore store(folder / "shared", "1");
   RunService first(makers, "abc", 20, store), second(makers, "abc", 20, store);
   EXPECT_TRUE(made(first, {order("one/a", 3)})[0].made);
-  std::ofstream(folder / "one/a/lumen.motion") << "of 3";
+  std::ofstream(folder / "one/a/mark") << "of 3";
   const auto lent = made(second, {order("two/b", 3)});
   EXPECT_FALSE(lent[0].made);
   EXPECT_EQ(lent[0].cpu_seconds, 0);
-  EXPECT_EQ(content_of(folder / "two/b/lumen.motion"), "of 3");
+  EXPECT_EQ(content_of(folder / "two/b/mark"), "of 3");
 
   RunService other_model(makers, "abd", 20, store), other_steps(makers, "abc", 30, store);
   RunService other_solver(makers, "abc", 20, RunStore(folder / "shared", "2"));
@@ -108,7 +117,7 @@ TEST_F(Service, SharesRunsByWhatTheyDependOn) {
   EXPECT_TRUE(made(other_model, {order("three/b", 3)})[0].made);
   EXPECT_TRUE(made(other_steps, {order("four/b", 3)})[0].made);
   EXPECT_TRUE(made(other_solver, {order("five/b", 3)})[0].made);
-  EXPECT_EQ(content_of(folder / "one/a/lumen.motion"), "of 3");
+  EXPECT_EQ(content_of(folder / "one/a/mark"), "of 3");
   EXPECT_FALSE(made(first, {order("one/a", 3)})[0].made);
 }
 
@@ -119,11 +128,11 @@ TEST_F(Service, TwoThatMakeTheSameRunKeepTheFirst) {
   RunService second(others, "abc", 20, store);
   first(protocol::OrderRuns{{order("one/a", 3)}, ""});
   second(protocol::OrderRuns{{order("two/a", 3)}, ""});
-  std::ofstream(folder / "one/a/lumen.motion") << "of the first";
-  std::ofstream(folder / "two/a/lumen.motion") << "of the second";
+  std::ofstream(folder / "one/a/mark") << "of the first";
+  std::ofstream(folder / "two/a/mark") << "of the second";
   EXPECT_TRUE(first(protocol::NextRun{}).made);
   EXPECT_TRUE(second(protocol::NextRun{}).made);
-  for (const char* name : {"one/a", "two/a"}) EXPECT_EQ(content_of(folder / name / "lumen.motion"), "of the first");
+  for (const char* name : {"one/a", "two/a"}) EXPECT_EQ(content_of(folder / name / "mark"), "of the first");
 }
 
 TEST_F(Service, GivesItsOwnRunsToThoseThatAreShared) {
@@ -145,6 +154,19 @@ TEST_F(Service, MakesAgainWhatWasDeletedFromThoseThatAreShared) {
   std::filesystem::remove_all(folder / "shared");
   EXPECT_TRUE(made(first, {order("one/a", 3)})[0].made);
   EXPECT_TRUE(std::filesystem::exists(folder / "one/a/run.json"));
+}
+
+TEST_F(Service, MakesAgainWhatIsDamaged) {
+  const RunStore store(folder / "shared", "1");
+  RunService first(makers, "abc", 20, store), second(makers, "abc", 20, store);
+  made(first, {order("one/a", 3)});
+  const auto motion = folder / "one/a/lumen.motion";
+  std::filesystem::resize_file(motion, std::filesystem::file_size(motion) - 1);
+  EXPECT_TRUE(made(second, {order("two/a", 3)})[0].made) << "not lent";
+  EXPECT_FALSE(made(first, {order("one/a", 3)})[0].made) << "made for the second, and whole";
+  EXPECT_EQ(LumenMotion(motion).times().size(), 21U);
+  std::ofstream(folder / "two/a/timeseries.csv") << "time [s]\n0\n";
+  EXPECT_TRUE(made(first, {order("one/a", 3)})[0].made);
 }
 
 TEST_F(Service, RefusesWhatTheModelDoesNotHave) {

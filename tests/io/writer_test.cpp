@@ -61,6 +61,20 @@ TEST(PvdSeries, GrowsAndIsCutOnResuming) {
 }
 
 /// As other programs write them: on one line, over several, in single quotes.
+TEST(PvdSeries, OfADamagedOneWhatItStillNamesIsKept) {
+  const TemporaryFolder folder;
+  PvdSeries series(folder / "fluid.pvd");
+  for (const int i : {0, 10, 20}) series.add(0.1 * i, fmt::format("vtk/fluid_{:06}.vtu", i));
+  const auto whole = series.entries();
+  std::filesystem::resize_file(folder / "fluid.pvd", std::filesystem::file_size(folder / "fluid.pvd") - 60);
+  EXPECT_THROW(PvdSeries::resumed(folder / "fluid.pvd", 1e9), InputError);
+  PvdSeries rescued = PvdSeries::rescued(folder / "fluid.pvd", 1e9);
+  EXPECT_EQ(rescued.entries(), decltype(whole)(whole.begin(), whole.end() - 1));
+  rescued.add(whole[2].first, whole[2].second);
+  EXPECT_EQ(PvdSeries::resumed(folder / "fluid.pvd", 1e9).entries(), whole);
+  EXPECT_TRUE(PvdSeries::rescued(folder.file("wrong.pvd", "hello"), 1).entries().empty());
+}
+
 TEST(PvdSeries, IsReadAsXml) {
   const TemporaryFolder folder;
   const auto path = folder.file("a.pvd",

@@ -1,0 +1,46 @@
+#include "common/base/interruption.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+std::atomic<const char*> told_way_on = nullptr;
+
+void tell(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(exit_run_failed);
+}
+
+/// Calls nothing but what a signal's handler may.
+void end(int) {
+  if (isatty(STDERR_FILENO) == 1) tell("\n");  // behind ^C
+  tell("tether: interrupted");
+  if (const char* way_on = told_way_on) {
+    tell("; ");
+    tell(way_on);
+  }
+  tell("\n");
+  _exit(exit_run_failed);
+}
+
+}  // namespace
+
+void end_when_interrupted() {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, end);
+}
+
+WhenInterrupted::WhenInterrupted(const char* way_on) : tells_(told_way_on == nullptr) {
+  if (tells_) told_way_on = way_on;
+}
+
+WhenInterrupted::~WhenInterrupted() {
+  if (tells_) told_way_on = nullptr;
+}
+
+}  // namespace tether

@@ -1,0 +1,22 @@
+#pragma once
+
+namespace tether {
+
+/// From now on Ctrl-C (SIGINT) and SIGTERM end this program with exit code 1 and say so, where no program that it runs
+/// takes them.
+void end_when_interrupted();
+
+/// While this lives, the way on that is told then; within another, that of the other.
+class WhenInterrupted {
+ public:
+  /// way_on: text that lives as long as the program.
+  explicit WhenInterrupted(const char* way_on);
+  ~WhenInterrupted();
+  WhenInterrupted(const WhenInterrupted&) = delete;
+  WhenInterrupted& operator=(const WhenInterrupted&) = delete;
+
+ private:
+  bool tells_;
+};
+
+}  // namespace tether
