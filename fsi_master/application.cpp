@@ -295,7 +295,8 @@ void validate_by(const protocol::Program& partner) {
   const ChildEnd end = capture({{executable, partner.arguments.front(), "--validate", "--quiet"}, {}});
   if (end.exit_code == exit_input_wrong) throw InputError(end.errors);
   if (end.exit_code != exit_done)
-    throw run_error("{} --validate ended with {}: {}", partner.executable, end.exit_code, end.errors);
+    throw run_error("{} --validate {}{}{}", partner.executable, how_it_ended(end.exit_code),
+                    end.errors.empty() ? "" : ": ", end.errors);
 }
 
 /// Finds what is wrong with any section of the case, and reports all of it.

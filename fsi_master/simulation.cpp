@@ -42,7 +42,7 @@ void Simulation::run() {
     throw StepFailure(fmt::format("{}\n{}", failure.what(), what_is_saved()));
   } catch (const protocol::Interrupted& interrupted) {
     progress_->end_line();
-    throw run_error("{} in step {}\n{}", interrupted.what(), step + 1, what_is_saved());
+    throw protocol::Interrupted(fmt::format("{} in step {}\n{}", interrupted.what(), step + 1, what_is_saved()));
   } catch (...) {
     progress_->end_line();
     throw;

@@ -113,7 +113,8 @@ class Job {
       }
     } catch (const protocol::Interrupted& interrupted) {
       progress.end_line();
-      throw run_error("{} in step {}\n{}", interrupted.what(), filter_.state().step + 1, what_is_saved());
+      throw protocol::Interrupted(
+          fmt::format("{} in step {}\n{}", interrupted.what(), filter_.state().step + 1, what_is_saved()));
     } catch (const RunError& error) {
       progress.end_line();
       throw run_error("{}\n{}", error.what(), what_is_saved());

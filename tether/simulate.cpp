@@ -1,4 +1,3 @@
-#include <cstring>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -30,12 +29,10 @@ void check_with(const char* program, const CommandLine& command) {
   const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
   if (end.exit_code == exit_input_wrong) throw InputError(message);
   if (end.exit_code > 128)
-    throw run_error(
-        "{}{}{} was ended by signal {} ({}) while it read {}: one of the files that the case names is damaged?",
-        message, message.empty() ? "" : "\n", program, end.exit_code - 128, strsignal(end.exit_code - 128),
-        command.case_file.string());
+    throw run_error("{}{}{} {} while it read {}: one of the files that the case names is damaged?", message,
+                    message.empty() ? "" : "\n", program, how_it_ended(end.exit_code), command.case_file.string());
   if (end.exit_code != exit_done)
-    throw RunError(message.empty() ? fmt::format("{} ended with {} and without a word", program, end.exit_code)
+    throw RunError(message.empty() ? fmt::format("{} {} and without a word", program, how_it_ended(end.exit_code))
                                    : message);
 }
 

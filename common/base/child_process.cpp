@@ -15,6 +15,7 @@
 #include <functional>
 
 #include "common/base/error.hpp"
+#include "common/base/limits.hpp"
 
 namespace tether {
 namespace {
@@ -80,15 +81,43 @@ int exit_code_in(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// Waits until it ends or is stopped by a signal; returns what waitpid has.
+int change_of(pid_t pid) {
+  int status = 0;
+  while (waitpid(pid, &status, WUNTRACED) < 0)
+    if (errno != EINTR) return 0;
+  return status;
+}
+
 /// Waits for its end, which it returns as waitpid has it; tells on stderr when it is stopped.
 int end_of(pid_t pid, const std::string& name) {
   int status = 0;
-  while (true) {
-    const pid_t changed = waitpid(pid, &status, WUNTRACED);
-    if (changed < 0 && errno == EINTR) continue;
-    if (changed < 0 || !WIFSTOPPED(status)) return status;
+  while (WIFSTOPPED(status = change_of(pid)))
     fmt::print(stderr, "{} (pid {}) is stopped: kill -CONT {} lets it go on\n", name, pid, pid);
+  return status;
+}
+
+bool goes_on_within(double seconds, pid_t pid) {
+  constexpr useconds_t between_looks = 50'000;
+  int status = 0;
+  for (double waited = 0; waited < seconds; waited += 1e-6 * between_looks) {
+    if (waitpid(pid, &status, WCONTINUED | WNOHANG) != 0) return true;
+    usleep(between_looks);
   }
+  return false;
+}
+
+/// The same of one that may not be stopped for long.
+int end_soon_of(pid_t pid, const std::string& name) {
+  int status = 0;
+  while (WIFSTOPPED(status = change_of(pid))) {
+    if (goes_on_within(stopped_limit(), pid)) continue;
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+    throw run_error("{} (pid {}) was stopped, and still was {:g} s later (TETHER_STOPPED_LIMIT=SECONDS waits longer)",
+                    name, pid, stopped_limit());
+  }
+  return status;
 }
 
 volatile std::sig_atomic_t foreground_child = 0, handed_on = 0;
@@ -126,6 +155,11 @@ void detach_from_terminal() {
 
 }  // namespace
 
+std::string how_it_ended(int exit_code) {
+  if (exit_code <= 128) return fmt::format("ended with {}", exit_code);
+  return fmt::format("was ended by signal {} ({})", exit_code - 128, strsignal(exit_code - 128));
+}
+
 ChildEnd capture(const Command& command) {
   const Capture output, errors;
   const pid_t pid = start(command, [&] {
@@ -133,7 +167,7 @@ ChildEnd capture(const Command& command) {
     dup2(output.descriptor(), STDOUT_FILENO);
     dup2(errors.descriptor(), STDERR_FILENO);
   });
-  const int status = end_of(pid, command.words.front());
+  const int status = end_soon_of(pid, command.words.front());
   return {exit_code_in(status), output.text(), errors.text()};
 }
 

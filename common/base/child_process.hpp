@@ -21,7 +21,11 @@ struct ChildEnd {
   std::string output, errors;
 };
 
-/// Runs a program to its end and keeps what it writes to stdout and stderr. Throws RunError if it cannot be started.
+/// "ended with 3", "was ended by signal 9 (Killed)"
+std::string how_it_ended(int exit_code);
+
+/// Runs a program to its end and keeps what it writes to stdout and stderr. Throws RunError if it cannot be started, or
+/// is stopped by a signal for longer than `stopped_limit`, and kills it then.
 ChildEnd capture(const Command& command);
 
 /// How a program ended that ran in this process's place.

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <list>
 
+#include "common/base/limits.hpp"
 #include "common/base/process.hpp"
 #include "common/protocol/job.hpp"
-#include "common/protocol/limits.hpp"
 #include "common/protocol/mpi_channel.hpp"
 #include "common/protocol/roster.hpp"
 #include "common/protocol/signals.hpp"

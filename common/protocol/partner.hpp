@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "common/base/limits.hpp"
 #include "common/protocol/channel.hpp"
-#include "common/protocol/limits.hpp"
 
 namespace tether::protocol {
 

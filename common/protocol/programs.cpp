@@ -10,6 +10,7 @@
 #include "common/base/folder_lock.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/protocol/told.hpp"
 
 namespace tether {
 namespace {
@@ -36,16 +37,12 @@ void add_terminal(std::vector<std::pair<std::string, std::string>>& environment)
 /// The file by which a run's programs let this process know that they said why they failed; gone with this process.
 class NoteOfFailure {
  public:
-  NoteOfFailure() { remove(); }
-  ~NoteOfFailure() { remove(); }
+  NoteOfFailure() { take(); }
+  ~NoteOfFailure() { take(); }
   NoteOfFailure(const NoteOfFailure&) = delete;
   NoteOfFailure& operator=(const NoteOfFailure&) = delete;
   std::string path() const { return path_.string(); }
-  /// Whether there was one.
-  bool remove() {
-    std::error_code error;
-    return std::filesystem::remove(path_, error);
-  }
+  protocol::Told take() { return protocol::take_note(path_); }
 
  private:
   std::filesystem::path path_ = std::filesystem::temp_directory_path() / fmt::format("tether_told_{}", getpid());
@@ -80,8 +77,8 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
               {}};
   add_options(run.words, command);
   add_terminal(run.environment);
-  note_of_failure().remove();
-  run.environment.emplace_back("TETHER_TOLD", note_of_failure().path());
+  note_of_failure().take();
+  run.environment.emplace_back(protocol::told_variable, note_of_failure().path());
   run.environment.emplace_back(holder_variable, holder_name());
   if (geteuid() == 0) {
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
@@ -91,12 +88,14 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
 }
 
 int report_failure(const ForegroundEnd& end, const std::string& master, const char* verb, const CommandLine& command) {
-  const bool is_told = note_of_failure().remove();
-  if (!is_told && end.handed_on != 0)
+  const protocol::Told told = note_of_failure().take();
+  if (end.handed_on != 0 && told != protocol::Told::interruption)
     std::cerr << "tether: interrupted\n";
-  else if (!is_told && end.exit_code > 128)
-    std::cerr << fmt::format("tether: {} was ended by signal {}{}\n", end.was_killed ? "mpirun" : master,
-                             end.exit_code - 128, end.exit_code == 128 + SIGKILL ? " (killed; out of memory?)" : "");
+  else if (told == protocol::Told::nothing)
+    std::cerr << fmt::format("tether: {} {}{}\n", end.was_killed ? "mpirun" : master, how_it_ended(end.exit_code),
+                             end.exit_code == 128 + SIGKILL ? ": out of memory?"
+                             : end.exit_code > 128          ? ""
+                                                            : " and without a word: was mpirun interrupted?");
   if (end.exit_code == exit_input_wrong) return exit_input_wrong;
   std::cerr << way_on(verb, command);
   return exit_run_failed;

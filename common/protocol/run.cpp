@@ -1,18 +1,18 @@
 #include "common/protocol/run.hpp"
 
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
+
+#include "common/protocol/signals.hpp"
+#include "common/protocol/told.hpp"
 
 namespace tether::protocol {
 
 namespace {
 
-/// The front-end learns from the file TETHER_TOLD, if it wants one, that a message was written.
-void tell(const std::string& role, const std::string& message) {
+void tell(const std::string& role, const std::string& message, Told what = Told::failure) {
   fmt::print(stderr, "{}: {}\n", role, message);
   std::fflush(stderr);
-  if (const char* note = std::getenv("TETHER_TOLD")) std::ofstream(note) << role << "\n";
+  note_told(what);
 }
 
 /// The exit code of `body`, its error reported.
@@ -23,6 +23,9 @@ int guarded(const std::string& role, const std::function<void()>& body) {
   } catch (const InputError& error) {
     tell(role, error.what());
     return exit_input_wrong;
+  } catch (const Interrupted& interrupted) {
+    tell(role, interrupted.what(), Told::interruption);
+    return exit_run_failed;
   } catch (const std::exception& error) {
     tell(role, error.what());
     return exit_run_failed;

@@ -8,7 +8,7 @@ namespace tether::protocol {
 
 /// This process was told to end.
 struct Interrupted : RunError {
-  Interrupted() : RunError("interrupted") {}
+  explicit Interrupted(const std::string& what = "interrupted") : RunError(what) {}
 };
 
 /// A master: its next wait ends with PeerDied or Interrupted, so that it can say what happened. A second signal kills

@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/base/limits.hpp"
 #include "common/base/process.hpp"
 #include "common/protocol/guard.hpp"
 #include "common/protocol/job.hpp"
-#include "common/protocol/limits.hpp"
 #include "common/protocol/signals.hpp"
+#include "common/protocol/told.hpp"
 #include "common/protocol/watch.hpp"
 
 namespace tether::protocol {
@@ -111,6 +112,7 @@ void check_mpi(int code, const char* what) {
 
 void give_up(const std::string& role, const std::string& message) {
   fmt::print(stderr, "{}: {}\n", role, message);
+  note_told(Told::failure);
   end_job(exit_run_failed);
 }
 

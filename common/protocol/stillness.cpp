@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/base/limits.hpp"
 #include "common/base/process.hpp"
-#include "common/protocol/limits.hpp"
 
 namespace tether::protocol {
 

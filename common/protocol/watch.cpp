@@ -10,11 +10,12 @@
 #include <cstdio>
 #include <thread>
 
+#include "common/base/limits.hpp"
 #include "common/base/process.hpp"
 #include "common/protocol/bell.hpp"
 #include "common/protocol/job.hpp"
-#include "common/protocol/limits.hpp"
 #include "common/protocol/signals.hpp"
+#include "common/protocol/told.hpp"
 
 namespace tether::protocol {
 
@@ -120,7 +121,10 @@ void Watch::follow(const Peer& master) {
     if (seconds - alive > follow_after) end_job(exit_run_failed);
     still.look(master);
     if (still.stopped() < stopped_limit()) return;
-    if (is_first_to_tell_of(master)) say(PeerStopped(master, stopped_limit()).what());
+    if (is_first_to_tell_of(master)) {
+      say(PeerStopped(master, stopped_limit()).what());
+      note_told(Told::failure);
+    }
     kill(static_cast<pid_t>(master.pid), SIGKILL);  // else it wakes when the job ends, and calls its partners dead
     end_job(exit_run_failed);
   });

@@ -15,8 +15,8 @@ class TemporaryFolder {
   TemporaryFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
-            (std::string("tether_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(getpid()) + "_" +
-             std::to_string(++count_));
+            (std::string("tether_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(getpid()) +
+             "_" + std::to_string(++count_));
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }

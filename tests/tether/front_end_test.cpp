@@ -164,7 +164,8 @@ TEST_F(FrontEnd, ValidatesTheMeasurementsToo) {
 
 TEST_F(FrontEnd, ReturnsTheCodeOfARunThatFails) {
   program("fsi_master",
-          "case \"$*\" in *--validate*) exit 0;; esac; echo 'fsi_master: step 3 does not converge' >&2; exit 1");
+          "case \"$*\" in *--validate*) exit 0;; esac; echo 'fsi_master: step 3 does not converge' >&2; touch "
+          "$TETHER_TOLD; exit 1");
   const ChildEnd end = tether("simulate case.yaml --quiet");
   EXPECT_EQ(end.exit_code, 1);
   EXPECT_EQ(end.errors, "fsi_master: step 3 does not converge\n") << "one message, none of mpirun's own";

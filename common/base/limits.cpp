@@ -1,8 +1,8 @@
-#include "common/protocol/limits.hpp"
+#include "common/base/limits.hpp"
 
 #include <cstdlib>
 
-namespace tether::protocol {
+namespace tether {
 
 namespace {
 
@@ -26,4 +26,4 @@ double stopped_limit() {
   return seconds_from("TETHER_STOPPED_LIMIT", 60);
 }
 
-}  // namespace tether::protocol
+}  // namespace tether

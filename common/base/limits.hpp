@@ -1,7 +1,7 @@
 #pragma once
 
 /// How long processes wait for each other [s]. Environment variables change all of it.
-namespace tether::protocol {
+namespace tether {
 
 /// Until the program reaches MPI and arrives: TETHER_START_LIMIT, 60 if unset.
 double start_limit();
@@ -12,4 +12,4 @@ double setup_limit();
 /// While a process is stopped by a signal: TETHER_STOPPED_LIMIT, 60 if unset.
 double stopped_limit();
 
-}  // namespace tether::protocol
+}  // namespace tether

@@ -1,0 +1,85 @@
+"""docs/reliability.md from the outcomes of faults."""
+import collections
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SIGNALS = ("KILL", "TERM", "INT", "STOP")
+MOST_LINES = 4
+
+
+def faults_of(key, result):
+    """What is wrong with an outcome."""
+    _, kind, program, phase, fault = key.split("/", 4)
+    wrong, code, message = [], result["code"], result["message"]
+    itself = kind == "signal" and program == "tether" and fault == "KILL"  # it can tell nothing
+    if code is None:
+        wrong.append("does not end")
+    elif code not in (0, 1) and not itself:
+        wrong.append(f"ends with {code}")
+    if code == 1 and not message.strip():
+        wrong.append("no message")
+    if len(message.splitlines()) > MOST_LINES or "terminate called" in message or "Traceback" in message:
+        wrong.append("no clear message")
+    if result["orphans"]:
+        wrong.append("leaves " + ", ".join(result["orphans"]))
+    if result.get("again", 0) != 0:
+        wrong.append(f"the same command then ends with {result['again']}")
+    if result["differs"]:
+        wrong.append("leaves other results: " + ", ".join(result["differs"]))
+    return wrong
+
+
+def cell(key, result):
+    wrong = faults_of(key, result)
+    if wrong:
+        return "**" + "; ".join(wrong) + "**"
+    if result["code"] == 0:
+        return "goes on" + (", told" if result["message"].strip() else "")
+    told = "told" if result["message"].strip() else "ended"
+    return f"{told}, {result['seconds']:.1f} s" + (", resumed" if result.get("resumed") else "")
+
+
+def last_words(result):
+    lines = [line for line in result["message"].splitlines() if not line.startswith("To continue")]
+    text = lines[-1] if lines else ""
+    return text.replace("|", "\\|")
+
+
+def signals_table(known):
+    rows = collections.defaultdict(dict)
+    for key, result in known.items():
+        verb, kind, program, phase, fault = key.split("/", 4)
+        if kind == "signal":
+            rows[verb, phase, program][fault] = cell(key, result)
+    lines = ["| job | phase | process | KILL | TERM | INT | STOP |", "|---|---|---|---|---|---|---|"]
+    for (verb, phase, program), cells in rows.items():
+        lines.append(f"| {verb} | {phase} | {program} | " + " | ".join(cells.get(name, "") for name in SIGNALS) + " |")
+    return lines
+
+
+def writes_table(known):
+    lines = ["| job | program | call | error | outcome | said |", "|---|---|---|---|---|---|"]
+    for key, result in known.items():
+        verb, kind, program, phase, fault = key.split("/", 4)
+        if kind == "write":
+            name = "identification_master" if program == "identification_" else program
+            lines.append(f"| {verb} | {name} | {phase.rsplit('/E', 1)[0]} | {key.rsplit('/', 1)[1]} | {cell(key, result)} | {last_words(result)} |")
+    return lines
+
+
+def write_page(known):
+    wrong = {key: faults_of(key, result) for key, result in known.items() if faults_of(key, result)}
+    text = ["# Faults and what they lead to", "",
+            "Written by `benchmarks/reliability/run`: do not edit. The real programs on a small case (`configs/tube` with 12 x 8 nodes): each fault made once in a job of its own, "
+            "then the same command again, and what it leaves held against an undisturbed job's: files of a simulation and an identification's table to the bit, records but for cost.", "",
+            f"{len(known)} faults, {len(known) - len(wrong)} of them green: exit code 1 (or the job goes on to the same results), one message of at most {MOST_LINES} lines, no process left after ten seconds, "
+            "the same command then ends with 0 and with the same results.", "",
+            "## Signals", "",
+            "*told*: it said why within the time given, from the signal to the end; *resumed*: from the last checkpoint; *goes on*: to its end, as if nothing had been. "
+            "A process that is stopped (SIGSTOP) is waited for 5 s here (`TETHER_STOPPED_LIMIT`, a minute otherwise); the front-end and mpirun are let go on after three. SIGKILL of the front-end itself can be told by nobody.", "",
+            *signals_table(known), "", "## Files that cannot be written", "",
+            "By a library between program and kernel (`tests/faults/faults.c`): the call named fails on that file, and all matching ones after it (number: which of them is the first to fail).", "",
+            *writes_table(known), ""]
+    (ROOT / "docs/reliability.md").write_text("\n".join(text))
+    for key, what in wrong.items():
+        print("not green:", key, "; ".join(what))
