@@ -36,10 +36,6 @@ void Simulation::run() {
   std::int64_t step = first_step_;
   try {
     for (; step < plan_.last_step; ++step) advance(step);
-  } catch (const StepFailure& failure) {
-    save(step);
-    progress_->end_line();
-    throw StepFailure(fmt::format("{}\n{}", failure.what(), what_is_saved()));
   } catch (const protocol::Interrupted& interrupted) {
     progress_->end_line();
     throw protocol::Interrupted(fmt::format("{} in step {}\n{}", interrupted.what(), step + 1, what_is_saved()));
@@ -78,12 +74,21 @@ void Simulation::begin() {
 void Simulation::advance(std::int64_t step) {
   check_held(plan_.output);
   const auto begun = std::chrono::steady_clock::now();
-  const StepRecord done = loop_.advance(step + 1, plan_.time_at(step), plan_.dt);
+  const StepRecord done = compute(step);
   for (const std::string& failure : done.failures)
     progress_->note(fmt::format("step {} is repeated in halves: {}", step + 1, failure));
   if ((step + 1) % plan_.write_every == 0 || step + 1 == plan_.last_step) write_files(step + 1);
   record(step + 1, done, seconds_since(begun));
   if ((step + 1) % plan_.checkpoint_every == 0 && step + 1 < plan_.last_step) save(step + 1);
+}
+
+StepRecord Simulation::compute(std::int64_t step) {
+  try {
+    return loop_.advance(step + 1, plan_.time_at(step), plan_.dt);
+  } catch (const StepFailure& failure) {
+    save(step);
+    throw StepFailure(fmt::format("{}\n{}", failure.what(), what_is_saved()));
+  }
 }
 
 void Simulation::record(std::int64_t step, const StepRecord& record, double seconds) {

@@ -76,6 +76,8 @@ class Simulation {
 
  private:
   void advance(std::int64_t step);
+  /// What follows `step`; a state from which no step can be made is saved.
+  StepRecord compute(std::int64_t step);
   void record(std::int64_t step, const StepRecord& record, double seconds);
   void record_fields(double time);
   std::vector<double> row(std::int64_t step, const StepRecord& record) const;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+#include <csignal>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -28,9 +31,12 @@ void check_with(const char* program, const CommandLine& command) {
   const ChildEnd end = capture({{sibling(program).string(), "--validate", "--quiet", command.case_file.string()}, {}});
   const std::string message = end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
   if (end.exit_code == exit_input_wrong) throw InputError(message);
+  constexpr std::array crashes{SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
+  const bool has_crashed = std::find(crashes.begin(), crashes.end(), end.exit_code - 128) != crashes.end();
   if (end.exit_code > 128)
-    throw run_error("{}{}{} {} while it read {}: one of the files that the case names is damaged?", message,
-                    message.empty() ? "" : "\n", program, how_it_ended(end.exit_code), command.case_file.string());
+    throw run_error("{}{}{} {} while it read {}{}", message, message.empty() ? "" : "\n", program,
+                    how_it_ended(end.exit_code), command.case_file.string(),
+                    has_crashed ? ": one of the files that the case names is damaged?" : "");
   if (end.exit_code != exit_done)
     throw RunError(message.empty() ? fmt::format("{} {} and without a word", program, how_it_ended(end.exit_code))
                                    : message);

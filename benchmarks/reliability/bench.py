@@ -105,7 +105,7 @@ class Bench:
         job = Job(verb, self.case(verb), output, fault=pause.format(program if program != "tether" else "gnuplot") if pause else None, TETHER_STOPPED_LIMIT=str(STOPPED_LIMIT))
         begin, target = time.time(), None
         while job.is_running() and time.time() - begin < 120:
-            if self.has_begun(verb, phase, job) and (target := job.process_of(program)):
+            if self.has_begun(verb, phase, program, job) and (target := job.process_of(program)):
                 break
             time.sleep(0.01)
         if target is None:
@@ -119,9 +119,11 @@ class Bench:
         code = job.end(120)
         return self.judge(verb, job, output, code, time.time() - begin)
 
-    def has_begun(self, verb, phase, job):
+    @staticmethod
+    def has_begun(verb, phase, program, job):
+        """Whether a program may get its signal; of the front-end that starts, when it runs another."""
         if phase == "start":
-            return True
+            return program != "tether" or len(job.processes()) > 1
         if (verb, phase) in PAUSES:
             return job.flag.exists()
         name, count = LINES[verb, phase]
@@ -135,7 +137,7 @@ class Bench:
         output = self.folder / f"{verb}_job"
         clean(output)
         begin = time.time()
-        job = Job(verb, self.case(verb), output, fault=f"{program}:{call}:{part or '/'}:{n}:{error}" if part else f"{program}:{call}::{n}:{error}")
+        job = Job(verb, self.case(verb), output, fault=f"{program}:{call}:{part or '-'}:{n}:{error}")
         return self.judge(verb, job, output, job.end(300), time.time() - begin)
 
 

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import time
 
@@ -64,7 +65,7 @@ class Job:
             more |= {"LD_PRELOAD": str(PRELOAD), "TETHER_FAULT_ROOT": str(output), "TETHER_FAULT": fault, "TETHER_FAULT_FLAG": str(self.flag)}
         self.errors = open(output.parent / f"{output.name}.err", "w+")
         self.process = subprocess.Popen([TETHER, verb, case, "--output", output, "--quiet", *options], stdout=subprocess.DEVNULL, stderr=self.errors,
-                                        stdin=subprocess.DEVNULL, start_new_session=True, env=environment(TETHER_TEST_JOB=self.mark, **more))
+                                        stdin=subprocess.DEVNULL, start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), env=environment(TETHER_TEST_JOB=self.mark, **more))
 
     def processes(self):
         """Of each that lives: its number and the name of its program."""

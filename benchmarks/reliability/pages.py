@@ -1,5 +1,6 @@
 """docs/reliability.md from the outcomes of faults."""
 import collections
+import json
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -14,9 +15,9 @@ def faults_of(key, result):
     itself = kind == "signal" and program == "tether" and fault == "KILL"  # it can tell nothing
     if code is None:
         wrong.append("does not end")
-    elif code not in (0, 1) and not itself:
+    elif code not in ((0, 1, 2) if fault.endswith("EACCES") else (0, 1)) and not itself:  # 2: what the person may not do
         wrong.append(f"ends with {code}")
-    if code == 1 and not message.strip():
+    if code in (1, 2) and not message.strip():
         wrong.append("no message")
     if len(message.splitlines()) > MOST_LINES or "terminate called" in message or "Traceback" in message:
         wrong.append("no clear message")
@@ -67,7 +68,31 @@ def writes_table(known):
     return lines
 
 
-def write_page(known):
+def of_chaos(folder):
+    """What benchmarks/reliability/chaos found."""
+    if not (folder / "chaos.json").exists():
+        return []
+    found = json.loads((folder / "chaos.json").read_text())
+    of = ", ".join(f"{name} {count}" for name, count in sorted(found["of"].items(), key=lambda one: -one[1]))
+    return ["## Killed again and again", "",
+            f"`benchmarks/reliability/chaos --kills {found['kills']} --seed {found['seed']}`: `tether explain` on the small case, {found['kills']} kills at random times ({of}), "
+            f"{found['explanations']} explanations brought to their end by the same command, {found['minutes']} minutes. Wrong: {len(found['wrong'])}.", ""]
+
+
+def of_haul(folder):
+    """What benchmarks/reliability/haul found."""
+    if not (folder / "haul.json").exists():
+        return []
+    found = json.loads((folder / "haul.json").read_text())
+    lines = ["## A long identification", "", f"`benchmarks/reliability/haul --hours {found['hours']}`: {found['steps']} steps, sums over the processes of a program, slopes over the last nine tenths.", "",
+             "| program | memory [MB] | growth [kB/h] | descriptors | growth [1/h] | processes |", "|---|---|---|---|---|---|"]
+    for name, one in found["programs"].items():
+        memory, descriptors = one["kilobytes"], one["descriptors"]
+        lines.append(f"| {name} | {memory['last'] / 1024:.0f} | {memory['per_hour']:.0f} | {descriptors['last']} | {descriptors['per_hour']:.2f} | {one['processes']['last']} |")
+    return [*lines, ""]
+
+
+def write_page(known, folder):
     wrong = {key: faults_of(key, result) for key, result in known.items() if faults_of(key, result)}
     text = ["# Faults and what they lead to", "",
             "Written by `benchmarks/reliability/run`: do not edit. The real programs on a small case (`configs/tube` with 12 x 8 nodes): each fault made once in a job of its own, "
@@ -79,7 +104,7 @@ def write_page(known):
             "A process that is stopped (SIGSTOP) is waited for 5 s here (`TETHER_STOPPED_LIMIT`, a minute otherwise); the front-end and mpirun are let go on after three. SIGKILL of the front-end itself can be told by nobody.", "",
             *signals_table(known), "", "## Files that cannot be written", "",
             "By a library between program and kernel (`tests/faults/faults.c`): the call named fails on that file, and all matching ones after it (number: which of them is the first to fail).", "",
-            *writes_table(known), ""]
+            *writes_table(known), "", *of_chaos(folder), *of_haul(folder)]
     (ROOT / "docs/reliability.md").write_text("\n".join(text))
     for key, what in wrong.items():
         print("not green:", key, "; ".join(what))

@@ -15,6 +15,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
@@ -42,10 +43,10 @@ Holder read_holder(int file) {
   return {std::string(name.substr(0, colon)), std::atoll(text.data() + colon + 1)};
 }
 
-void write_holder(int file) {
+void write_holder(int file, const fs::path& folder) {
   const std::string text = holder_name() + "\n";
   if (ftruncate(file, 0) != 0 || pwrite(file, text.data(), text.size(), 0) < 0)
-    throw input_error("{}: cannot be written to: {}", folder_lock_name, std::strerror(errno));
+    refuse_folder(folder, "cannot be written to", errno);
 }
 
 enum class Lock { ours, taken, impossible };
@@ -96,7 +97,7 @@ void hold_folder(const fs::path& folder) {
   const fs::path path = fs::canonical(folder) / folder_lock_name;
   if (held().contains(path)) return;
   const int file = open(path.c_str(), O_RDWR | O_CREAT, 0666);
-  if (file < 0) throw input_error("{}: cannot be written to: {}", folder.string(), std::strerror(errno));
+  if (file < 0) refuse_folder(folder, "cannot be written to", errno);
   const Lock lock = wait_for_lock(file);
   const Holder other = read_holder(file);
   if (lock == Lock::taken && !is_from(other)) {
@@ -106,7 +107,7 @@ void hold_folder(const fs::path& folder) {
         "--output",
         folder.string(), other.pid, other.is_here() ? "" : " on " + other.host);
   }
-  if (lock == Lock::ours) write_holder(file);
+  if (lock == Lock::ours) write_holder(file, folder);
   held()[path] = identity_of(path);
 }
 

@@ -1,5 +1,8 @@
 #include "common/base/write_error.hpp"
 
+#include <cerrno>
+#include <cstring>
+
 namespace tether {
 
 RunError write_error(const std::filesystem::path& file) {
@@ -12,6 +15,13 @@ RunError write_error(const std::filesystem::path& file) {
   if (!error && space.capacity > 0 && space.available < hardly_any)  // what is no disk has no capacity
     return run_error("{}: cannot be written: no space is left on its disk", file.string());
   return run_error("{}: cannot be written", file.string());
+}
+
+void refuse_folder(const std::filesystem::path& folder, const char* what, int error_number) {
+  const bool is_of_disk = error_number == ENOSPC || error_number == EDQUOT || error_number == EIO;
+  const std::string text = fmt::format("{}: {}: {}", folder.string(), what, std::strerror(error_number));
+  if (is_of_disk) throw RunError(text);
+  throw InputError(text);
 }
 
 }  // namespace tether

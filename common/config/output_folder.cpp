@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/name.hpp"
+#include "common/base/write_error.hpp"
 #include "common/config/case_tree.hpp"
 
 namespace tether {
@@ -60,7 +61,7 @@ void hold_output(const fs::path& folder) {
     throw input_error("{}: its path is not UTF-8, as results must be, which name it", folder.string());
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw input_error("{}: cannot be made: {}", folder.string(), error.message());
+  if (error) refuse_folder(folder, "cannot be made", error.value());
   hold_folder(folder);
 }
 
@@ -80,7 +81,7 @@ void mark_output(const fs::path& folder, const fs::path& case_file) {
   to << case_file_key << fs::absolute(case_file).lexically_normal().string()
      << "\n# A copy of it as it was when the run started, with what it builds on; paths are relative to it.\n"
      << case_text(case_file);
-  if (!to.flush()) throw run_error("{}: cannot be written to", folder.string());
+  if (!to.flush()) throw write_error(folder / case_as_run);
 }
 
 fs::path claim_and_mark_output(const CommandLine& command, const CaseFile& file) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 #include "common/config/yaml_tree.hpp"
 
 namespace tether {
@@ -81,7 +82,7 @@ void write_overlay(const fs::path& file, const Overlay& overlay) {
   std::ofstream to(file);
   to << yaml_text(tree);
   to.close();
-  if (!to) throw input_error("{}: cannot be written", file.string());
+  if (!to) throw write_error(file);
 }
 
 std::vector<Overlay::Value> values_of_overlay(const fs::path& file) {

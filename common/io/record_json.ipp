@@ -10,6 +10,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/types.hpp"
+#include "common/base/write_error.hpp"
 #include "common/io/record.hpp"
 #include "common/io/record_file.hpp"
 
@@ -246,7 +247,7 @@ template <class T>
 void write_record(const std::filesystem::path& path, const T& record) {
   std::ofstream file(path, std::ios::binary);
   file << json_of(record) << std::endl;
-  if (!file) throw run_error("{} cannot be written", path.string());
+  if (!file) throw write_error(path);
 }
 
 template <class T>

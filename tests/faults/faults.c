@@ -1,7 +1,7 @@
 /* Makes calls of a program fail, or stops it in one: LD_PRELOAD of the tests of reliability.
 
    TETHER_FAULT=PROGRAM:CALL:PART:N:ACTION
-     PROGRAM  as the kernel names it; CALL one of open (for writing), write, rename, mkdir, sync; PART of the file's path;
+     PROGRAM  as the kernel names it; CALL one of open (for writing), write, rename, mkdir, sync; PART of the file's path (-: any);
      N        the first matching call that is meant, from 1
      ACTION   ENOSPC, EDQUOT, EIO, EACCES, EROFS: this call fails, and all matching ones after it;
               KILL, TERM, INT, STOP: the program gets this signal;
@@ -80,7 +80,7 @@ static int fault_of(const char* call, const char* path) {
   int n = 0;
   if (sscanf(given, "%31[^:]:%15[^:]:%255[^:]:%d:%15s", program, which, part, &n, action) != 5) abort();
   if (strcmp(program, program_invocation_short_name) != 0 || strcmp(which, call) != 0 ||
-      strstr(path + strlen(root), part) == NULL || ++seen < n)
+      (strcmp(part, "-") != 0 && strstr(path + strlen(root), part) == NULL) || ++seen < n)
     return 0;
   if (error_number(action) != 0) return error_number(action);
   if (seen > n) return 0;
