@@ -149,5 +149,5 @@ def faults(bench):
                     yield f"{verb}/signal/{program}/{phase}/{name}", lambda a=(verb, phase, program, name): bench.signalled(*a)
     for verb, writes in WRITES.items():
         for k, (program, call, part, n) in enumerate(writes):
-            for error in ERRORS if verb == "simulate" and call in ("write", "open") and n == 1 else (ERRORS[k % len(ERRORS)],):
-                yield f"{verb}/write/{program}/{call} {part or 'folder'} {n}/{error}", lambda a=(verb, program, call, part, n, error): bench.unwritable(*a)
+            error = ERRORS[k % len(ERRORS)]
+            yield f"{verb}/write/{program}/{call} {part or 'folder'} {n}/{error}", lambda a=(verb, program, call, part, n, error): bench.unwritable(*a)
