@@ -6,17 +6,15 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
-#include <sstream>
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "vessel/image/text_header.hpp"
 
 namespace tether {
 namespace {
@@ -26,11 +24,6 @@ namespace fs = std::filesystem;
 void require(const fs::path& file, std::uint64_t wanted, std::uint64_t there) {
   if (there < wanted)
     throw input_error("{}: its voxels take {} bytes, it has {}: cut short?", file.string(), wanted, there);
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
 /// Or the largest number, if it is larger.
@@ -44,62 +37,6 @@ std::uint64_t product(const std::vector<std::uint64_t>& factors) {
 std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
   return a + std::min(b, UINT64_MAX - a);
 }
-
-/// A header in text: fields of a name and a value.
-class TextHeader {
- public:
-  TextHeader(const fs::path& file, std::size_t longest_line)
-      : file_(file.string()), longest_line_(longest_line), in_(file, std::ios::binary) {}
-
-  /// The next line without its end; none behind the last one.
-  std::optional<std::string> next() {
-    std::string line;
-    if (!std::getline(in_, line)) return std::nullopt;
-    ++line_;
-    const auto is_control = [](char c) { return c != '\t' && c != '\r' && c >= 0 && c < ' '; };
-    if (line.size() > longest_line_ || std::any_of(line.begin(), line.end(), is_control))
-      fail(fmt::format("a line of text was expected, of no more than {} characters", longest_line_));
-    return line;
-  }
-  void add(const std::string& name, const std::string& value) {
-    if (!fields_.emplace(name, value).second) fail(name + " is given twice");
-  }
-
-  bool has(const std::string& name) const { return fields_.contains(name); }
-  std::string get(const std::string& name) const {
-    const auto found = fields_.find(name);
-    return found == fields_.end() ? "" : found->second;
-  }
-  std::uint64_t count(const std::string& name, std::uint64_t least, std::uint64_t most) const {
-    const std::vector<std::uint64_t> one = counts(name, least, most);
-    if (one.size() != 1) refuse(name, "must be one number");
-    return one.front();
-  }
-  std::vector<std::uint64_t> counts(const std::string& name, std::uint64_t least, std::uint64_t most) const {
-    std::vector<std::uint64_t> all;
-    std::istringstream words(get(name));
-    for (std::string word; words >> word;) {
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), all.emplace_back());
-      if (error != std::errc{} || end != word.data() + word.size() || all.back() < least || all.back() > most)
-        refuse(name, fmt::format("must be from {} to {}", least, most));
-    }
-    return all;
-  }
-  /// Where the bytes behind the lines that were read begin.
-  std::uint64_t end() { return in_.eof() ? fs::file_size(file_) : static_cast<std::uint64_t>(in_.tellg()); }
-
-  [[noreturn]] void fail(const std::string& what) const { throw input_error("{}:{}: {}", file_, line_, what); }
-  [[noreturn]] void refuse(const std::string& name, const std::string& rule) const {
-    throw input_error("{}: {}: '{}': {}", file_, name, get(name).substr(0, 80), rule);
-  }
-
- private:
-  std::string file_;
-  std::size_t longest_line_;
-  std::ifstream in_;
-  int line_ = 0;
-  std::map<std::string, std::string> fields_;
-};
 
 using TypeSizes = std::map<std::string, std::uint64_t>;
 
