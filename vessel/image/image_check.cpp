@@ -26,6 +26,10 @@ void require(const fs::path& file, std::uint64_t wanted, std::uint64_t there) {
     throw input_error("{}: its voxels take {} bytes, it has {}: cut short?", file.string(), wanted, there);
 }
 
+InputError no_image(const fs::path& file) {
+  return input_error("{}: is not an image of the kind that its ending says", file.string());
+}
+
 /// Or the largest number, if it is larger.
 std::uint64_t product(const std::vector<std::uint64_t>& factors) {
   std::uint64_t all = 1;
@@ -149,8 +153,7 @@ std::string nrrd_name(std::string name) {
 /// "name: value" up to an empty line, or the end of a header that stands alone.
 TextHeader nrrd_header(const fs::path& file) {
   TextHeader header(file, 1 << 20);  // 3D Slicer tells much of segments
-  if (!header.next().value_or("").starts_with("NRRD000"))
-    header.fail("is not an image of the kind that its ending says");
+  if (!header.next().value_or("").starts_with("NRRD000")) throw no_image(file);
   for (auto line = header.next(); line && !trimmed(*line).empty(); line = header.next()) {
     const auto colon = line->find(':');
     if (line->starts_with('#') || line->substr(colon == std::string::npos ? 0 : colon).starts_with(":=")) continue;
@@ -199,11 +202,12 @@ void check_nrrd(const fs::path& file) {
 /// The beginning of a .nii, compressed or not, in either order of bytes.
 class NiftiHeader {
  public:
-  explicit NiftiHeader(const fs::path& file) : file_(file.string()) {
+  NiftiHeader(const fs::path& file, bool may_be_compressed) {
     const GzipFile in(gzopen(file.c_str(), "rb"), gzclose);
-    if (!in || gzread(in.get(), bytes_.data(), size) != static_cast<int>(size) ||
+    if (!in || !(may_be_compressed || gzdirect(in.get())) ||
+        gzread(in.get(), bytes_.data(), size) != static_cast<int>(size) ||
         (!is_size() && (swapped_ = true, !is_size())) || std::memcmp(bytes_.data() + 344, "n+1", 4) != 0)
-      throw input_error("{}: is not an image of the kind that its ending says", file_);
+      throw no_image(file);
   }
   template <class Number>
   Number get(std::size_t at) const {
@@ -217,7 +221,6 @@ class NiftiHeader {
   static constexpr unsigned size = 348;
   bool is_size() const { return get<std::int32_t>(0) == static_cast<std::int32_t>(size); }
 
-  std::string file_;
   std::array<char, size> bytes_{};
   bool swapped_ = false;
 };
@@ -235,12 +238,12 @@ void check_geometry(const fs::path& file, const NiftiHeader& header) {
 }
 
 /// What it takes by its header.
-std::uint64_t nifti_bytes(const fs::path& file) {
+std::uint64_t nifti_bytes(const fs::path& file, bool may_be_compressed) {
   constexpr std::size_t dimensions_at = 40, type_at = 70, offset_at = 108;
   static const std::map<int, std::uint64_t> sizes{{2, 1},    {4, 2},    {8, 4},     {16, 4},  {32, 8},
                                                   {64, 8},   {128, 3},  {256, 1},   {512, 2}, {768, 4},
                                                   {1024, 8}, {1280, 8}, {1792, 16}, {2304, 4}};
-  const NiftiHeader header(file);
+  const NiftiHeader header(file, may_be_compressed);
   check_geometry(file, header);
   const auto dimension = [&](int axis) {
     return header.get<std::int16_t>(dimensions_at + 2 * static_cast<std::size_t>(axis));
@@ -269,8 +272,8 @@ void check_image(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw input_error("{}: no such file", file.string());
   if (is(".mha") || is(".mhd")) return check_meta(file);
   if (is(".nrrd") || is(".nhdr")) return check_nrrd(file);
-  if (is(".nii")) require(file, nifti_bytes(file), fs::file_size(file));
-  if (is(".nii.gz")) require(file, nifti_bytes(file), inflated_size({file}));
+  if (is(".nii")) require(file, nifti_bytes(file, false), fs::file_size(file));
+  if (is(".nii.gz")) require(file, nifti_bytes(file, true), inflated_size({file}));
 }
 
 }  // namespace tether
