@@ -16,28 +16,34 @@ Bytes packed(const Fields&... fields) {
   return writer.take();
 }
 
+/// A file and the fields in it.
 template <class... Fields>
-void unpack(const CheckedContent& content, Fields&... fields) {
-  protocol::Reader reader("checkpoint", content.bytes);
-  reader(fields...);
-  reader.expect_end();
+CheckedContent unpack(const fs::path& path, Fields&... fields) {
+  CheckedContent content = read_checked(path);
+  try {
+    protocol::Reader reader("checkpoint", content.bytes);
+    reader(fields...);
+    reader.expect_end();
+  } catch (const protocol::MalformedMessage& error) {
+    throw input_error("{}: {}", path.string(), error.what());
+  }
+  return content;
 }
 
 Checkpoint read_folder(const fs::path& folder) {
   Checkpoint c;
-  const CheckedContent master = read_checked(folder / "master.bin");
+  std::vector<double> numbers;
+  const CheckedContent master =
+      unpack(folder / "master.bin", c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method,
+             c.snapshot.coupling, numbers, c.without_state, c.coupling, c.origin);
   c.step = master.step;
   c.fingerprint = master.fingerprint;
-  std::vector<double> numbers;
-  unpack(master, c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method, c.snapshot.coupling, numbers,
-         c.without_state, c.coupling, c.origin);
   auto next = numbers.begin();
   c.statistics.numbers([&](double& value) { value = next != numbers.end() ? *next++ : 0.0; });
   for (const auto& [name, state] :
        {std::pair("fluid.bin", &c.snapshot.fluid), std::pair("solid.bin", &c.snapshot.solid)}) {
-    const CheckedContent content = read_checked(folder / name);
+    const CheckedContent content = unpack(folder / name, *state);
     if (content.step != c.step) throw input_error("{}: is of another step than master.bin", (folder / name).string());
-    unpack(content, *state);
   }
   return c;
 }

@@ -11,7 +11,7 @@ namespace tether {
 struct StepNews {
   double time;
   int evaluations;
-  Extent pressure;      ///< of this step
+  MinMax pressure;      ///< of this step
   double displacement;  ///< largest of the interface
 };
 

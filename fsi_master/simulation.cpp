@@ -100,7 +100,7 @@ void Simulation::record(std::int64_t step, const StepRecord& record, double seco
   note_fluid(record.fluid);
   series_.append(row(step, record));
   record_fields(plan_.time_at(step));
-  Extent shown;  // absolute, as a person thinks of it
+  MinMax shown;  // absolute, as a person thinks of it
   for (const double relative : {pressure_now_.min, pressure_now_.max})
     if (!pressure_now_.empty()) shown.add(plan_.image_pressure + relative);
   progress_->show(step, text_of({plan_.time_at(step), record.evaluations, shown, largest_displacement()}, plan_.units));

@@ -101,7 +101,7 @@ class Simulation {
   std::optional<BloodVelocityWriter> velocity_;
   RunStatistics statistics_;
   std::vector<PartnerUsage> counted_;  ///< the processes' usage that is in the statistics
-  Extent pressure_now_;
+  MinMax pressure_now_;
   std::int64_t first_step_ = 0;
   bool coupled_otherwise_ = false;
   std::optional<std::int64_t> saved_step_;

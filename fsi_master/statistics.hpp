@@ -20,7 +20,7 @@ struct MeanMax {
 };
 
 /// Smallest and largest seen.
-struct Extent {
+struct MinMax {
   double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
   bool empty() const { return min > max; }
   void add(double value) {
@@ -39,7 +39,7 @@ struct ProcessTotals {
 /// What the summary tells of all steps, those before a resume included.
 struct RunStatistics {
   MeanMax evaluations, krylov_iterations;
-  Extent pressure;              ///< of the fluid's observables
+  MinMax pressure;              ///< of the fluid's observables
   double max_displacement = 0;  ///< of the interface
   double mass_balance_error = 0;
   double repeated_steps = 0;  ///< done in halves

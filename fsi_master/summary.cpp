@@ -9,7 +9,7 @@ MeanAndMax mean_max(const MeanMax& m) {
   return {m.mean(), m.max};
 }
 
-std::optional<PressureRange> pressure_range(const Extent& pressure, double image_pressure, const UnitSystem& units) {
+std::optional<PressureRange> pressure_range(const MinMax& pressure, double image_pressure, const UnitSystem& units) {
   if (pressure.empty()) return std::nullopt;
   return PressureRange{.min = pressure.min,
                        .max = pressure.max,

@@ -1,5 +1,8 @@
 #include "identification_master/checkpoint.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "common/base/checked_file.hpp"
 #include "common/protocol/packet.hpp"
 
@@ -14,10 +17,17 @@ struct PackedMatrix {
   PackedMatrix() = default;
   explicit PackedMatrix(const auto& m) : rows(m.rows()), values(m.data(), m.data() + m.size()) {}
   MatrixXd matrix() const {
-    const Eigen::Index columns = rows > 0 ? static_cast<Eigen::Index>(values.size()) / rows : 0;
-    return Eigen::Map<const MatrixXd>(values.data(), rows, columns);
+    const auto size = static_cast<std::int64_t>(values.size());
+    if (rows < 0 || (rows == 0 ? size : size % rows) != 0) refuse();
+    return Eigen::Map<const MatrixXd>(values.data(), rows, rows == 0 ? 0 : size / rows);
   }
-  VectorXd vector() const { return Eigen::Map<const VectorXd>(values.data(), rows); }
+  VectorXd vector() const {
+    if (rows != static_cast<std::int64_t>(values.size())) refuse();
+    return Eigen::Map<const VectorXd>(values.data(), rows);
+  }
+  [[noreturn]] void refuse() const {
+    throw protocol::MalformedMessage(fmt::format("a matrix of {} rows has {} values", rows, values.size()));
+  }
   template <class Archive>
   void fields(Archive& archive) {
     archive(rows, values);
@@ -47,8 +57,19 @@ PackedRecord packed(const EstimateRecord& r) {
           PackedMatrix(r.covariance)};
 }
 
+void require_size(const std::vector<double>& numbers, std::size_t size) {
+  if (numbers.size() != size)
+    throw protocol::MalformedMessage(fmt::format("{} numbers stand where {} should", numbers.size(), size));
+}
+
+int whole(double number) {
+  if (!(std::abs(number) <= std::numeric_limits<int>::max()))
+    throw protocol::MalformedMessage(fmt::format("{} stands where a count should", number));
+  return static_cast<int>(number);
+}
+
 EstimateRecord unpacked(const PackedRecord& p) {
-  if (p.numbers.size() != 7) throw input_error("a record of the checkpoint has {} numbers", p.numbers.size());
+  require_size(p.numbers, 7);
   return {p.numbers[0], p.mean.vector(), p.covariance.matrix(), p.numbers[1], p.numbers[2],
           p.numbers[3], p.numbers[4],    p.numbers[5],          p.numbers[6]};
 }
@@ -60,11 +81,7 @@ fs::path before_in(const fs::path& folder) {
   return folder / "identification.previous";
 }
 
-IdentificationCheckpoint read_file(const fs::path& path, std::uint64_t fingerprint) {
-  const CheckedContent content = read_checked(path);
-  if (content.fingerprint != fingerprint)
-    throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
-                      path.string());
+IdentificationCheckpoint unpacked(const CheckedContent& content) {
   IdentificationCheckpoint checkpoint;
   IdentificationState& state = checkpoint.state;
   state.step = content.step;
@@ -75,15 +92,28 @@ IdentificationCheckpoint read_file(const fs::path& path, std::uint64_t fingerpri
   reader(theta, states, state.memories, records, innovations, last_mean, lasting_mean, lasting_slope,
          lasting_covariance, information, cost);
   reader.expect_end();
+  require_size(innovations, 3), require_size(cost, 4);
   state.theta = theta.matrix();
   state.states = states.matrix();
   state.last_mean = last_mean.vector();
   state.lasting = {lasting_mean.vector(), lasting_slope.matrix(), lasting_covariance.matrix()};
   state.information = information.matrix();
   for (const PackedRecord& record : records) state.records.push_back(unpacked(record));
-  state.innovations = {innovations.at(0), innovations.at(1), innovations.at(2)};
-  checkpoint.cost = {cost.at(0), cost.at(1), cost.at(2), static_cast<int>(cost.at(3))};
+  state.innovations = {innovations[0], innovations[1], innovations[2]};
+  checkpoint.cost = {cost[0], cost[1], cost[2], whole(cost[3])};
   return checkpoint;
+}
+
+IdentificationCheckpoint read_file(const fs::path& path, std::uint64_t fingerprint) {
+  const CheckedContent content = read_checked(path);
+  if (content.fingerprint != fingerprint)
+    throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
+                      path.string());
+  try {
+    return unpacked(content);
+  } catch (const protocol::MalformedMessage& error) {
+    throw input_error("{}: {}", path.string(), error.what());
+  }
 }
 
 }  // namespace
@@ -107,7 +137,7 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
   flush_to_disk(folder);
 }
 
-IdentificationCheckpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
+IdentificationCheckpoint read_identification_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   const fs::path folder = output / "checkpoint", newest = newest_in(folder), before = before_in(folder);
   if (!fs::exists(newest) && !fs::exists(before))
     throw input_error("{}: holds no checkpoint of an identification to resume from", output.string());

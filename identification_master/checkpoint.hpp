@@ -24,6 +24,6 @@ void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerp
                       const IdentificationCost& cost);
 
 /// The newest whole one. Throws InputError: none, both damaged, of another case.
-IdentificationCheckpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
+IdentificationCheckpoint read_identification_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
 
 }  // namespace tether

@@ -136,7 +136,7 @@ class Job {
   void begin() {
     fingerprint_ = fingerprint_of(given_, pool_, data_);
     if (command_.resume) {
-      IdentificationCheckpoint checkpoint = read_checkpoint(output_, fingerprint_);
+      IdentificationCheckpoint checkpoint = read_identification_checkpoint(output_, fingerprint_);
       if (!checkpoint.refused.empty())
         fmt::print(stderr, "{}: the identification goes on from the checkpoint before, step {}\n", checkpoint.refused,
                    checkpoint.state.step);

@@ -70,9 +70,9 @@ class GmshReader {
   }
 
   void read_group_names() {
-    for (auto left = static_cast<int>(source_.text_number()); left > 0; --left) {
+    for (auto left = source_.text_integer(); left > 0; --left) {
       const double dimension = source_.text_number();
-      const auto number = static_cast<std::int64_t>(source_.text_number());
+      const auto number = source_.text_integer();
       const std::string name = source_.quoted();
       if (dimension == 2) mesh_.group_names[name] = number;
     }
@@ -95,9 +95,9 @@ class GmshReader {
   }
 
   void read_nodes_2() {
-    const auto count = static_cast<std::size_t>(source_.text_number());
+    const std::int64_t count = source_.text_integer();
     source_.end_line();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::int64_t i = 0; i < count; ++i) {
       const auto tag = static_cast<std::size_t>(source_.integer());
       read_node(tag);
     }
@@ -109,7 +109,7 @@ class GmshReader {
       const int dimension = source_.integer();
       source_.integer();
       const bool parametric = source_.integer() != 0;
-      std::vector<std::size_t> tags(source_.size());
+      std::vector<std::size_t> tags(source_.count());
       for (std::size_t& tag : tags) tag = source_.size();
       for (const std::size_t tag : tags) {
         read_node(tag);
@@ -126,9 +126,9 @@ class GmshReader {
   }
 
   void read_elements_2() {
-    const auto count = static_cast<std::size_t>(source_.text_number());
+    const std::int64_t count = source_.text_integer();
     source_.end_line();
-    for (std::size_t done = 0; done < count;) {
+    for (std::int64_t done = 0; done < count;) {
       int tag = source_.binary() ? 0 : source_.integer();
       const int type = source_.integer(), in_block = source_.binary() ? source_.integer() : 1,
                 labels = source_.integer();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 
 #include "common/base/error.hpp"
@@ -47,8 +48,32 @@ double GmshSource::text_number() {
   const std::string text(word());
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (end != text.c_str() + text.size()) fail(fmt::format("\"{}\" found where a number was expected", text));
+  if (end != text.c_str() + text.size())
+    fail(fmt::format("\"{}\" found where a number was expected", text.substr(0, 40)));
   return value;
+}
+
+/// Throws InputError for what is no whole number or too large for its kind.
+template <class Number>
+Number GmshSource::text_as() {
+  const std::string_view text = word();
+  Number value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    fail(fmt::format("\"{}\" found where a whole number was expected", text.substr(0, 40)));
+  return value;
+}
+template std::int32_t GmshSource::text_as();
+template std::uint64_t GmshSource::text_as();
+
+std::int64_t GmshSource::text_integer() {
+  return text_as<std::int64_t>();
+}
+
+std::size_t GmshSource::count() {
+  const std::size_t stated = size(), left = content_.size() - position_;
+  if (stated > left) fail(fmt::format("{} items are stated, {} bytes are left", stated, left));
+  return stated;
 }
 
 void GmshSource::end_line() {

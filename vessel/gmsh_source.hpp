@@ -19,13 +19,16 @@ class GmshSource {
   std::string_view word();  ///< next characters without blanks; text, also in a binary file
   std::string quoted();     ///< "a name"
   double text_number();     ///< a number written as text in both kinds of file
-  void end_line();          ///< goes behind the next end of line
+  std::int64_t text_integer();
+  void end_line();  ///< goes behind the next end of line
   void skip_to(std::string_view word);
   /// Throws InputError unless the next word is `word`.
   void expect(std::string_view word);
 
-  int integer() { return binary_ ? raw<std::int32_t>() : static_cast<int>(text_number()); }
-  std::size_t size() { return binary_ ? raw<std::uint64_t>() : static_cast<std::size_t>(text_number()); }
+  int integer() { return binary_ ? raw<std::int32_t>() : text_as<std::int32_t>(); }
+  std::size_t size() { return binary_ ? raw<std::uint64_t>() : text_as<std::uint64_t>(); }
+  /// A number of things that follow, which cannot be more than the bytes that are left.
+  std::size_t count();
   double real() { return binary_ ? raw<double>() : text_number(); }
 
   /// Throws InputError with the file's name and, in text, the line.
@@ -40,6 +43,8 @@ class GmshSource {
     position_ += sizeof(Number);
     return value;
   }
+  template <class Number>
+  Number text_as();
   void require(std::size_t bytes) const;
   void skip_blanks();
 

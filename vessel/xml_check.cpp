@@ -64,22 +64,29 @@ class XmlBytes {
  private:
   static std::uint64_t characters(std::uint64_t bytes) { return (bytes + 2) / 3 * 4; }
 
-  /// Ends at a character that is none of the 64.
+  /// Ends before four characters that are no group of base 64, as VTK does, and behind one that is filled up with =.
   std::string decode(std::uint64_t bytes) const {
-    static const std::array<int, 256> digits = digits_of_base64();
     std::string decoded;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text_.substr(0, characters(bytes))) {
-      const int digit = digits[static_cast<unsigned char>(c)];
-      if (digit < 0) break;
-      bits = bits << 6 | static_cast<std::uint32_t>(digit);
-      count += 6;
-      if (count < 8) continue;
-      count -= 8;
-      decoded += static_cast<char>(bits >> count & 0xff);
+    for (std::string_view groups = text_.substr(0, characters(bytes)); groups.size() >= 4; groups.remove_prefix(4)) {
+      const std::string_view group = groups.substr(0, 4);
+      const std::size_t digits = std::min<std::size_t>(group.find('='), 4);
+      std::uint32_t bits = 0;
+      bool is_group = digits > 1 && group.find_first_not_of('=', digits) == std::string_view::npos;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const int digit = i < digits ? digit_of_base64(group[i]) : 0;
+        is_group = is_group && digit >= 0;
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+      }
+      if (!is_group) break;
+      for (std::size_t i = 0; i + 1 < digits; ++i) decoded += static_cast<char>(bits >> (16 - 8 * i) & 0xff);
+      if (digits < 4) break;
     }
     return decoded.substr(0, bytes);
+  }
+
+  static int digit_of_base64(char c) {
+    static const std::array<int, 256> digits = digits_of_base64();
+    return digits[static_cast<unsigned char>(c)];
   }
 
   static std::array<int, 256> digits_of_base64() {

@@ -1,9 +1,11 @@
 #include "common/config/yaml_tree.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "common/base/error.hpp"
@@ -19,6 +21,32 @@ constexpr std::uintmax_t largest_file = 10'000'000;  // bytes
 int line_of(const YAML::Mark& mark) {
   return mark.line + 1;
 }
+
+/// Counts documents, which YAML::LoadAll cannot: of "," it finds one after the other and no end.
+class Documents : public YAML::EventHandler {
+ public:
+  /// Where the second one begins. What stands behind the first one's end and is none counts as well.
+  static std::optional<YAML::Mark> second_of(const std::string& text) {
+    std::istringstream in(text);
+    YAML::Parser parser(in);
+    Documents documents;
+    while (documents.starts_.size() < 2 && parser.HandleNextDocument(documents)) continue;
+    return documents.starts_.size() < 2 ? std::nullopt : std::optional(documents.starts_[1]);
+  }
+
+ private:
+  void OnDocumentStart(const YAML::Mark& mark) override { starts_.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  std::vector<YAML::Mark> starts_;
+};
 
 /// Copies yaml-cpp's nodes, looking for what it lets pass.
 class Copier {
@@ -123,13 +151,12 @@ YamlNode read_yaml(const std::filesystem::path& file, int depth) {
   const std::string name = file.string(), text = text_of(file);
   const auto source = std::make_shared<const YamlFile>(YamlFile{file, depth});
   try {
-    const auto documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw input_error("{}:{}: a second document starts here; a case file has one", name,
-                        line_of(documents[1].Mark()));
+    if (const auto second = Documents::second_of(text))
+      throw input_error("{}:{}: a second document starts here; a case file has one", name, line_of(*second));
+    const YAML::Node document = YAML::Load(text);
     YamlNode nothing;
     nothing.place = {source, 1};
-    return documents.empty() ? nothing : Copier(source)(documents.front());
+    return document.IsNull() ? nothing : Copier(source)(document);
   } catch (const YAML::Exception& error) {
     throw input_error("{}:{}: not YAML: {}", name, line_of(error.mark), error.msg);
   }

@@ -84,8 +84,9 @@ PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::pat
   if (!file) throw input_error("{}: no such file", path.string());
   std::string found(first_line(kind).size(), ' ');
   std::int64_t count = 0;
+  const auto most = static_cast<std::int64_t>(std::filesystem::file_size(path) / (3 * sizeof(double)));
   if (!get(file, found.data(), found.size()) || found != first_line(kind) || !get(file, &count, 1) || count <= 0 ||
-      header_size(kind, count) > std::filesystem::file_size(path))
+      count > most || header_size(kind, count) > std::filesystem::file_size(path))
     throw input_error("{}: is not the {}", path.string(), kind.what);
   points_.resize(3, count);
   get(file, points_.data(), static_cast<std::size_t>(points_.size()));

@@ -161,7 +161,7 @@ const Wrong wrong_cases[] = {
     {"fluid: {density: 1}\nflud: {}\n", "case.yaml:7: flud: unknown section; did you mean 'fluid'?"},
     {"fluid: {density: 1}\nname: again\n", "case.yaml:7: 'name' is given twice; first on line 1"},
     {"fluid: {density: 1\n", "case.yaml:7: not YAML: end of map flow not found"},
-    {"fluid: {density: 1}\n---\nname: b\n", "case.yaml:8: a second document starts here; a case file has one"},
+    {"fluid: {density: 1}\n---\nname: b\n", "case.yaml:7: a second document starts here; a case file has one"},
     {"fluid: &a {density: 1, extra: *a}\n", "case.yaml:6: nested too deeply (an alias that contains itself?)"},
     {"fluid:\n  layers: 0\n  densty: 1\n",
      "case.yaml:6: fluid.density: missing: must be given in g/cm3 (mass per volume)\n"

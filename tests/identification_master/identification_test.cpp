@@ -318,7 +318,7 @@ TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
     IdentificationState state = state_after(data, false);
     if (!with_data) state.last_mean = VectorXd();
     write_checkpoint(folder.path(), 7, state, {1.5, 2.5, 0.5, 3});
-    const IdentificationCheckpoint found = read_checkpoint(folder.path(), 7);
+    const IdentificationCheckpoint found = read_identification_checkpoint(folder.path(), 7);
     EXPECT_EQ(found.state.step, state.step);
     EXPECT_EQ(found.state.theta, state.theta);
     EXPECT_EQ(found.state.last_mean, state.last_mean);
@@ -327,7 +327,7 @@ TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
     EXPECT_EQ(found.state.innovations.squares_before, state.innovations.squares_before);
     EXPECT_EQ(found.cost.cpu_seconds, 2.5);
     EXPECT_EQ(found.cost.moved_values, 3);
-    EXPECT_THROW(read_checkpoint(folder.path(), 8), InputError);
+    EXPECT_THROW(read_identification_checkpoint(folder.path(), 8), InputError);
   }
 }
 
@@ -340,15 +340,16 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
   write_checkpoint(folder.path(), 7, state, {});
   ++state.step;
   write_checkpoint(folder.path(), 7, state, {});
-  EXPECT_EQ(read_checkpoint(folder.path(), 7).state.step, step + 1);
+  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1);
   const auto newest = folder / "checkpoint/identification.bin";
   std::filesystem::resize_file(newest, std::filesystem::file_size(newest) - 1);
-  EXPECT_EQ(read_checkpoint(folder.path(), 7).state.step, step);
-  EXPECT_NE(read_checkpoint(folder.path(), 7).refused.find("identification.bin: is cut short"), std::string::npos);
+  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step);
+  EXPECT_NE(read_identification_checkpoint(folder.path(), 7).refused.find("identification.bin: is cut short"),
+            std::string::npos);
   std::filesystem::remove(newest);
-  EXPECT_EQ(read_checkpoint(folder.path(), 7).state.step, step);
+  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step);
   std::filesystem::resize_file(folder / "checkpoint/identification.previous", 9);
-  EXPECT_THROW(read_checkpoint(folder.path(), 7), InputError);
+  EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError);
 }
 
 TEST(Observations, TheirContentNamesWhatWasMeasured) {

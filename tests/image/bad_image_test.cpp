@@ -181,6 +181,40 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
   expect_said(refusal("words.nrrd"), {"words.nrrd: is not an image"});
 }
 
+/// ITK writes past its arrays, takes the memory or aborts.
+TEST(BadImage, HeadersThatStateTooMuchAreRefused) {
+  const Folder folder("headers");
+  const auto refusal_of_meta = [&](const std::string& header) {
+    folder.text("a.mha", header + "ElementType = MET_UCHAR\n", std::string(27, '\2'));
+    return folder.refusal("file: a.mha, threshold: {above: 1}");
+  };
+  expect_said(refusal_of_meta("NDims = 12\nDimSize = 1 1 1 1 1 1 1 1 1 1 1 1\n"),
+              {"NDims: '12': must be from 1 to 10"});
+  expect_said(refusal_of_meta("NDims = 3\nDimSize = 3 3\n"), {"DimSize: '3 3': must be NDims numbers"});
+  expect_said(refusal_of_meta("NDims = 3\nDimSize = 3 3 -3\n"), {"DimSize: '3 3 -3': must be from 1"});
+  expect_said(refusal_of_meta("NDims = 3\nDimSize = 3 3 2000000000\n"), {"18000000000 bytes, it has 27"});
+  expect_said(refusal_of_meta("NDims = 3\nNDims = 4\n"), {"a.mha:3: NDims is given twice"});
+  expect_said(refusal_of_meta("Comment = " + std::string(250, 'x') + "\n"), {"a.mha:2: a line of text was expected"});
+  expect_said(refusal_of_meta("NDims = 3\nElementDataFile = %s.raw 1 2 1\n"), {"must be LOCAL or one file"});
+
+  const auto refusal_of_nrrd = [&](const std::string& header) {
+    std::ofstream(folder.path / "a.nrrd") << "NRRD0004\ntype: uchar\n" << header << "\n\2\2\2\2\2\2\2\2";
+    return folder.refusal("file: a.nrrd, threshold: {above: 1}");
+  };
+  expect_said(refusal_of_nrrd("dimension: 3\nsizes: 9 9 9999999\nencoding: raw\n"), {"bytes, it has 8"});
+  expect_said(refusal_of_nrrd("dimension: 3\nsizes: 2 2 2\nencoding: gzip\n"), {"compressed voxels cannot be read"});
+  expect_said(refusal_of_nrrd("dimension: 3\nsizes: 2 2 2\nencoding: rle\n"), {"encoding: 'rle': must be raw"});
+  expect_said(refusal_of_nrrd("dimension: 4\nsizes: 2 2 2\nencoding: raw\n"), {"sizes: '2 2 2': must be as many"});
+
+  write_image(folder.path / "a.nii", tube_image());
+  std::fstream nifti(folder.path / "a.nii", std::ios::in | std::ios::out | std::ios::binary);
+  const float nan = NAN;
+  nifti.seekp(280);
+  nifti.write(reinterpret_cast<const char*>(&nan), sizeof nan);
+  nifti.close();
+  expect_said(folder.refusal("file: a.nii, threshold: {above: 1}"), {"states a place or an axis of nan"});
+}
+
 /// A compressed file that ends early, of each kind.
 TEST(BadImage, ATruncatedFileIsRefused) {
   const Folder folder("truncated");

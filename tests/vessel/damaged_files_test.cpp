@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "tests/io/less_memory.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "vessel/mesh_file.hpp"
 #include "vessel/readers.hpp"
@@ -336,30 +336,6 @@ TEST(DamagedFiles, OfBlocksAreNamed) {
        {words({96}), words({4000000000}), "4000000000 bytes are stated"},
        {bytes_of(std::int64_t{6}, false), bytes_of(std::int64_t{1} << 62, false), "end at 4611686018427387904"}});
 }
-
-/// Takes no more than this beside what the process has. Not under a sanitizer, which takes much for itself.
-class LessMemory {
- public:
-  explicit LessMemory(std::size_t bytes) {
-#ifndef __SANITIZE_ADDRESS__
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    getrlimit(RLIMIT_AS, &before_);
-    rlimit less = before_;
-    less.rlim_cur = std::min<rlim_t>(before_.rlim_cur, pages * 4096 + bytes);
-    setrlimit(RLIMIT_AS, &less);
-#else
-    getrlimit(RLIMIT_AS, &before_);
-    static_cast<void>(bytes);
-#endif
-  }
-  ~LessMemory() {
-    setrlimit(RLIMIT_AS, &before_);
-  }
-
- private:
-  rlimit before_{};
-};
 
 /// Throws whatever else than InputError the reader throws.
 bool is_read(const std::filesystem::path& path) {

@@ -13,8 +13,11 @@ add_library(tether_flags INTERFACE)
 target_compile_features(tether_flags INTERFACE cxx_std_20)
 target_include_directories(tether_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(tether_flags INTERFACE Eigen3::Eigen fmt::fmt)
-# GCC 12 reports wrongly: array-bounds in Eigen under AVX, stringop-overflow in fmt::join, restrict in string + string (PR 105651).
-target_compile_options(tether_flags INTERFACE -Wall -Wextra -Werror -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+target_compile_options(tether_flags INTERFACE -Wall -Wextra -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # GCC 12 reports wrongly: array-bounds in Eigen under AVX, stringop-overflow in fmt::join, restrict in string + string (PR 105651).
+  target_compile_options(tether_flags INTERFACE -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+endif()
 target_compile_options(tether_flags INTERFACE -fPIC)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # a large translation unit needs memory anyway: collecting garbage takes a tenth of the time
   target_compile_options(tether_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=1000000>)

@@ -16,7 +16,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
-#include "vessel/image/file_length.hpp"
+#include "vessel/image/image_check.hpp"
 
 namespace tether {
 namespace {
@@ -167,13 +167,13 @@ template <class Read>
 ImageVolume guarded(const fs::path& file, Read read) {
   const auto io = format_of(file);
   const std::string name = file.string();
+  check_image(file);
   try {
     io->SetFileName(name);
     if (!io->CanReadFile(name.c_str())) throw input_error("{}: is not an image of the kind that its ending says", name);
     io->ReadImageInformation();
     check_volume(name, *io);
     check_space(file);
-    check_length(file, static_cast<std::uint64_t>(io->GetImageSizeInBytes()));
     return read(*io);
   } catch (const itk::ExceptionObject& error) {
     throw input_error("{}: cannot be read: {}", name, reason(error));

@@ -1,0 +1,64 @@
+#include "vessel/image/text_header.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::optional<std::string> TextHeader::next() {
+  std::string line;
+  if (!std::getline(in_, line)) return std::nullopt;
+  ++line_;
+  const auto is_control = [](char c) { return c != '\t' && c != '\r' && c >= 0 && c < ' '; };
+  if (line.size() > longest_line_ || std::any_of(line.begin(), line.end(), is_control))
+    fail(fmt::format("a line of text was expected, of no more than {} characters", longest_line_));
+  return line;
+}
+
+void TextHeader::add(const std::string& name, const std::string& value) {
+  if (!fields_.emplace(name, value).second) fail(name + " is given twice");
+}
+
+std::string TextHeader::get(const std::string& name) const {
+  const auto found = fields_.find(name);
+  return found == fields_.end() ? "" : found->second;
+}
+
+std::uint64_t TextHeader::count(const std::string& name, std::uint64_t least, std::uint64_t most) const {
+  const std::vector<std::uint64_t> one = counts(name, least, most);
+  if (one.size() != 1) refuse(name, "must be one number");
+  return one.front();
+}
+
+std::vector<std::uint64_t> TextHeader::counts(const std::string& name, std::uint64_t least, std::uint64_t most) const {
+  std::vector<std::uint64_t> all;
+  std::istringstream words(get(name));
+  for (std::string word; words >> word;) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), all.emplace_back());
+    if (error != std::errc{} || end != word.data() + word.size() || all.back() < least || all.back() > most)
+      refuse(name, fmt::format("must be from {} to {}", least, most));
+  }
+  return all;
+}
+
+std::uint64_t TextHeader::end() {
+  return in_.eof() ? std::filesystem::file_size(file_) : static_cast<std::uint64_t>(in_.tellg());
+}
+
+void TextHeader::fail(const std::string& what) const {
+  throw input_error("{}:{}: {}", file_, line_, what);
+}
+
+void TextHeader::refuse(const std::string& name, const std::string& rule) const {
+  throw input_error("{}: {}: '{}': {}", file_, name, get(name).substr(0, 80), rule);
+}
+
+}  // namespace tether
