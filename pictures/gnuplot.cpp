@@ -5,15 +5,38 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <regex>
+#include <vector>
 
 #include "common/base/child_process.hpp"
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 namespace {
 
 bool is_control(char c) {
   return std::iscntrl(static_cast<unsigned char>(c)) != 0;
+}
+
+/// The pictures that a script draws.
+std::vector<std::string> outputs_of(const std::string& script) {
+  const std::regex output("set output '([^']+)'");
+  std::vector<std::string> all;
+  for (std::sregex_iterator found(script.begin(), script.end(), output), end; found != end; ++found)
+    all.push_back((*found)[1]);
+  return all;
+}
+
+/// Whether its last block is there: gnuplot does not notice that a disk is full.
+bool is_whole_png(const std::filesystem::path& file) {
+  constexpr std::string_view last = "IEND";
+  constexpr std::streamoff from_end = 8;  // its name and checksum
+  std::ifstream from(file, std::ios::binary | std::ios::ate);
+  if (!from || from.tellg() < from_end) return false;
+  std::string found(last.size(), ' ');
+  from.seekg(-from_end, std::ios::end).read(found.data(), static_cast<std::streamsize>(found.size()));
+  return found == last;
 }
 
 }  // namespace
@@ -43,11 +66,17 @@ std::string gnuplot_cell(const std::string& text) {
 }
 
 void run_gnuplot(const std::filesystem::path& output, const std::string& name, const std::string& script) {
-  std::filesystem::create_directories(output / "plots");
-  std::ofstream(output / "plots" / name) << fmt::format("# Run in the output folder: gnuplot plots/{}\n", name)
-                                         << script;
+  const std::filesystem::path file = output / "plots" / name;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream to(file);
+  to << fmt::format("# Run in the output folder: gnuplot plots/{}\n", name) << script;
+  to.close();
+  if (!to) throw write_error(file);
   const ChildEnd end = capture({{"sh", "-c", "cd \"$0\" && exec gnuplot \"plots/$1\"", output.string(), name}, {}});
-  if (end.exit_code != 0) throw run_error("{}: gnuplot failed: {}", (output / "plots" / name).string(), end.errors);
+  if (end.exit_code != 0)
+    throw run_error("{}: gnuplot {}: {}", file.string(), how_it_ended(end.exit_code), last_line(end.errors));
+  for (const std::string& picture : outputs_of(script))
+    if (!is_whole_png(output / picture)) throw write_error(output / picture);
 }
 
 }  // namespace tether

@@ -47,7 +47,11 @@ std::optional<std::pair<double, fs::path>> nearest(const fs::path& series, doubl
 bool draw_picture(const fs::path& mesh, const fs::path& png, const std::vector<std::string>& options) {
   Command command{{"xvfb-run", "-a", sibling("tether_picture").string(), mesh.string(), png.string()}, {}};
   command.words.insert(command.words.end(), options.begin(), options.end());
-  return capture(command).exit_code == 0;
+  const ChildEnd end = capture(command);
+  if (end.exit_code != 0)
+    fmt::print(stderr, "{}: is not drawn: {}\n", png.string(),
+               end.errors.empty() ? how_it_ended(end.exit_code) : last_line(end.errors));
+  return end.exit_code == 0;
 }
 
 bool has_display_server() {

@@ -82,8 +82,8 @@ class Bench:
     def judge(self, verb, job, output, code, end):
         """What the fault led to, and what the same command finds after it."""
         result = {"code": code, "seconds": round(end, 1), "message": job.message().replace(str(self.folder) + "/", ""), "orphans": job.orphans()}
-        options = ["--resume"] if verb != "explain" and (output / "checkpoint").exists() and any((output / "checkpoint").iterdir()) else \
-            ["--overwrite"] if verb != "explain" and code != 0 else []
+        is_saved = any(any(output.glob(f"{name}/*")) for name in ("checkpoint", "checkpoint.previous"))
+        options = [] if verb == "explain" or code == 0 else ["--resume"] if is_saved else ["--overwrite"]
         if code != 0 or verb == "explain":
             again = Job(verb, self.case(verb), output, options)
             result["again"] = again.end(600)

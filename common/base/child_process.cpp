@@ -160,6 +160,13 @@ std::string how_it_ended(int exit_code) {
   return fmt::format("was ended by signal {} ({})", exit_code - 128, strsignal(exit_code - 128));
 }
 
+std::string last_line(const std::string& text) {
+  const auto end = text.find_last_not_of('\n');
+  if (end == std::string::npos) return {};
+  const auto before = text.rfind('\n', end);
+  return text.substr(before + 1, end - before);  // npos + 1: from the beginning
+}
+
 ChildEnd capture(const Command& command) {
   const Capture output, errors;
   const pid_t pid = start(command, [&] {

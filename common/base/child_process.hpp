@@ -24,6 +24,9 @@ struct ChildEnd {
 /// "ended with 3", "was ended by signal 9 (Killed)"
 std::string how_it_ended(int exit_code);
 
+/// The last line of a text that is not empty: what a program said at its end.
+std::string last_line(const std::string& text);
+
 /// Runs a program to its end and keeps what it writes to stdout and stderr. Throws RunError if it cannot be started, or
 /// is stopped by a signal for longer than `stopped_limit`, and kills it then.
 ChildEnd capture(const Command& command);

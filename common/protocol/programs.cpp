@@ -56,9 +56,11 @@ NoteOfFailure& note_of_failure() {
 /// How to go on from the last state saved; nothing if there is none.
 std::string way_on(const char* verb, const CommandLine& command) {
   const std::filesystem::path output = output_of(command, CaseFile(command.case_file));
-  std::error_code error;
-  if (!std::filesystem::exists(output / "checkpoint", error) || std::filesystem::is_empty(output / "checkpoint", error))
-    return {};
+  const auto is_saved = [&](const char* folder) {
+    std::error_code error;
+    return std::filesystem::exists(output / folder, error) && !std::filesystem::is_empty(output / folder, error);
+  };
+  if (!is_saved("checkpoint") && !is_saved("checkpoint.previous")) return {};
   return fmt::format("To continue: tether {} {} --output {} --resume\n", verb, command.case_file.string(),
                      output.string());
 }
