@@ -16,7 +16,7 @@ std::vector<std::string> draw_pictures(const std::filesystem::path& output, cons
 /// Whether pictures are to be drawn: xvfb-run is installed, and TETHER_PICTURES in the environment is not 0.
 bool has_display_server();
 
-/// Runs tether_picture MESH PNG with these options. Returns whether it drew.
+/// Runs tether_picture MESH PNG with these options. Returns whether it drew; if not, says why on stderr.
 bool draw_picture(const std::filesystem::path& mesh, const std::filesystem::path& png,
                   const std::vector<std::string>& options);
 
