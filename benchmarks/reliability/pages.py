@@ -73,10 +73,14 @@ def of_chaos(folder):
     if not (folder / "chaos.json").exists():
         return []
     found = json.loads((folder / "chaos.json").read_text())
+    other = sum("differs" in one for one in found["wrong"])
+    left = collections.Counter(name for one in found["wrong"] for name in one.get("orphans", []))
+    remain = "; ".join(f"{name} was left {count} times" for name, count in left.items())
     of = ", ".join(f"{name} {count}" for name, count in sorted(found["of"].items(), key=lambda one: -one[1]))
     return ["## Killed again and again", "",
             f"`benchmarks/reliability/chaos --kills {found['kills']} --seed {found['seed']}`: `tether explain` on the small case, {found['kills']} kills at random times ({of}), "
-            f"{found['explanations']} explanations brought to their end by the same command, {found['minutes']} minutes. Wrong: {len(found['wrong'])}.", ""]
+            f"{found['explanations']} explanations brought to their end by the same command, {found['minutes']} minutes. "
+            f"Another explain.json: {other}. Processes left after ten seconds: {remain or 'none'}.", ""]
 
 
 def of_haul(folder):
