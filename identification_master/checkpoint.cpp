@@ -104,15 +104,27 @@ IdentificationCheckpoint unpacked(const CheckedContent& content) {
   return checkpoint;
 }
 
-IdentificationCheckpoint read_file(const fs::path& path, std::uint64_t fingerprint) {
+/// Throws InputError if it is damaged.
+std::pair<std::uint64_t, IdentificationCheckpoint> read_file(const fs::path& path) {
   const CheckedContent content = read_checked(path);
-  if (content.fingerprint != fingerprint)
-    throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
-                      path.string());
   try {
-    return unpacked(content);
+    return {content.fingerprint, unpacked(content)};
   } catch (const protocol::MalformedMessage& error) {
     throw input_error("{}: {}", path.string(), error.what());
+  }
+}
+
+/// The newest that is whole, and the fingerprint of its case.
+std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::path& folder) {
+  const fs::path newest = newest_in(folder), before = before_in(folder);
+  if (!fs::exists(newest)) return read_file(before);  // stopped between the two renames
+  try {
+    return read_file(newest);
+  } catch (const InputError& error) {
+    if (!fs::exists(before)) throw;
+    auto found = read_file(before);
+    found.second.refused = error.what();
+    return found;
   }
 }
 
@@ -138,18 +150,14 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
 }
 
 IdentificationCheckpoint read_identification_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
-  const fs::path folder = output / "checkpoint", newest = newest_in(folder), before = before_in(folder);
-  if (!fs::exists(newest) && !fs::exists(before))
+  const fs::path folder = output / "checkpoint";
+  if (!fs::exists(newest_in(folder)) && !fs::exists(before_in(folder)))
     throw input_error("{}: holds no checkpoint of an identification to resume from", output.string());
-  if (!fs::exists(newest)) return read_file(before, fingerprint);  // stopped between the two renames
-  try {
-    return read_file(newest, fingerprint);
-  } catch (const InputError& error) {
-    if (!fs::exists(before)) throw;
-    IdentificationCheckpoint checkpoint = read_file(before, fingerprint);
-    checkpoint.refused = error.what();
-    return checkpoint;
-  }
+  auto [of_case, checkpoint] = newest_whole_in(folder);
+  if (of_case != fingerprint)
+    throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
+                      newest_in(folder).string());
+  return checkpoint;
 }
 
 }  // namespace tether

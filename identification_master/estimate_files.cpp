@@ -113,8 +113,9 @@ EstimateCost cost_of(const IdentificationFacts& facts, Eigen::Index parameters) 
 }  // namespace
 
 void remove_old_estimates(const std::filesystem::path& output) {
-  for (const char* name : {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png",
-                           SensitivityTables::by_region, SensitivityTables::by_datum, "checkpoint/identification.bin"})
+  for (const char* name :
+       {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png", SensitivityTables::by_region,
+        SensitivityTables::by_datum, "checkpoint/identification.bin", "checkpoint/identification.previous"})
     std::filesystem::remove(output / name);
 }
 

@@ -2,10 +2,11 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "pictures/display_server.hpp"
 #include "pictures/scene.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Draws a mesh coloured by a field, from two sides, into a PNG file. Needs an X display (xvfb-run).",
+  CLI::App app{"Draws a mesh coloured by a field, from two sides, into a PNG file. Needs Xvfb, not a screen.",
                "tether_picture"};
   tether::Scene scene;
   std::filesystem::path png;
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (!range.empty()) scene.range = {range[0], range[1]};
   try {
+    const tether::DisplayServer display;
     tether::draw(scene, png);
   } catch (const std::exception& error) {
     std::cerr << "tether_picture: " << error.what() << "\n";

@@ -45,7 +45,7 @@ std::optional<std::pair<double, fs::path>> nearest(const fs::path& series, doubl
 }  // namespace
 
 bool draw_picture(const fs::path& mesh, const fs::path& png, const std::vector<std::string>& options) {
-  Command command{{"xvfb-run", "-a", sibling("tether_picture").string(), mesh.string(), png.string()}, {}};
+  Command command{{sibling("tether_picture").string(), mesh.string(), png.string()}, {}};
   command.words.insert(command.words.end(), options.begin(), options.end());
   const ChildEnd end = capture(command);
   if (end.exit_code != 0)
@@ -57,7 +57,7 @@ bool draw_picture(const fs::path& mesh, const fs::path& png, const std::vector<s
 bool has_display_server() {
   if (const char* wanted = std::getenv("TETHER_PICTURES"); wanted != nullptr && std::string_view(wanted) == "0")
     return false;
-  return capture({{"sh", "-c", "command -v xvfb-run"}, {}}).exit_code == 0;
+  return capture({{"sh", "-c", "command -v Xvfb"}, {}}).exit_code == 0;
 }
 
 std::vector<std::string> draw_pictures(const fs::path& output, const UnitSystem& units) {

@@ -8,14 +8,20 @@ SIGNALS = ("KILL", "TERM", "INT", "STOP")
 MOST_LINES = 4
 
 
+def parts_of(key):
+    """Verb, kind, program, phase or call, fault."""
+    verb, kind, program, rest = key.split("/", 3)
+    return verb, kind, program, *rest.rsplit("/", 1)
+
+
 def faults_of(key, result):
     """What is wrong with an outcome."""
-    _, kind, program, phase, fault = key.split("/", 4)
+    _, kind, program, _, fault = parts_of(key)
     wrong, code, message = [], result["code"], result["message"]
     itself = kind == "signal" and program == "tether" and fault == "KILL"  # it can tell nothing
     if code is None:
         wrong.append("does not end")
-    elif code not in ((0, 1, 2) if fault.endswith("EACCES") else (0, 1)) and not itself:  # 2: what the person may not do
+    elif code not in ((0, 1, 2) if fault == "EACCES" else (0, 1)) and not itself:  # 2: what the person may not do
         wrong.append(f"ends with {code}")
     if code in (1, 2) and not message.strip():
         wrong.append("no message")
@@ -49,7 +55,7 @@ def last_words(result):
 def signals_table(known):
     rows = collections.defaultdict(dict)
     for key, result in known.items():
-        verb, kind, program, phase, fault = key.split("/", 4)
+        verb, kind, program, phase, fault = parts_of(key)
         if kind == "signal":
             rows[verb, phase, program][fault] = cell(key, result)
     lines = ["| job | phase | process | KILL | TERM | INT | STOP |", "|---|---|---|---|---|---|---|"]
@@ -61,10 +67,10 @@ def signals_table(known):
 def writes_table(known):
     lines = ["| job | program | call | error | outcome | said |", "|---|---|---|---|---|---|"]
     for key, result in known.items():
-        verb, kind, program, phase, fault = key.split("/", 4)
+        verb, kind, program, phase, fault = parts_of(key)
         if kind == "write":
             name = "identification_master" if program == "identification_" else program
-            lines.append(f"| {verb} | {name} | {phase.rsplit('/E', 1)[0]} | {key.rsplit('/', 1)[1]} | {cell(key, result)} | {last_words(result)} |")
+            lines.append(f"| {verb} | {name} | {phase} | {fault} | {cell(key, result)} | {last_words(result)} |")
     return lines
 
 

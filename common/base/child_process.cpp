@@ -97,11 +97,14 @@ int end_of(pid_t pid, const std::string& name) {
   return status;
 }
 
-bool goes_on_within(double seconds, pid_t pid) {
+/// Whether it goes on or ends; how it ended is left to be asked.
+bool changes_within(double seconds, pid_t pid) {
   constexpr useconds_t between_looks = 50'000;
-  int status = 0;
   for (double waited = 0; waited < seconds; waited += 1e-6 * between_looks) {
-    if (waitpid(pid, &status, WCONTINUED | WNOHANG) != 0) return true;
+    siginfo_t change{};
+    if (waitid(P_PID, static_cast<id_t>(pid), &change, WEXITED | WCONTINUED | WNOHANG | WNOWAIT) != 0 ||
+        change.si_pid != 0)
+      return true;
     usleep(between_looks);
   }
   return false;
@@ -111,7 +114,7 @@ bool goes_on_within(double seconds, pid_t pid) {
 int end_soon_of(pid_t pid, const std::string& name) {
   int status = 0;
   while (WIFSTOPPED(status = change_of(pid))) {
-    if (goes_on_within(stopped_limit(), pid)) continue;
+    if (changes_within(stopped_limit(), pid)) continue;
     kill(pid, SIGKILL);
     waitpid(pid, nullptr, 0);
     throw run_error("{} (pid {}) was stopped, and still was {:g} s later (TETHER_STOPPED_LIMIT=SECONDS waits longer)",
@@ -170,7 +173,7 @@ std::string last_line(const std::string& text) {
 ChildEnd capture(const Command& command) {
   const Capture output, errors;
   const pid_t pid = start(command, [&] {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // nobody would read what it writes
     dup2(output.descriptor(), STDOUT_FILENO);
     dup2(errors.descriptor(), STDERR_FILENO);
   });

@@ -41,6 +41,22 @@ TEST(Capture, NamesAProgramThatCannotBeStarted) {
   }
 }
 
+TEST(Capture, WaitsForAProgramThatIsStoppedAndGoesOnOrIsKilled) {
+  EXPECT_EQ(capture(shell("(sleep 0.3; kill -CONT $$) & kill -STOP $$; exit 5")).exit_code, 5);
+  EXPECT_EQ(capture(shell("(sleep 0.3; kill -KILL $$) & kill -STOP $$; exit 5")).exit_code, 128 + SIGKILL);
+}
+
+TEST(Capture, GivesUpAProgramThatStaysStopped) {
+  setenv("TETHER_STOPPED_LIMIT", "0.5", 1);
+  try {
+    capture(shell("kill -STOP $$; exit 5"));
+    ADD_FAILURE() << "no error";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("was stopped, and still was 0.5 s later"), std::string::npos);
+  }
+  unsetenv("TETHER_STOPPED_LIMIT");
+}
+
 TEST(RunInForeground, ReturnsTheExitCode) {
   EXPECT_EQ(run_in_foreground(shell("exit 0")).exit_code, 0);
   EXPECT_EQ(run_in_foreground(shell("exit 2")).exit_code, 2);

@@ -348,6 +348,9 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
             std::string::npos);
   std::filesystem::remove(newest);
   EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step);
+  write_checkpoint(folder.path(), 8, state, {});
+  EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError) << "that before is of this case, but old";
+  std::filesystem::remove(newest);
   std::filesystem::resize_file(folder / "checkpoint/identification.previous", 9);
   EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError);
 }

@@ -31,8 +31,7 @@ class Picture : public ::testing::Test {
   }
   ChildEnd draw(const std::string& options) {
     return capture(
-        {{"/bin/sh", "-c",
-          "xvfb-run -a " TETHER_PICTURE " " + (folder_ / "wall.vtu").string() + " " + png_.string() + " " + options},
+        {{"/bin/sh", "-c", TETHER_PICTURE " " + (folder_ / "wall.vtu").string() + " " + png_.string() + " " + options},
          {}});
   }
   Colour pixel(double across, double up) {
@@ -84,6 +83,19 @@ TEST_F(Picture, SaysThatItCannotBeWritten) {
   EXPECT_EQ(end.exit_code, 1);
   EXPECT_NE(end.errors.find("gone/picture.png: cannot be written: its folder is gone"), std::string::npos)
       << end.errors;
+}
+
+/// The X server that it starts goes with it.
+TEST_F(Picture, LeavesNoServerWhenItIsKilled) {
+  const ChildEnd end =
+      capture({{"/bin/sh", "-c",
+                TETHER_PICTURE " \"$0\" \"$1\" --field height & picture=$!; "
+                               "until server=$(pgrep -P $picture -x Xvfb); do kill -0 $picture || exit 3; done; "
+                               "kill -KILL $picture; "
+                               "for i in $(seq 100); do kill -0 $server 2>/dev/null || exit 0; sleep 0.1; done; exit 4",
+                (folder_ / "wall.vtu").string(), png_.string()},
+               {}});
+  EXPECT_EQ(end.exit_code, 0) << "3: no server was seen; 4: it lives on. " << end.errors;
 }
 
 TEST_F(Picture, NamesAFieldThatIsNotThere) {
