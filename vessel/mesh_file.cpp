@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "vessel/readers.hpp"
 
 namespace tether {
 
 std::string file_content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw input_error("{}: cannot be opened", path.string());
+  std::ifstream file = input_stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -83,7 +83,7 @@ void check_coordinates(const MeshFile& mesh) {
 }  // namespace
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
-  if (!std::ifstream(path)) throw input_error("{}: cannot be opened", path.string());
+  input_stream(path);
   MeshFile mesh = read_by_extension(path);
   if (mesh.tetrahedra.empty() && mesh.prisms.empty() && mesh.triangles.empty())
     throw input_error("{}: holds no cell of a surface or a volume", mesh.name);

@@ -69,8 +69,7 @@ def writes_table(known):
     for key, result in known.items():
         verb, kind, program, phase, fault = parts_of(key)
         if kind == "write":
-            name = "identification_master" if program == "identification_" else program
-            lines.append(f"| {verb} | {name} | {phase} | {fault} | {cell(key, result)} | {last_words(result)} |")
+            lines.append(f"| {verb} | {program} | {phase} | {fault} | {cell(key, result)} | {last_words(result)} |")
     return lines
 
 

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
 
 namespace tether {
@@ -55,8 +56,7 @@ void check_separator(const std::string& file, int line, const std::vector<std::s
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw input_error("{}: cannot be read", file_);
+  std::ifstream in = input_stream(file);
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
     if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());

@@ -6,8 +6,9 @@
 
 namespace tether {
 
-/// What to throw where a file cannot be written: it names the file, and why if that can be seen: its disk is full, or
-/// its folder is gone.
+/// What to throw where a file cannot be written: it names the file, and why if that can be seen: its folder is gone,
+/// its disk is full, or what the call that failed last has said (quota, failure, no permission). To be called before
+/// others.
 RunError write_error(const std::filesystem::path& file);
 /// Throws "FOLDER: cannot be made: CAUSE": InputError for what the person may not do (no permission, a file is there),
 /// RunError for what the disk cannot (full, quota, failure). what: "cannot be made", "cannot be written to".

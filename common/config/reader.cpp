@@ -174,6 +174,8 @@ void Reader::path(Text name, std::filesystem::path& value, Text meaning, Need ne
   value = (node->place.file->path.parent_path() / node->text).lexically_normal();
   if (!std::filesystem::exists(value))
     wrong(field, node->place, node->text, fmt::format("no such file or folder: {}", value.string()));
+  else if (!std::filesystem::is_regular_file(value) && !std::filesystem::is_directory(value))
+    wrong(field, node->place, node->text, "must be a file or a folder, not a device");
 }
 
 void Reader::numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning, Need need) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
 
 namespace tether {
@@ -122,11 +123,9 @@ void emit(YAML::Emitter& out, const YamlNode& node) {
 /// Throws InputError for a file that cannot be read, is far too large, or is not UTF-8.
 std::string text_of(const std::filesystem::path& file) {
   const std::string name = file.string();
-  if (!std::filesystem::exists(file)) throw input_error("{}: no such file", name);
-  if (!std::filesystem::is_regular_file(file)) throw input_error("{}: is not a file", name);
+  std::ifstream from = input_stream(file, std::ios::binary);
   if (std::filesystem::file_size(file) > largest_file)
     throw input_error("{}: has more than {} bytes: is it a case file?", name, largest_file);
-  std::ifstream from(file, std::ios::binary);
   std::ostringstream text;
   text << from.rdbuf();
   if (!from) throw input_error("{}: cannot be read", name);

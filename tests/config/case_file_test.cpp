@@ -141,6 +141,8 @@ const Wrong wrong_cases[] = {
      "case.yaml:6: fluid.motion: magic: must be one of elastic, harmonic (of the mesh)"},
     {"fluid: {density: 1, file: none.csv}\n",
      "case.yaml:6: fluid.file: none.csv: no such file or folder: none.csv (a table)"},
+    {"fluid: {density: 1, file: /dev/zero}\n",
+     "case.yaml:6: fluid.file: /dev/zero: must be a file or a folder, not a device (a table)"},
     {"fluid: {density: 1, angles: [1, 2, 3]}\n",
      "case.yaml:6: fluid.angles: 3 numbers: must be 2 numbers (from and to)"},
     {"fluid: {density: 1, angles: 3}\n",

@@ -63,7 +63,9 @@ TEST(CurveCase, NamesWhatIsWrongWithTheTable) {
   EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }),
             "q.csv:3: the time 1.1 lies beyond one period of 1");
   periodic.file = "no.csv";
-  EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "no.csv: cannot be read");
+  EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "no.csv: no such file");
+  periodic.file = "/dev/zero";
+  EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "/dev/zero: is not a file");
 }
 
 TEST(Curve, HoldsItsEndsAndRises) {

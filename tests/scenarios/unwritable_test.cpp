@@ -62,12 +62,14 @@ TEST_P(UnwritableFile, IsToldAndNothingIsLost) {
 
 INSTANTIATE_TEST_SUITE_P(
     Some, UnwritableFile,
-    ::testing::Values(
-        Unwritable{"Motion", "fsi_master:write:lumen.motion:7:ENOSPC", "lumen.motion: cannot be written"},
-        Unwritable{"Checkpoint", "fsi_master:write:checkpoint.new/fluid.bin:2:EDQUOT", "checkpoint.new/fluid.bin"},
-        Unwritable{"Renaming", "fsi_master:rename:checkpoint:1:EIO", "Input/output error"},
-        Unwritable{"OfAPartner", "solid:write:vtk/solid:4:ENOSPC", "vtk/solid"},
-        Unwritable{"Summary", "fsi_master:open:summary.json:1:EACCES", "summary.json: cannot be written"}),
+    ::testing::Values(Unwritable{"Motion", "fsi_master:write:lumen.motion:7:ENOSPC",
+                                 "lumen.motion: cannot be written: no space is left on its disk"},
+                      Unwritable{"Checkpoint", "fsi_master:write:checkpoint.new/fluid.bin:2:EDQUOT",
+                                 "checkpoint.new/fluid.bin: cannot be written: Disk quota exceeded"},
+                      Unwritable{"Renaming", "fsi_master:rename:checkpoint:1:EIO", "Input/output error"},
+                      Unwritable{"OfAPartner", "solid:write:vtk/solid:4:ENOSPC", "vtk/solid"},
+                      Unwritable{"Summary", "fsi_master:open:summary.json:1:EACCES",
+                                 "summary.json: cannot be written: Permission denied"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

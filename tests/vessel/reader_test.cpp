@@ -219,7 +219,8 @@ TEST(Vtk, MistakesAreNamed) {
               "is not a VTK file with an unstructured grid");
   expect_part(message("x.step", ""), "unknown kind of mesh file: must be .vtu, .vtp, .vtk, .ply, .msh, .stl or .obj");
   expect_part(message("x.obj", ""), "holds no face");
-  expect_part(message_of([] { read_mesh_file("/no/such/mesh.vtu"); }), "/no/such/mesh.vtu: cannot be opened");
+  expect_part(message_of([] { read_mesh_file("/no/such/mesh.vtu"); }), "/no/such/mesh.vtu: no such file");
+  expect_part(message_of([] { read_mesh_file("/dev/zero"); }), "/dev/zero: is not a file");
   expect_part(message("hexahedron.vtk",
                       "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n0 0 0 1 0 0 1 "
                       "1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n"

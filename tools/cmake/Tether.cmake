@@ -55,9 +55,6 @@ function(tether_library name)
   endif()
 endfunction()
 
-# What tools/nightly runs under the sanitizers.
-add_custom_target(unit_tests)
-
 # tether_test(NAME LABEL unit|contract|convergence|scenario SOURCES ... LIBRARIES ...): one CTest entry. All entries of a folder share one
 # GoogleTest program, FOLDER_tests, whose sources are compiled together; an entry runs the tests that stand in its own sources.
 # DEFINITIONS and NEEDS (targets that must be built) are the program's.
@@ -76,9 +73,6 @@ function(tether_test name)
   target_compile_definitions(${program} PRIVATE ${arg_DEFINITIONS})
   if(arg_NEEDS)
     add_dependencies(${program} ${arg_NEEDS})
-  endif()
-  if(arg_LABEL MATCHES "unit|contract")
-    add_dependencies(unit_tests ${program})
   endif()
   list(FILTER arg_SOURCES INCLUDE REGEX "_test[.]cpp$")  # not what they share
   add_test(NAME ${name} COMMAND ${program} ${arg_SOURCES} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
