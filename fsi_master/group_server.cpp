@@ -149,6 +149,11 @@ protocol::State GroupServer::operator()(const protocol::GetState&) {
   return {packed(loop_->snapshot())};
 }
 
+protocol::Ready GroupServer::operator()(const protocol::SetState& m) {
+  restore(m.values, {});
+  return {};
+}
+
 std::vector<double> GroupServer::packed(const Snapshot& snapshot) const {
   std::vector<double> all = snapshot.fluid;
   append(all, snapshot.solid);

@@ -22,6 +22,7 @@ class GroupServer {
   protocol::Interface operator()(const protocol::GetInterface&);
   protocol::Ready operator()(const protocol::SetParameters& m);
   protocol::State operator()(const protocol::GetState&);
+  protocol::Ready operator()(const protocol::SetState& m);
   protocol::Advanced operator()(const protocol::Advance& m);
   protocol::Simulated operator()(const protocol::Simulate& m);
   protocol::Ready operator()(const protocol::Write& m);

@@ -89,8 +89,8 @@ IdentificationCheckpoint unpacked(const CheckedContent& content) {
   std::vector<PackedRecord> records;
   std::vector<double> innovations, cost;
   protocol::Reader reader("checkpoint", content.bytes);
-  reader(theta, states, state.memories, records, innovations, last_mean, lasting_mean, lasting_slope,
-         lasting_covariance, information, cost);
+  reader(theta, states, state.memories, checkpoint.at_hand, records, innovations, last_mean, lasting_mean,
+         lasting_slope, lasting_covariance, information, cost);
   reader.expect_end();
   require_size(innovations, 3), require_size(cost, 4);
   state.theta = theta.matrix();
@@ -131,11 +131,11 @@ std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::pat
 }  // namespace
 
 void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state,
-                      const IdentificationCost& cost) {
+                      const std::vector<std::vector<double>>& at_hand, const IdentificationCost& cost) {
   std::vector<PackedRecord> records;
   for (const EstimateRecord& record : state.records) records.push_back(packed(record));
   protocol::Writer writer;
-  writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, records,
+  writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, at_hand, records,
          std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
          PackedMatrix(state.last_mean), PackedMatrix(state.lasting.mean), PackedMatrix(state.lasting.slope),
          PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),

@@ -14,6 +14,7 @@ struct IdentificationCost {
 
 struct IdentificationCheckpoint {
   IdentificationState state;
+  std::vector<std::vector<double>> at_hand;  ///< of each group (GroupPool)
   IdentificationCost cost;
   std::string refused = {};  ///< why a newer one is not taken: it is damaged
 };
@@ -21,7 +22,7 @@ struct IdentificationCheckpoint {
 /// OUTPUT/checkpoint/identification.bin: written beside the old one, flushed, renamed; the one before stays as
 /// identification.previous. Throws RunError if the disk refuses.
 void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint, const IdentificationState& state,
-                      const IdentificationCost& cost);
+                      const std::vector<std::vector<double>>& at_hand, const IdentificationCost& cost);
 
 /// The newest whole one. Throws InputError: none, both damaged, of another case.
 IdentificationCheckpoint read_identification_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);

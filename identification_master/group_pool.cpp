@@ -56,32 +56,43 @@ protocol::Usage GroupPool::usage() {
   return all;
 }
 
-template <class Request>
-void GroupPool::deal(std::size_t count, const std::function<Request(std::size_t)>& request,
-                     const std::function<void(std::size_t, typename Request::Reply)>& take) {
-  std::vector<Partner*> idle = groups_, busy;
+std::vector<std::vector<double>> GroupPool::at_hand() {
+  std::vector<std::vector<double>> states;
+  for (Partner* group : groups_) group->send(protocol::GetState{});
+  for (Partner* group : groups_) states.push_back(group->receive<protocol::State>().values);
+  return states;
+}
+
+void GroupPool::take_up(const std::vector<std::vector<double>>& states) {
+  const std::size_t count = std::min(states.size(), groups_.size());
+  for (std::size_t g = 0; g < count; ++g) groups_[g]->send(protocol::SetState{states[g]});
+  for (std::size_t g = 0; g < count; ++g) groups_[g]->receive<protocol::Ready>();
+}
+
+void GroupPool::deal(std::size_t count, const std::function<protocol::Advance(std::size_t)>& request,
+                     const std::function<void(std::size_t, protocol::Advanced)>& take) {
+  std::vector<Partner*> busy;
   std::vector<std::size_t> work;  // of each busy group
-  std::size_t next = 0;
-  while (next < count || !busy.empty()) {
-    while (next < count && !idle.empty()) {
-      idle.back()->send(request(next));
-      busy.push_back(idle.back());
-      work.push_back(next++);
-      idle.pop_back();
-    }
-    Partner& done = session_.first_to_reply(busy);
-    const auto place = std::find(busy.begin(), busy.end(), &done) - busy.begin();
+  const auto begin = [&](Partner* group, std::size_t particle) {
+    group->send(request(particle));
+    busy.push_back(group);
+    work.push_back(particle);
+  };
+  for (std::size_t g = 0; g < std::min(count, groups_.size()); ++g) begin(groups_[g], g);
+  while (!busy.empty()) {
+    Partner* done = &session_.first_to_reply(busy);
+    const auto place = std::find(busy.begin(), busy.end(), done) - busy.begin();
     const std::size_t which = work[static_cast<std::size_t>(place)];
     try {
-      take(which, done.receive<typename Request::Reply>());
+      take(which, done->receive<protocol::Advanced>());
     } catch (const protocol::PartnerFailed& failure) {
-      const Request failed = request(which);
+      const protocol::Advance failed = request(which);
       throw run_error("sigma point {} of {} ({}): {}", which + 1, count, described({failed.names, failed.values}),
                       failure.what());
     }
-    idle.push_back(&done);
     busy.erase(busy.begin() + place);
     work.erase(work.begin() + place);
+    if (which + groups_.size() < count) begin(done, which + groups_.size());
   }
 }
 
@@ -103,8 +114,7 @@ std::vector<ParticleReport> GroupPool::advance(const EnsembleStep& step, const s
         std::move(reply.observables), std::move(reply.distances), std::move(reply.weights), std::move(reply.velocities),
         lumen_in(reply.state),        reply.evaluations,          reply.krylov_iterations,  reply.parts};
   };
-  deal<protocol::Advance>(values.size(), request,
-                          [&](std::size_t i, protocol::Advanced reply) { take(i, std::move(reply)); });
+  deal(values.size(), request, take);
   return reports;
 }
 

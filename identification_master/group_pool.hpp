@@ -7,8 +7,8 @@
 
 namespace tether {
 
-/// Groups of processes (an fsi_master with its codes each) that share the work: each piece goes to the first that is
-/// free.
+/// Groups of processes (an fsi_master with its codes each) that share the particles: of G groups the g-th has the
+/// particles g, g + G, ... in each step, so that a run can be repeated to the bit.
 class GroupPool : public Ensemble {
  public:
   /// All groups have said hello. Throws InputError if their codes announce no states.
@@ -20,16 +20,20 @@ class GroupPool : public Ensemble {
                                       MatrixXd& states, std::vector<std::vector<double>>& memories) override;
 
   std::size_t size() const { return groups_.size(); }
+  /// The state of each group, which beside that of its last particle holds what its codes have made in steps before
+  /// (factors): for a checkpoint. With `take_up` as many groups go on to the same bits; others, or none, to those that
+  /// the coupling's tolerance leaves open.
+  std::vector<std::vector<double>> at_hand();
+  void take_up(const std::vector<std::vector<double>>& states);
   /// Positions of the lumen's nodes in the image.
   Points lumen();
   /// Sums over all processes of all groups.
   protocol::Usage usage();
 
  private:
-  /// Sends request(i) for all i < count, each to a group that is free, and hands the replies to `take`.
-  template <class Request>
-  void deal(std::size_t count, const std::function<Request(std::size_t)>& request,
-            const std::function<void(std::size_t, typename Request::Reply)>& take);
+  /// Sends request(i) for all particles i < count, and hands the replies to `take`.
+  void deal(std::size_t count, const std::function<protocol::Advance(std::size_t)>& request,
+            const std::function<void(std::size_t, protocol::Advanced)>& take);
 
   Points lumen_in(const std::vector<double>& state) const;
 

@@ -141,6 +141,7 @@ class Job {
         fmt::print(stderr, "{}: the identification goes on from the checkpoint before, step {}\n", checkpoint.refused,
                    checkpoint.state.step);
       filter_.restore(std::move(checkpoint.state));
+      pool_.take_up(checkpoint.at_hand);
       cost_before_ = checkpoint.cost;
       saved_ = filter_.state().step;
       mark_output(output_, command_.case_file);
@@ -161,7 +162,7 @@ class Job {
   }
   void save() {
     write_estimates(output_ / "estimate.csv", parameters_, filter_.state().records);
-    write_checkpoint(output_, fingerprint_, filter_.state(), cost());
+    write_checkpoint(output_, fingerprint_, filter_.state(), pool_.at_hand(), cost());
     saved_ = filter_.state().step;
   }
   std::string what_is_saved() const {

@@ -30,6 +30,11 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::string embedded(const fs::path& picture) {
+  const std::string bytes = text_of(picture);
+  return base64(bytes.data(), bytes.size());
+}
+
 /// By name.
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> found;
@@ -137,10 +142,8 @@ class Collector {
     if (!fs::is_regular_file(folder_ / "summary.json")) return;
     const auto run = read_record<RunSummary>(folder_ / "summary.json");
     introduce("simulation", {{"title", run.title}, {"case", run.case_name}, {"sentences", sentences_of(run)}});
-    for (const fs::path& plot : pictures_in(folder_ / "plots")) {
-      const std::string bytes = text_of(plot);
-      document_["plots"].push_back({{"name", plot.stem().string()}, {"png", base64(bytes.data(), bytes.size())}});
-    }
+    for (const fs::path& plot : pictures_in(folder_ / "plots"))
+      document_["plots"].push_back({{"name", plot.stem().string()}, {"png", embedded(plot)}});
   }
 
   void take_explained(const Json& explain) {
@@ -198,7 +201,10 @@ class Collector {
     const Json diagnosis = read_result<Diagnosis>(folder_ / name / "diagnosis.json");
     if (diagnosis.is_null()) return;
     if (name.empty()) introduce("diagnosis", diagnosis);
-    document_["diagnoses"].push_back({{"label", label}, {"folder", name}, {"diagnosis", diagnosis}});
+    const fs::path misfit = folder_ / name / "plots/misfit.png";
+    const Json picture = fs::is_regular_file(misfit) ? Json(embedded(misfit)) : Json();
+    document_["diagnoses"].push_back(
+        {{"label", label}, {"folder", name}, {"diagnosis", diagnosis}, {"misfit", picture}});
   }
 
   void take_estimate(const std::string& name, const std::string& label) {

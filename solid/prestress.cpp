@@ -38,16 +38,6 @@ class Anderson {
   VectorXd last_x_, last_g_;
 };
 
-/// Factors the tangent.
-bool is_stable(Cholesky& cholesky, const SparseMatrix& tangent) {
-  try {
-    cholesky.factor(tangent);
-  } catch (const RunError&) {
-    return false;
-  }
-  return true;
-}
-
 double size_of(const Points& points) {
   return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff();
 }
@@ -69,7 +59,7 @@ StressFreeResult search(const WallMesh& mesh, const Material& material, const Ve
     wall->static_force(mesh.points, material, out_of_balance, &tangent);
     constrain(tangent, fixed, tangent.coeff(0, 0));
     if (result.iterations == 0) cholesky.analyze(tangent, 3);
-    if (!is_stable(cholesky, tangent)) {
+    if (!cholesky.factor_if_definite(tangent)) {
       result.failure = "the wall is not stable under tension and bending as they would have to be: it buckles";
       return result;
     }

@@ -205,9 +205,22 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
   model_.place_supports(displacement_);
   set_all(now);
   if (!factor_.has_factor()) factor_.analyze(tangent_, 3);
-  factor_.factor(tangent_);
+  factor_tangent();
   tangent_serves_ = false;
   origin_ = origin;
+}
+
+/// A wall that buckles is carried through it by its mass, but its tangent is indefinite: then the factor is that of one
+/// whose diagonal is larger, by the least power of ten that makes it definite. (S.11)
+void SolidSolver::factor_tangent() {
+  if (factor_.factor_if_definite(tangent_)) return;
+  const VectorXd diagonal = tangent_.diagonal().cwiseAbs();
+  for (const double more : {1e-3, 1e-2, 1e-1, 1.0, 1e1}) {
+    SparseMatrix stiffer = tangent_;
+    stiffer.diagonal() += more * diagonal;
+    if (factor_.factor_if_definite(stiffer)) return;
+  }
+  throw run_error("the wall's tangent is not positive definite: it folds");
 }
 
 /// What a step cost with this factor: its age shows in how little a call removes, not in how many there were. (S.11)

@@ -84,6 +84,7 @@ class SolidSolver {
   const SparseMatrix& current_tangent();
   void assemble_tangent();
   void make_factor(const FactorOrigin& origin);
+  void factor_tangent();
   void renew_factor_if_stale();
   void restore_factor(const FactorOrigin& origin);
   KrylovResult solve_linear(const VectorXd& rhs, VectorXd& x, double tolerance);

@@ -4,19 +4,6 @@
 #include "common/linalg/cholesky.hpp"
 
 namespace tether {
-namespace {
-
-/// Factors the tangent. It is indefinite beyond a limit load, or at an iterate too far from equilibrium.
-bool is_positive_definite(Cholesky& cholesky, const SparseMatrix& tangent) {
-  try {
-    cholesky.factor(tangent);
-  } catch (const RunError&) {
-    return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 StaticResult solve_static(const WallElements& wall, const Material& material, const Points& start,
                           const StaticLoad& load, const std::vector<int>& fixed, double tolerance, int max_iterations) {
@@ -37,7 +24,7 @@ StaticResult solve_static(const WallElements& wall, const Material& material, co
     if (result.converged || !std::isfinite(result.residual)) break;
     constrain(tangent, fixed, tangent.coeff(0, 0));
     if (result.iterations == 0) cholesky.analyze(tangent, 3);
-    if (!is_positive_definite(cholesky, tangent)) break;
+    if (!cholesky.factor_if_definite(tangent)) break;  // beyond a limit load, or too far from equilibrium
     result.positions.reshaped() += cholesky.solve(residual);
     ++result.iterations;
   }

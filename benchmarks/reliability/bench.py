@@ -4,6 +4,7 @@ import os
 import signal
 import time
 
+from circumstances import circumstances
 from jobs import Job, TETHER, clean, differences
 
 STOPPED_LIMIT = 5  # [s], for what takes a minute otherwise
@@ -80,45 +81,70 @@ class Bench:
             done.touch()
         return output
 
-    def judge(self, verb, job, output, code, end):
-        """What the fault led to, and what the same command finds after it."""
-        result = {"code": code, "seconds": round(end, 1), "message": job.message().replace(str(self.folder) + "/", ""), "orphans": job.orphans()}
+    def output(self, verb):
+        return self.folder / f"{verb}_job"
+
+    def told(self, job):
+        return job.message().replace(str(self.folder) + "/", "")
+
+    def judge(self, verb, job, code, end, **more):
+        """What a fault led to, and what the same command finds after it."""
+        result = {"code": code, "seconds": round(end, 1), "message": self.told(job), "orphans": job.orphans(), **more}
+        output = self.output(verb)
         is_saved = any(any(output.glob(f"{name}/*")) for name in ("checkpoint", "checkpoint.previous"))
         options = [] if verb == "explain" or code == 0 else ["--resume"] if is_saved else ["--overwrite"]
         if code != 0 or verb == "explain":
             again = Job(verb, self.case(verb), output, options)
             result["again"] = again.end(600)
-            result["again_message"] = again.message().replace(str(self.folder) + "/", "")
+            result["again_message"] = self.told(again)
             result["resumed"] = "--resume" in options
         result["differs"] = differences(verb, self.whole(verb), output)
         return result
+
+    def again(self, verb, job):
+        """What a command leads to that finds a fault; where it refuses to go on from there: what it does anew."""
+        begin = time.time()
+        result = {"code": job.end(300), "seconds": round(time.time() - begin, 1), "message": self.told(job), "orphans": job.orphans()}
+        if result["code"] == 2 and verb != "explain":
+            result["again"] = Job(verb, self.case(verb), self.output(verb), ["--overwrite"]).end(300)
+        result["differs"] = differences(verb, self.whole(verb), self.output(verb))
+        return result
+
+    @staticmethod
+    def absent(job):
+        return {"code": job.end(100), "seconds": 0, "message": "", "orphans": job.orphans(), "differs": ["no such process in this phase"]}
 
     def keep(self, key, result):
         self.known[key] = result
         self.file.write_text(json.dumps(self.known, indent=1))
         print(key, {k: v for k, v in result.items() if v not in ("", [], None)}, flush=True)
 
-    def signalled(self, verb, phase, program, name):
-        """A process of a program gets a signal in a phase."""
-        output = self.folder / f"{verb}_job"
-        clean(output)
+    def begun(self, verb, phase, program, is_clean=True):
+        """A job whose phase has begun, and the process of a program in it; None: there was none."""
+        output = self.output(verb)
+        if is_clean:
+            clean(output)
         pause = PAUSES.get((verb, phase))
         job = Job(verb, self.case(verb), output, fault=pause.format(program if program != "tether" else "gnuplot") if pause else None, TETHER_STOPPED_LIMIT=str(STOPPED_LIMIT))
-        begin, target = time.time(), None
+        begin = time.time()
         while job.is_running() and time.time() - begin < 120:
             if self.has_begun(verb, phase, program, job) and (target := job.process_of(program)):
-                break
+                return job, target
             time.sleep(0.01)
+        return job, None
+
+    def signalled(self, verb, phase, program, name):
+        """A process of a program gets a signal in a phase."""
+        job, target = self.begun(verb, phase, program)
         if target is None:
-            return {"code": job.end(100), "seconds": 0, "message": "", "orphans": job.orphans(), "differs": ["no such process in this phase"]}
+            return self.absent(job)
         os.kill(target, SIGNALS[name])
         job.flag.unlink(missing_ok=True)
         begin = time.time()
         if name == "STOP" and program in ("tether", "mpirun"):  # the user's own: goes on when it is let go
             time.sleep(3)
             os.kill(target, signal.SIGCONT)
-        code = job.end(120)
-        return self.judge(verb, job, output, code, time.time() - begin)
+        return self.judge(verb, job, job.end(120), time.time() - begin)
 
     @staticmethod
     def has_begun(verb, phase, program, job):
@@ -135,11 +161,10 @@ class Bench:
 
     def unwritable(self, verb, program, call, part, n, error):
         """A call that writes fails, and all after it."""
-        output = self.folder / f"{verb}_job"
-        clean(output)
+        clean(self.output(verb))
         begin = time.time()
-        job = Job(verb, self.case(verb), output, fault=f"{program}:{call}:{part or '-'}:{n}:{error}")
-        return self.judge(verb, job, output, job.end(300), time.time() - begin)
+        job = Job(verb, self.case(verb), self.output(verb), fault=f"{program}:{call}:{part or '-'}:{n}:{error}")
+        return self.judge(verb, job, job.end(300), time.time() - begin)
 
 
 def faults(bench):
@@ -152,3 +177,4 @@ def faults(bench):
         for k, (program, call, part, n) in enumerate(writes):
             error = ERRORS[k % len(ERRORS)]
             yield f"{verb}/write/{program}/{call} {part or 'folder'} {n}/{error}", lambda a=(verb, program, call, part, n, error): bench.unwritable(*a)
+    yield from circumstances(bench)

@@ -56,14 +56,14 @@ class Job:
 
     count = 0
 
-    def __init__(self, verb, case, output, options=(), fault=None, **more):
+    def __init__(self, verb, case, output, options=(), fault=None, name=None, **more):
         Job.count += 1
         self.output, self.mark = output, f"reliability-{os.getpid()}-{Job.count}"
         self.flag = output.parent / f"{output.name}.flag"
         self.flag.unlink(missing_ok=True)
         if fault:
             more |= {"LD_PRELOAD": str(PRELOAD), "TETHER_FAULT_ROOT": str(output), "TETHER_FAULT": fault, "TETHER_FAULT_FLAG": str(self.flag)}
-        self.errors = open(output.parent / f"{output.name}.err", "w+")
+        self.errors = open(output.parent / f"{name or output.name}.err", "w+")
         self.process = subprocess.Popen([TETHER, verb, case, "--output", output, "--quiet", *options], stdout=subprocess.DEVNULL, stderr=self.errors,
                                         stdin=subprocess.DEVNULL, start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), env=environment(TETHER_TEST_JOB=self.mark, **more))
 

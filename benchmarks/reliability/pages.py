@@ -21,7 +21,7 @@ def faults_of(key, result):
     itself = kind == "signal" and program == "tether" and fault == "KILL"  # it can tell nothing
     if code is None:
         wrong.append("does not end")
-    elif code not in ((0, 1, 2) if fault == "EACCES" else (0, 1)) and not itself:  # 2: what the person may not do
+    elif code not in ((0, 1, 2) if fault == "EACCES" or kind == "damage" else (0, 1)) and not itself:  # 2: what the person may not do, or has to decide
         wrong.append(f"ends with {code}")
     if code in (1, 2) and not message.strip():
         wrong.append("no message")
@@ -31,6 +31,8 @@ def faults_of(key, result):
         wrong.append("leaves " + ", ".join(result["orphans"]))
     if result.get("again", 0) != 0:
         wrong.append(f"the same command then ends with {result['again']}")
+    if "second" in result and (result["second"]["code"] != 2 or not result["second"]["message"].strip()):
+        wrong.append(f"the second ends with {result['second']['code']}")
     if result["differs"]:
         wrong.append("leaves other results: " + ", ".join(result["differs"]))
     return wrong
@@ -42,6 +44,8 @@ def cell(key, result):
         return "**" + "; ".join(wrong) + "**"
     if result["code"] == 0:
         return "goes on" + (", told" if result["message"].strip() else "")
+    if result["code"] == 2 and parts_of(key)[1] == "damage":
+        return "refused, told; then anew (`--overwrite`)"
     told = "told" if result["message"].strip() else "ended"
     return f"{told}, {result['seconds']:.1f} s" + (", resumed" if result.get("resumed") else "")
 
@@ -70,6 +74,25 @@ def writes_table(known):
         verb, kind, program, phase, fault = parts_of(key)
         if kind == "write":
             lines.append(f"| {verb} | {program} | {phase} | {fault} | {cell(key, result)} | {last_words(result)} |")
+    return lines
+
+
+def damages_table(known):
+    lines = ["| job | file | damage | the same command | said |", "|---|---|---|---|---|"]
+    for key, result in known.items():
+        verb, kind, _, _, fault = parts_of(key)
+        if kind == "damage":
+            lines.append(f"| {verb} | {key.split('/', 3)[3].rsplit('/', 1)[0]} | {fault} | {cell(key, result)} | {last_words(result)} |")
+    return lines
+
+
+def others_table(known):
+    lines = ["| job | program | phase | what happens | outcome | said |", "|---|---|---|---|---|---|"]
+    for key, result in known.items():
+        verb, kind, program, phase, fault = parts_of(key)
+        if kind == "other":
+            said = last_words(result["second"] if "second" in result else result)
+            lines.append(f"| {verb} | {program} | {phase} | {fault} | {cell(key, result)} | {said} |")
     return lines
 
 
@@ -113,7 +136,12 @@ def write_page(known, folder):
             "A process that is stopped (SIGSTOP) is waited for 5 s here (`TETHER_STOPPED_LIMIT`, a minute otherwise); the front-end and mpirun are let go on after three. SIGKILL of the front-end itself can be told by nobody.", "",
             *signals_table(known), "", "## Files that cannot be written", "",
             "By a library between program and kernel (`tests/faults/faults.c`): the call named fails on that file, and all matching ones after it (number: which of them is the first to fail).", "",
-            *writes_table(known), "", *of_chaos(folder), *of_haul(folder)]
+            *writes_table(known), "", "## Damaged files", "",
+            "In the output folder of a simulation and an identification that were killed in a step, and of an explanation that had come to its end; the same command, with `--resume` where it has that.", "",
+            *damages_table(known), "", "## Other circumstances", "",
+            "*No more memory*: a process may not have a megabyte more (`RLIMIT_AS`). The clock jumps in all processes, two seconds after their start. The disk is a tmpfs that is made larger afterwards; one that vanishes is a mount that is taken away and given back. "
+            "Of a second job: what it is told.", "",
+            *others_table(known), "", *of_chaos(folder), *of_haul(folder)]
     (ROOT / "docs/reliability.md").write_text("\n".join(text))
     for key, what in wrong.items():
         print("not green:", key, "; ".join(what))

@@ -107,13 +107,16 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
 }
 
 void Cholesky::factor(const SparseMatrix& matrix) {
+  if (!factor_if_definite(matrix)) throw run_error("a matrix that should be positive definite is not");
+}
+
+bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
   if (data_->factor == nullptr) analyze(matrix);
   cholmod_sparse a = view(matrix);
   cholmod_factorize(&a, data_->factor, &data_->common);
-  if (data_->common.status == CHOLMOD_NOT_POSDEF)
-    throw run_error("a matrix that should be positive definite is not, at unknown {}", data_->factor->minor);
   if (data_->common.status < 0)
     throw run_error("a sparse factorisation failed (CHOLMOD status {})", data_->common.status);
+  return data_->common.status != CHOLMOD_NOT_POSDEF;
 }
 
 void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {

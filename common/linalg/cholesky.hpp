@@ -21,6 +21,8 @@ class Cholesky {
   void analyze(const SparseMatrix& matrix, int components = 1);
   /// Same pattern as analyzed. Throws RunError if the matrix is not positive definite.
   void factor(const SparseMatrix& matrix);
+  /// The same; returns whether the matrix is positive definite. If it is not, there is nothing to solve with.
+  bool factor_if_definite(const SparseMatrix& matrix);
   /// rhs: one column or several; overwritten by the solution.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const;
   VectorXd solve(const VectorXd& rhs) const;

@@ -405,7 +405,7 @@ using ToObservedSolid =
     std::variant<GetInterface, SetParameters, GetState, SetState, BeginStep, EndStep, Write, Stop, SolidEvaluate,
                  SolidTangent, SolidResidual, SolidProduct, SolidPrecondition, Correct, Withdraw>;
 /// To an fsi_master that is a partner itself. It answers GetUsage for its whole group.
-using ToGroup = std::variant<GetInterface, SetParameters, GetState, Write, Stop, Advance, Simulate, GetUsage>;
+using ToGroup = std::variant<GetInterface, SetParameters, GetState, SetState, Write, Stop, Advance, Simulate, GetUsage>;
 /// To an identification_master that serves runs. Its Hello is that of the model.
 using ToRunService = std::variant<OrderRuns, NextRun, Stop>;
 /// A manager of measurements of the lumen.

@@ -12,7 +12,7 @@ import { lookAlikeSection } from "./parts/look_alikes.js";
 import { estimateSection } from "./parts/estimates.js";
 import { forceSection } from "./parts/force.js";
 import { modelsSection } from "./parts/path.js";
-import { plotSection } from "./parts/plots.js";
+import { misfitSection, plotSection } from "./parts/plots.js";
 import { provenanceSection } from "./parts/provenance.js";
 import { publishedSection } from "./parts/published.js";
 import { rankingSection } from "./parts/ranking.js";
@@ -31,6 +31,7 @@ function parts(report) {
     () => publishedSection(report),
     () => rankingSection(report),
     () => lookAlikeSection(report),
+    () => misfitSection(report),
     () => detectableSection(report),
     () => modelsSection(report),
     () => estimateSection(report),

@@ -7,7 +7,8 @@
               KILL, TERM, INT, STOP: the program gets this signal;
               PAUSE: it makes the file TETHER_FAULT_FLAG and waits until that is gone, five seconds at most
    TETHER_FAULT_ROOT: the folder whose files are meant.
-   TETHER_FAULT_LOG: a file that gets a line "PROGRAM CALL PATH" for each of these calls. */
+   TETHER_FAULT_LOG: a file that gets a line "PROGRAM CALL PATH" for each of these calls.
+   TETHER_FAULT_CLOCK: by so many seconds the time of day jumps, in each process two seconds after its start. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -20,7 +21,9 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
@@ -153,3 +156,34 @@ size_t fwrite(const void* data, size_t size, size_t count, FILE* file) {
 int rename(const char* from, const char* to) { return fails("rename", to) ? -1 : REAL(rename)(from, to); }
 int mkdir(const char* path, mode_t mode) { return fails("mkdir", path) ? -1 : REAL(mkdir)(path, mode); }
 int fsync(int descriptor) { return fails_on("sync", descriptor) ? -1 : REAL(fsync)(descriptor); }
+
+/* By how much the time of day is wrong by now [s]. */
+static time_t jump(void) {
+  static time_t begin = 0;
+  const char* given = getenv("TETHER_FAULT_CLOCK");
+  struct timespec now;
+  if (given == NULL || syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &now) != 0) return 0;
+  if (begin == 0) begin = now.tv_sec;
+  return now.tv_sec >= begin + 2 ? atol(given) : 0;
+}
+__attribute__((constructor)) static void begin_clock(void) { jump(); }
+
+int clock_gettime(clockid_t clock, struct timespec* value) {
+  const int result = (int)syscall(SYS_clock_gettime, clock, value);
+  if (result == 0 && clock == CLOCK_REALTIME) value->tv_sec += jump();
+  return result;
+}
+int gettimeofday(struct timeval* restrict value, void* restrict zone) {
+  struct timespec now;
+  (void)zone;
+  clock_gettime(CLOCK_REALTIME, &now);
+  value->tv_sec = now.tv_sec;
+  value->tv_usec = now.tv_nsec / 1000;
+  return 0;
+}
+time_t time(time_t* value) {
+  struct timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  if (value != NULL) *value = now.tv_sec;
+  return now.tv_sec;
+}

@@ -317,7 +317,7 @@ TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
   for (const bool with_data : {false, true}) {
     IdentificationState state = state_after(data, false);
     if (!with_data) state.last_mean = VectorXd();
-    write_checkpoint(folder.path(), 7, state, {1.5, 2.5, 0.5, 3});
+    write_checkpoint(folder.path(), 7, state, {{1, 2}, {3}}, {1.5, 2.5, 0.5, 3});
     const IdentificationCheckpoint found = read_identification_checkpoint(folder.path(), 7);
     EXPECT_EQ(found.state.step, state.step);
     EXPECT_EQ(found.state.theta, state.theta);
@@ -325,6 +325,7 @@ TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
     EXPECT_EQ(found.state.records.size(), state.records.size());
     EXPECT_EQ(found.state.records.back().expected_chi_square, state.records.back().expected_chi_square);
     EXPECT_EQ(found.state.innovations.squares_before, state.innovations.squares_before);
+    EXPECT_EQ(found.at_hand, (std::vector<std::vector<double>>{{1, 2}, {3}}));
     EXPECT_EQ(found.cost.cpu_seconds, 2.5);
     EXPECT_EQ(found.cost.moved_values, 3);
     EXPECT_THROW(read_identification_checkpoint(folder.path(), 8), InputError);
@@ -337,9 +338,9 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
   data.traces.push_back(front_trace({0.2, 0.4}));
   IdentificationState state = state_after(data, false);
   const auto step = state.step;
-  write_checkpoint(folder.path(), 7, state, {});
+  write_checkpoint(folder.path(), 7, state, {}, {});
   ++state.step;
-  write_checkpoint(folder.path(), 7, state, {});
+  write_checkpoint(folder.path(), 7, state, {}, {});
   EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1);
   const auto newest = folder / "checkpoint/identification.bin";
   std::filesystem::resize_file(newest, std::filesystem::file_size(newest) - 1);
@@ -348,7 +349,7 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
             std::string::npos);
   std::filesystem::remove(newest);
   EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step);
-  write_checkpoint(folder.path(), 8, state, {});
+  write_checkpoint(folder.path(), 8, state, {}, {});
   EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError) << "that before is of this case, but old";
   std::filesystem::remove(newest);
   std::filesystem::resize_file(folder / "checkpoint/identification.previous", 9);

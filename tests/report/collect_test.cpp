@@ -151,6 +151,7 @@ TEST_F(Collect, ADiagnosisAndItsCase) {
   write("case_as_run.yaml", fmt::format("# case_file: {}\nname: tube\n", (folder / "tube/case.yaml").string()));
   const Json report = document();
   EXPECT_EQ(report["verdict"], "nothing_missing");
+  EXPECT_TRUE(report["diagnoses"][0]["misfit"].is_null()) << "there is no picture";
   const Json& provenance = report["provenance"];
   EXPECT_NE(provenance["cases"][0]["text"].get<std::string>().find("name: tube"), std::string::npos);
   ASSERT_EQ(provenance["files"].size(), 1U);
@@ -177,6 +178,7 @@ TEST_F(Collect, AnExplanation) {
   write("model_0/summary.json", json_of(summary));
   write("model_1/comparison.json", comparison);
   write("diagnosis_0/diagnosis.json", diagnosis);
+  write("diagnosis_0/plots/misfit.png", "PNG");
   write("identification_1/estimate.json", estimate);
   write("force/force.json", json_of(ForceFound{}));
   write("force/run/comparison.json", comparison);
@@ -188,6 +190,7 @@ TEST_F(Collect, AnExplanation) {
   EXPECT_EQ(report["runs"][1]["label"], "after: with x");
   EXPECT_EQ(report["runs"][2]["folder"], "force/run");
   EXPECT_EQ(report["diagnoses"][0]["label"], "model 0");
+  EXPECT_EQ(report["diagnoses"][0]["misfit"], "UE5H");
   EXPECT_EQ(report["estimates"][0]["label"], "model 1");
   EXPECT_TRUE(report["estimates"][0]["over_time"].is_null()) << "there is no table";
   EXPECT_TRUE(report["force"].contains("regions"));

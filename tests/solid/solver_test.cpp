@@ -3,6 +3,7 @@
 #include "solid/solid_solver.hpp"
 #include "solid/supports/registry.hpp"
 #include "tests/solid/tube.hpp"
+#include "tests/solid/walls.hpp"
 
 // The solver: its equations and tangent, its two ways through a step, and states that continue bit for bit.
 namespace tether {
@@ -99,6 +100,38 @@ TEST(SolidSolver, ProductIsSymmetricAndPositiveAndKeepsClampedNodesStill) {
   EXPECT_GT(v.dot(kv), 0);
   const VectorXd z = vessel.solver.precondition(v);
   for (int unknown : vessel.model.clamped_unknowns()) EXPECT_EQ(z[unknown], 0);
+}
+
+/// A strip pressed together by a twentieth, which it does not bear: in so long a step its mass does not hold it, and
+/// the tangent is indefinite. What preconditions is not, or the run would end there.
+TEST(SolidSolver, AWallThatBucklesHasAPreconditionerThatIsPositiveDefinite) {
+  const WallMesh strip = plate({10, 1, 0.1}, {40, 4}, 1);
+  std::vector<int> ends = nodes_of(strip.rings[0].triangles);
+  const std::vector<int> other = nodes_of(strip.rings[1].triangles);
+  ends.insert(ends.end(), other.begin(), other.end());
+  WallModel model(strip, {.material = "neo_hookean", .material_values = {1e6, 0.45}, .density = 1}, strip.points, ends,
+                  {});
+  SolidSolver solver(model);
+  Points pressed = Points::Zero(3, strip.points.cols());
+  pressed.row(0) = -0.05 * strip.points.row(0);
+  solver.displace(pressed);
+  solver.begin_step(0, 1e-2);
+  solver.residual({}, Points::Zero(3, strip.interface_nodes));
+
+  const double k = 0.6 * std::numbers::pi;  // its sine is zero at both ends
+  Points waves = Points::Zero(3, strip.points.cols());
+  for (Eigen::Index node = 0; node < waves.cols(); ++node) {
+    const Vec3 x = strip.points.col(node);
+    waves.col(node) << -(x[2] - 0.05) * k * std::cos(k * x[0]), 0, std::sin(k * x[0]);
+  }
+  for (const int unknown : model.clamped_unknowns()) waves.reshaped()[unknown] = 0;
+  const VectorXd bent = waves.reshaped();
+  EXPECT_LT(bent.dot(solver.product(bent)), 0);
+  Random random(3);
+  for (int i = 0; i < 10; ++i) {
+    const VectorXd v = random.matrix(model.unknowns(), 1);
+    EXPECT_GT(v.dot(solver.precondition(v)), 0);
+  }
 }
 
 /// Of the residual at a given iterate: the product is its derivative (viscosity leaves out a part of the size of the
