@@ -37,7 +37,7 @@ PAUSES = {  # where a program waits until the fault was made
     ("explain", "report"): "tether:open:explain.json:1:PAUSE",
 }
 LINES = {("simulate", "step"): ("timeseries.csv", 8), ("identify", "step"): ("estimate.csv", 4), ("explain", "first run"): ("model_0/timeseries.csv", 8),
-         ("explain", "diagnosis"): ("diagnosis_0/candidates/runs/base/timeseries.csv", 8)}
+         ("explain", "diagnosis"): ("diagnosis_1/coarse/runs/solid.material.young/timeseries.csv", 4)}
 WRITES = {  # program, call, part of the path, which of them
     "simulate": [("tether", "mkdir", "", 1), ("tether", "open", ".lock", 1), ("fsi_master", "open", "case_as_run.yaml", 1), ("fsi_master", "open", "timeseries.csv", 1),
                  ("fsi_master", "open", "lumen.motion", 1), ("fsi_master", "write", "case_as_run.yaml", 1), ("fsi_master", "write", "timeseries.csv", 1),

@@ -7,12 +7,12 @@ import time
 
 from jobs import PRELOAD, Job, clean
 
-DAMAGED = {  # of a job that was killed in its step
+DAMAGED = {  # of a job that was killed
     "simulate": ("checkpoint/master.bin", "checkpoint/fluid.bin", "checkpoint/solid.bin", "lumen.motion", "timeseries.csv", "fluid.pvd"),
     "identify": ("checkpoint/identification.bin", "estimate.csv"),
-    "explain": ("steps.json", "model_0/lumen.motion", "diagnosis_0/candidates/runs/base/run.json", "diagnosis_0/candidates/runs/base/lumen.motion"),
+    "explain": ("steps.json", "model_0/lumen.motion", "diagnosis_1/coarse/runs/base/run.json", "diagnosis_1/coarse/runs/base/lumen.motion"),
 }
-WHOLE_BEFORE = ("explain",)  # of a job that came to its end
+AT_WORK = {"simulate": "step", "identify": "step", "explain": "diagnosis"}  # a phase with much behind it
 MEMORY = {"simulate": {"start": ("fsi_master", "fluid", "solid"), "step": ("fsi_master", "fluid", "solid"), "report": ("tether_picture",)},
           "identify": {"step": ("identification_master", "fsi_master")}, "explain": {"diagnosis": ("identification_master", "solid")}}
 LITTLE = 1 << 20  # bytes that a process may still ask for
@@ -48,12 +48,7 @@ def stopped(bench, verb, phase, program):
 
 def damaged(bench, verb, name, damage):
     """The same command finds a file of its output damaged."""
-    if verb in WHOLE_BEFORE:
-        clean(bench.output(verb))
-        job = Job(verb, bench.case(verb), bench.output(verb))
-        was_stopped = job.end(300) == 0
-    else:
-        job, was_stopped = stopped(bench, verb, "step", "fsi_master")
+    job, was_stopped = stopped(bench, verb, AT_WORK[verb], "fsi_master")
     file = bench.output(verb) / name
     if not was_stopped or not file.exists():
         return {"code": 1, "seconds": 0, "message": job.message(), "orphans": job.orphans(), "differs": [f"{name} is not there"]}
@@ -147,7 +142,7 @@ def circumstances(bench):
         for phase, programs in phases.items():
             for program in programs:
                 yield f"{verb}/other/{program}/{phase}/no more memory", lambda a=(verb, phase, program): short_of_memory(bench, *a)
-    for verb, phase in (("simulate", "step"), ("identify", "step"), ("explain", "diagnosis")):
+    for verb, phase in AT_WORK.items():
         for hours in (-1, 1):
             yield f"{verb}/other/all/all/the clock jumps by {hours:+d} h", lambda a=(verb, hours): clock_jumps(bench, *a)
         yield f"{verb}/other/all/{phase}/the disk vanishes", lambda a=(verb, phase): disk_vanishes(bench, *a)

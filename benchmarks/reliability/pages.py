@@ -137,7 +137,7 @@ def write_page(known, folder):
             *signals_table(known), "", "## Files that cannot be written", "",
             "By a library between program and kernel (`tests/faults/faults.c`): the call named fails on that file, and all matching ones after it (number: which of them is the first to fail).", "",
             *writes_table(known), "", "## Damaged files", "",
-            "In the output folder of a simulation and an identification that were killed in a step, and of an explanation that had come to its end; the same command, with `--resume` where it has that.", "",
+            "In the output folder of a simulation and an identification that were killed in a step, and of an explanation that was killed in its diagnosis; the same command, with `--resume` where it has that.", "",
             *damages_table(known), "", "## Other circumstances", "",
             "*No more memory*: a process may not have a megabyte more (`RLIMIT_AS`). The clock jumps in all processes, two seconds after their start. The disk is a tmpfs that is made larger afterwards; one that vanishes is a mount that is taken away and given back. "
             "Of a second job: what it is told.", "",

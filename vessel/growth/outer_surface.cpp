@@ -15,8 +15,9 @@ namespace tether {
 
 namespace {
 
-// det T of a prism: below `poor` its neighbourhood is improved, below `folded` less thickness is aimed at
-constexpr double poor = 0.3, folded = 0.1;
+// det T of a prism: below `poor` its neighbourhood is improved; below `sound` less thickness is aimed at, for the wall
+// of an element so skewed gives way under its own tension (decision 101); below `folded` there must be less, or no wall
+constexpr double poor = 0.3, sound = 0.2, folded = 0.1;
 constexpr double thin = 0.8;             ///< of the asked thickness: below it the neighbourhood is improved
 constexpr double thickness_weight = 50;  ///< an error of a tenth weighs as a prism half as good
 constexpr double less = 0.75;            ///< of the aim where there is no room, at a time
@@ -32,9 +33,11 @@ Mat3 corners_of(const Points& points, const Triangle& t) {
 /// The growth of one wall: what stays the same, and the state.
 class Growth {
  public:
-  Growth(const GrowthBase& base, const VectorXd& asked)
+  /// least: det T that all prisms shall have.
+  Growth(const GrowthBase& base, const VectorXd& asked, double least)
       : base_(base),
         asked_(asked),
+        least_(least),
         aim_(asked),
         locator_(base.points, base.triangles),
         top_(straight()),
@@ -64,7 +67,7 @@ class Growth {
   std::vector<int> nodes_to_move() const {
     Marks marked(static_cast<std::size_t>(base_.points.cols()), 0);
     for (const Triangle& t : base_.triangles)
-      if (worst(t) < poor)
+      if (worst(t) < poor || any_layer_folds(t))
         for (const int node : t) marked[static_cast<std::size_t>(node)] = 1;
     for (int node = 0; node < base_.points.cols(); ++node)
       if (distance(node) < thin * aim_[node]) marked[static_cast<std::size_t>(node)] = 1;
@@ -147,7 +150,7 @@ class Growth {
   std::vector<int> unfit() const {
     std::vector<int> bad;
     for (std::size_t i = 0; i < base_.triangles.size(); ++i)
-      if (worst(base_.triangles[i]) < folded || any_layer_folds(base_.triangles[i])) bad.push_back(static_cast<int>(i));
+      if (worst(base_.triangles[i]) < least_ || any_layer_folds(base_.triangles[i])) bad.push_back(static_cast<int>(i));
     for (const int triangle : crossing_triangles(top_, base_.triangles)) bad.push_back(triangle);
     return bad;
   }
@@ -221,6 +224,7 @@ class Growth {
 
   const GrowthBase& base_;
   const VectorXd& asked_;
+  double least_;
   VectorXd aim_;
   TriangleLocator locator_;
   Points top_;
@@ -230,7 +234,11 @@ class Growth {
 }  // namespace
 
 OuterSurface grow_outer_surface(const GrowthBase& base, const VectorXd& asked) {
-  return Growth(base, asked).grown();
+  try {
+    return Growth(base, asked, sound).grown();
+  } catch (const PlacedError&) {
+    return Growth(base, asked, folded).grown();
+  }
 }
 
 }  // namespace tether

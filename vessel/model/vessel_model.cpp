@@ -13,7 +13,7 @@ namespace tether {
 
 namespace {
 
-constexpr double poor_radius_ratio = 0.1, poor_jacobian = 0.1, thinner = 0.95;
+constexpr double poor_radius_ratio = 0.1, poor_jacobian = 0.2, thinner = 0.95;
 
 Thickness thickness_of(const ThicknessCase& given) {
   return {given.thickness, given.fraction_of_radius};
@@ -88,8 +88,10 @@ std::vector<std::string> warnings_of(const ModelQuality& q) {
     warnings.push_back(fmt::format("a tetrahedron of the blood near {} is nearly flat: radius ratio {:.2g}",
                                    place(q.blood.worst_place), q.blood.least_radius_ratio));
   if (q.wall.least_jacobian < poor_jacobian)
-    warnings.push_back(fmt::format("a prism of the wall near {} is nearly folded: Jacobian {:.2g}",
-                                   place(q.wall.worst_place), q.wall.least_jacobian));
+    warnings.push_back(
+        fmt::format("a prism of the wall near {} is nearly folded (Jacobian {:.2g}), and may give way as "
+                    "the model runs: ask for shorter edges or less thickness there",
+                    place(q.wall.worst_place), q.wall.least_jacobian));
   if (q.thickness.least_share < thinner)
     warnings.push_back(fmt::format("the wall is thinner than asked on {:.3g} {}2, most near {}: {:.0f} % of it",
                                    q.thickness.thinner_area, q.unit, place(q.thickness.thinnest_place),

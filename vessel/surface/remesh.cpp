@@ -4,6 +4,7 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -144,6 +145,25 @@ CgalMesh remeshed_by_radius(const CgalMesh& surface, const EdgeLength& length, c
     }
 }
 
+/// Beside the borders of parts some triangles stay caps and needles, which neither a wall nor tetrahedra can stand on:
+/// caps are flipped, needles collapsed. Rims stay as they are.
+void remove_slivers(CgalMesh& mesh, double edge) {
+  constexpr double widest_angle = -0.866;  // the cosine of 150 degrees
+  constexpr double longest_to_shortest = 5, shortest = 0.3;
+  const FaceNumbers ids = ids_of(mesh);
+  auto rim = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:rim", false).first;
+  auto on_rim = mesh.add_property_map<CgalMesh::Vertex_index, bool>("v:rim", false).first;
+  for (const auto e : mesh.edges()) {
+    const auto h = mesh.halfedge(e);
+    rim[e] = ids[mesh.face(h)] != ids[mesh.face(mesh.opposite(h))];
+    if (rim[e]) on_rim[mesh.source(h)] = on_rim[mesh.target(h)] = true;
+  }
+  PMP::experimental::remove_almost_degenerate_faces(
+      mesh, widest_angle, longest_to_shortest, shortest * edge,
+      CGAL::parameters::edge_is_constrained_map(rim).vertex_is_constrained_map(on_rim));
+  mesh.collect_garbage();
+}
+
 }  // namespace
 
 LabelledSurface remeshed(const LabelledSurface& surface, const EdgeLength& length, const std::vector<double>& radius) {
@@ -153,6 +173,7 @@ LabelledSurface remeshed(const LabelledSurface& surface, const EdgeLength& lengt
       mesh = remeshed_by_radius(mesh, length, radius, CapAt(surface));
     else
       remesh_part(mesh, {mesh.faces().begin(), mesh.faces().end()}, length.most);
+    remove_slivers(mesh, length.per_radius > 0 ? length.least : length.most);
   } catch (const CGAL::Failure_exception& failure) {
     throw input_error(
         "no triangles with edges of these lengths can be made (CGAL: {}): try other edges, or "
