@@ -55,12 +55,19 @@ RunStore shared_runs(const CaseFile& file) {
   return {folder, TETHER_VERSION + said_of(&tree, "coupling") + said_of(tree.find("output"), "points")};
 }
 
-/// Answers until Stop. What a handler throws ends the service.
+/// Answers until Stop. What a handler throws ends the service; without a front-end it ends without a word, too.
 void answer_all(protocol::Channel& front_end, RunService& service) {
-  front_end.send(pack(service.hello()));
   protocol::Packet request;
+  const auto receive = [&] {
+    try {
+      return front_end.receive();
+    } catch (const protocol::PeerDied&) {
+      protocol::end_job(exit_run_failed);
+    }
+  };
+  front_end.send(pack(service.hello()));
   do {
-    request = front_end.receive();
+    request = receive();
     front_end.send(protocol::reply_to<protocol::ToRunService>(request, service));
   } while (!protocol::holds<protocol::Stop>(request));
 }

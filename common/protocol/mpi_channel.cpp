@@ -71,6 +71,7 @@ Packet MpiChannel::take(MPI_Message message, const MPI_Status& status) {
 void MpiChannel::close(int exit_code) {
   flush();
   watch_.release(peer());
+  if (to_ == To::master && is_dead(peer())) end_job(exit_code);  // nobody to take leave of: MPI would complain
   const double limit = to_ == To::partner ? master_waits : partner_waits;
   const Guard deadline(0.5, [exit_code, limit](double seconds) {
     if (seconds > limit) end_job(exit_code);
