@@ -57,7 +57,8 @@ Checkpoint newest_in(const fs::path& output) {
   try {
     return read_folder(newest);
   } catch (const InputError& error) {
-    if (!fs::exists(before)) throw;
+    if (!fs::exists(before))
+      throw input_error("{}; there is none before it: start anew without --resume", error.what());
     Checkpoint checkpoint = read_folder(before);
     checkpoint.refused = error.what();
     return checkpoint;

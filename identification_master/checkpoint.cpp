@@ -121,7 +121,8 @@ std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::pat
   try {
     return read_file(newest);
   } catch (const InputError& error) {
-    if (!fs::exists(before)) throw;
+    if (!fs::exists(before))
+      throw input_error("{}; there is none before it: start anew without --resume", error.what());
     auto found = read_file(before);
     found.second.refused = error.what();
     return found;

@@ -36,7 +36,7 @@ PAUSES = {  # where a program waits until the fault was made
     ("identify", "report"): "{}:open:plots/:1:PAUSE",
     ("explain", "report"): "tether:open:explain.json:1:PAUSE",
 }
-LINES = {("simulate", "step"): ("timeseries.csv", 8), ("identify", "step"): ("estimate.csv", 4), ("explain", "first run"): ("model_0/timeseries.csv", 8),
+LINES = {("simulate", "step"): ("timeseries.csv", 8), ("simulate", "later"): ("timeseries.csv", 14), ("identify", "step"): ("estimate.csv", 4), ("identify", "later"): ("estimate.csv", 14), ("explain", "first run"): ("model_0/timeseries.csv", 8),
          ("explain", "diagnosis"): ("diagnosis_1/coarse/runs/solid.material.young/timeseries.csv", 4)}
 WRITES = {  # program, call, part of the path, which of them
     "simulate": [("tether", "mkdir", "", 1), ("tether", "open", ".lock", 1), ("fsi_master", "open", "case_as_run.yaml", 1), ("fsi_master", "open", "timeseries.csv", 1),

@@ -8,11 +8,11 @@ import time
 from jobs import PRELOAD, Job, clean
 
 DAMAGED = {  # of a job that was killed
-    "simulate": ("checkpoint/master.bin", "checkpoint/fluid.bin", "checkpoint/solid.bin", "lumen.motion", "timeseries.csv", "fluid.pvd"),
+    "simulate": ("checkpoint/master.bin", "checkpoint/fluid.bin", "checkpoint/solid.bin", "lumen.motion", "timeseries.csv"),
     "identify": ("checkpoint/identification.bin", "estimate.csv"),
     "explain": ("steps.json", "model_0/lumen.motion", "diagnosis_1/coarse/runs/base/run.json", "diagnosis_1/coarse/runs/base/lumen.motion"),
 }
-AT_WORK = {"simulate": "step", "identify": "step", "explain": "diagnosis"}  # a phase with much behind it
+AT_WORK = {"simulate": "later", "identify": "later", "explain": "diagnosis"}  # two checkpoints are behind it, or a run
 MEMORY = {"simulate": {"start": ("fsi_master", "fluid", "solid"), "step": ("fsi_master", "fluid", "solid"), "report": ("tether_picture",)},
           "identify": {"step": ("identification_master", "fsi_master")}, "explain": {"diagnosis": ("identification_master", "solid")}}
 LITTLE = 1 << 20  # bytes that a process may still ask for
@@ -137,6 +137,8 @@ def circumstances(bench):
     for verb, names in DAMAGED.items():
         for name in names:
             for damage in DAMAGES:
+                if damage == "a bit flipped" and name.endswith(".csv"):
+                    continue  # text, which anybody may edit, has no checksum
                 yield f"{verb}/damage/same command/{name}/{damage}", lambda a=(verb, name, damage): damaged(bench, *a)
     for verb, phases in MEMORY.items():
         for phase, programs in phases.items():

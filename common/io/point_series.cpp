@@ -61,7 +61,8 @@ void PointSeriesWriter::resume(std::int64_t records) {
   const PointSeries found(kind_, path_);
   if (found.points() != points_) throw input_error("{}: is the {} of another case", path_.string(), kind_.what);
   if (static_cast<std::int64_t>(found.times().size()) < records)
-    throw input_error("{}: has {} records; the run to resume made {}", path_.string(), found.times().size(), records);
+    throw input_error("{}: has {} records; the run to resume made {}: start anew without --resume", path_.string(),
+                      found.times().size(), records);
   checksum_ = found.checksum_after(records);
   std::filesystem::resize_file(
       path_, header_size(kind_, points_.cols()) + static_cast<std::uintmax_t>(records) * record_size(points_.cols()));
