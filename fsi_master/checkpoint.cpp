@@ -1,6 +1,7 @@
 #include "fsi_master/checkpoint.hpp"
 
 #include "common/base/checked_file.hpp"
+#include "common/base/write_error.hpp"
 #include "common/protocol/packet.hpp"
 
 namespace tether {
@@ -81,7 +82,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   statistics.numbers([&](double& value) { numbers.push_back(value); });
   const Snapshot& s = checkpoint.snapshot;
   fs::remove_all(fresh);
-  fs::create_directories(fresh);
+  make_folder(fresh);
   const auto write = [&](const char* name, const Bytes& bytes) {
     write_checked(fresh / name, checkpoint.fingerprint, checkpoint.step, bytes);
   };

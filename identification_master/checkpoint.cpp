@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/base/checked_file.hpp"
+#include "common/base/write_error.hpp"
 #include "common/protocol/packet.hpp"
 
 namespace tether {
@@ -143,7 +144,7 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
          std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
                              static_cast<double>(cost.moved_values)});
   const fs::path folder = output / "checkpoint", fresh = folder / "identification.new";
-  fs::create_directories(folder);
+  make_folder(folder);
   write_checked(fresh, fingerprint, state.step, writer.take());
   if (const fs::path newest = newest_in(folder); fs::exists(newest)) fs::rename(newest, before_in(folder));
   fs::rename(fresh, newest_in(folder));

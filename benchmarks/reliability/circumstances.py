@@ -149,7 +149,8 @@ def circumstances(bench):
             yield f"{verb}/other/all/all/the clock jumps by {hours:+d} h", lambda a=(verb, hours): clock_jumps(bench, *a)
         yield f"{verb}/other/all/{phase}/the disk vanishes", lambda a=(verb, phase): disk_vanishes(bench, *a)
         yield f"{verb}/other/all/{phase}/the folder is removed", lambda a=(verb, phase): folder_removed(bench, *a)
-        yield f"{verb}/other/all/{phase}/a second job in the folder", lambda a=(verb, phase): second_job(bench, *a)
+        early = phase if verb == "explain" else "step"  # or the first has ended before the second begins
+        yield f"{verb}/other/all/{early}/a second job in the folder", lambda a=(verb, early): second_job(bench, *a)
     for verb, sizes in (("simulate", (8, 100, 400, 1500, 4000)), ("identify", (8, 400, 1600)), ("explain", (100, 1000, 4000))):
         for kilobytes in sizes:
             yield f"{verb}/other/all/all/a disk of {kilobytes} kB", lambda a=(verb, kilobytes): disk_fills(bench, *a)

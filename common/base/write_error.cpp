@@ -33,6 +33,11 @@ RunError write_error(const std::filesystem::path& file) {
   return run_error("{}: cannot be written", file.string());
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::create_directory(folder, error) && error) throw write_error(folder);
+}
+
 void refuse_folder(const std::filesystem::path& folder, const char* what, int error_number) {
   const bool is_of_disk = error_number == ENOSPC || error_number == EDQUOT || error_number == EIO;
   const std::string text = fmt::format("{}: {}: {}", folder.string(), what, std::strerror(error_number));

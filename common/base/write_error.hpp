@@ -10,6 +10,8 @@ namespace tether {
 /// its disk is full, or what the call that failed last has said (quota, failure, no permission). To be called before
 /// others.
 RunError write_error(const std::filesystem::path& file);
+/// Makes a folder in one that is there: one that was removed meanwhile is not made anew. Throws as above.
+void make_folder(const std::filesystem::path& folder);
 /// Throws "FOLDER: cannot be made: CAUSE": InputError for what the person may not do (no permission, a file is there),
 /// RunError for what the disk cannot (full, quota, failure). what: "cannot be made", "cannot be written to".
 [[noreturn]] void refuse_folder(const std::filesystem::path& folder, const char* what, int error_number);

@@ -52,6 +52,13 @@ Pids processes(Condition condition) {
   return pids;
 }
 
+bool is_launcher(const std::string& program) {
+  return program == "mpirun" || program == "mpiexec" || program == "orterun" || program == "orted";
+}
+
+const pid_t parent_at_start = getppid();
+const bool was_launched = is_launcher(name_of(parent_at_start));
+
 /// Open MPI's processes behind this one: the mpirun or orted that started it, or the orted that it has itself started
 /// to spawn without mpirun.
 Pids launchers() {
@@ -59,7 +66,7 @@ Pids launchers() {
   Pids pids = processes([](const auto& process) {
     return parent_of(process) == process_id() && name_of(std::atoll(process.filename().c_str())) == "orted";
   });
-  if (parent == "mpirun" || parent == "mpiexec" || parent == "orterun" || parent == "orted") pids.push_back(getppid());
+  if (is_launcher(parent)) pids.push_back(getppid());
   return pids;
 }
 
@@ -103,6 +110,10 @@ Peer marking_master() {
   const auto space = mark.rfind(' ');
   if (space == std::string::npos) return {"the master"};
   return {"the master", mark.substr(0, space), std::atoll(mark.c_str() + space + 1)};
+}
+
+bool launcher_is_gone() {
+  return was_launched && getppid() != parent_at_start;
 }
 
 void leave_reaper(const Pids& pids) {

@@ -19,6 +19,9 @@ std::vector<std::int64_t> marked_children();
 /// The master that spawned this process, from its own environment; pid 0 if it was not spawned.
 Peer marking_master();
 
+/// Whether the mpirun or orted that started this process has ended.
+bool launcher_is_gone();
+
 /// Leaves a process behind that ends `pids` half a second later (first this process's exit code should reach mpirun),
 /// and three seconds later an mpirun that still runs: it may hang in its own end when a process of its job died.
 void leave_reaper(const std::vector<std::int64_t>& pids);

@@ -71,12 +71,13 @@ Packet MpiChannel::take(MPI_Message message, const MPI_Status& status) {
 void MpiChannel::close(int exit_code) {
   flush();
   watch_.release(peer());
-  if (to_ == To::master && is_dead(peer())) end_job(exit_code);  // nobody to take leave of: MPI would complain
+  // Nobody to take leave of, or nobody who would see to it: MPI would complain.
+  if (launcher_is_gone() || (to_ == To::master && is_dead(peer()))) end_job(exit_code);
   const double limit = to_ == To::partner ? master_waits : partner_waits;
   const Guard deadline(0.5, [exit_code, limit](double seconds) {
     if (seconds > limit) end_job(exit_code);
   });
-  check_mpi(MPI_Comm_disconnect(&communicator_), "MPI_Comm_disconnect");
+  if (MPI_Comm_disconnect(&communicator_) != MPI_SUCCESS) end_job(exit_code);  // the launcher has just gone
 }
 
 /// Throws RunError if there is a Failure: a partner's last words.

@@ -33,7 +33,10 @@ class Group : public ::testing::Test {
     return {std::make_unique<MasterCase>(folder.file("case.yaml", text)), {}, processes};
   }
   /// The output of a run of this vessel, after two steps of which the fluid knows the time.
-  void save(const Checkpoint& checkpoint) const { write_checkpoint(folder / "run", checkpoint); }
+  void save(const Checkpoint& checkpoint) const {
+    std::filesystem::create_directory(folder / "run");
+    write_checkpoint(folder / "run", checkpoint);
+  }
   Checkpoint state_at(double time, double displacement) const {
     const std::vector<double> all(solid->y0.size(), displacement), none(solid->y0.size(), 0.0);
     std::vector<double> of_solid = all;

@@ -132,7 +132,9 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
     const std::string output = std::string("killed_") + program;
     fs::copy(folder / "one", folder / output, fs::copy_options::recursive);  // what a run before left
     fs::remove_all(folder / output / "checkpoint");
-    auto end = std::async(std::launch::async, [&] { return tether("identify", case_file, output, {}); });
+    auto end = std::async(std::launch::async, [&] {
+      return tether("identify", case_file, output, {"--processes", "1"});
+    });
     const auto saved = folder / output / "checkpoint/identification.bin";
     while (!fs::exists(saved) && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
     const pid_t process = process_of(program, case_file);
@@ -149,7 +151,7 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
     for (int wait = 0; wait < 600 && process_of("fluid", case_file) != 0; ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_EQ(process_of("fluid", case_file), 0) << "an orphan";
-    ASSERT_EQ(tether("identify", case_file, output, {"--resume"}).exit_code, 0);
+    ASSERT_EQ(tether("identify", case_file, output, {"--resume", "--processes", "1"}).exit_code, 0);
     for (const char* name : {"estimate.csv", "identified.yaml"})
       EXPECT_EQ(content_of(folder / "one" / name), content_of(folder / output / name)) << name;
   }
