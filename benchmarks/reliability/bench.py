@@ -91,7 +91,7 @@ class Bench:
         """What a fault led to, and what the same command finds after it."""
         result = {"code": code, "seconds": round(end, 1), "message": self.told(job), "orphans": job.orphans(), **more}
         output = self.output(verb)
-        is_saved = any(any(output.glob(f"{name}/*")) for name in ("checkpoint", "checkpoint.previous"))
+        is_saved = any(file.suffix != ".new" for name in ("checkpoint", "checkpoint.previous") for file in output.glob(f"{name}/*"))
         options = [] if verb == "explain" or code == 0 else ["--resume"] if is_saved else ["--overwrite"]
         if code != 0 or verb == "explain":
             again = Job(verb, self.case(verb), output, options)

@@ -149,7 +149,7 @@ def circumstances(bench):
             yield f"{verb}/other/all/all/the clock jumps by {hours:+d} h", lambda a=(verb, hours): clock_jumps(bench, *a)
         yield f"{verb}/other/all/{phase}/the disk vanishes", lambda a=(verb, phase): disk_vanishes(bench, *a)
         yield f"{verb}/other/all/{phase}/the folder is removed", lambda a=(verb, phase): folder_removed(bench, *a)
-        early = phase if verb == "explain" else "step"  # or the first has ended before the second begins
+        early = phase if verb == "explain" else "checkpoint"  # in which the first waits until the second has ended
         yield f"{verb}/other/all/{early}/a second job in the folder", lambda a=(verb, early): second_job(bench, *a)
     for verb, sizes in (("simulate", (8, 100, 400, 1500, 4000)), ("identify", (8, 400, 1600)), ("explain", (100, 1000, 4000))):
         for kilobytes in sizes:

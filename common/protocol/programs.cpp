@@ -3,6 +3,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 
@@ -58,7 +59,8 @@ std::string way_on(const char* verb, const CommandLine& command) {
   const std::filesystem::path output = output_of(command, CaseFile(command.case_file));
   const auto is_saved = [&](const char* folder) {
     std::error_code error;
-    return std::filesystem::exists(output / folder, error) && !std::filesystem::is_empty(output / folder, error);
+    const std::filesystem::directory_iterator files(output / folder, error);
+    return std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() != ".new"; });
   };
   if (!is_saved("checkpoint") && !is_saved("checkpoint.previous")) return {};
   return fmt::format("To continue: tether {} {} --output {} --resume\n", verb, command.case_file.string(),
