@@ -7,9 +7,11 @@
 namespace tether::fluid {
 
 void FluidSeries::write(const FluidSolver& solver, int step, double time) {
-  if (!series_) series_ = PvdSeries::rescued(folder_ / "fluid.pvd", time * (1 - 1e-12) - 1e-300);
+  if (!series_) {  // only then: an output that is removed in mid-run is not made anew
+    series_ = PvdSeries::rescued(folder_ / "fluid.pvd", time * (1 - 1e-12) - 1e-300);
+    std::filesystem::create_directories(folder_ / "vtk");
+  }
   const std::string file = fmt::format("vtk/fluid_{:06}.vtu", step);
-  std::filesystem::create_directories(folder_ / "vtk");
   const FluidMesh& mesh = solver.domain().mesh();
   write_vtu(folder_ / file, mesh.points, cells_of(mesh),
             {Field::vectors("displacement", solver.mesh_displacement()), Field::vectors("velocity", solver.velocity()),

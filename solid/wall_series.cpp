@@ -27,9 +27,11 @@ std::vector<Field> stress_fields(const Eigen::Matrix<double, 6, Eigen::Dynamic>&
 }  // namespace
 
 void WallSeries::write(const WallModel& model, const SolidSolver& solver, int step, double time) {
-  if (!series_) series_ = PvdSeries::rescued(folder_ / "solid.pvd", time * (1 - 1e-12) - 1e-300);
+  if (!series_) {  // only then: an output that is removed in mid-run is not made anew
+    series_ = PvdSeries::rescued(folder_ / "solid.pvd", time * (1 - 1e-12) - 1e-300);
+    std::filesystem::create_directories(folder_ / "vtk");
+  }
   const std::string file = fmt::format("vtk/solid_{:06}.vtu", step);
-  std::filesystem::create_directories(folder_ / "vtk");
   const Points& reference = model.mesh().points;
   const auto stress = model.elements().cauchy_stress(reference + solver.displacement(), model.material());
   write_vtu(folder_ / file, reference, cells_of(model.mesh()),
