@@ -82,6 +82,11 @@ Made<RunSummary> simulate(const CommandLine& command) {
 
 void provide_run(const CommandLine& command, const CaseFile& file, const std::filesystem::path& output,
                  const Points& measured_at) {
+  const bool is_there = std::filesystem::exists(output / "summary.json");
+  if (const auto damage = is_there ? damage_of(output) : std::nullopt) {
+    std::cerr << *damage << ": the run is made again\n";
+    return print(simulate(command), command);
+  }
   auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
   if (!why) why = why_no_velocity(output, measured_at);
   if (!why) return;

@@ -117,7 +117,9 @@ def folder_removed(bench, verb, phase):
     job, target = bench.begun(verb, phase, "fsi_master")
     if target is None:
         return bench.absent(job)
-    clean(bench.output(verb))
+    gone = bench.folder / "gone"
+    bench.output(verb).rename(gone)  # at once: nothing can be made in it while it is emptied
+    clean(gone)
     begin = time.time()
     return bench.judge(verb, job, job.end(300), time.time() - begin)
 

@@ -103,11 +103,14 @@ class Job:
         return [name for _, name in left]
 
     def kill_all(self):
-        for number, _ in self.processes():
-            try:
-                os.kill(number, 9)
-            except ProcessLookupError:
-                pass
+        """Until none is left: one that dies may just have started another."""
+        while left := self.processes():
+            for number, _ in left:
+                try:
+                    os.kill(number, 9)
+                except ProcessLookupError:
+                    pass
+            time.sleep(0.02)
 
     def message(self):
         self.errors.seek(0)

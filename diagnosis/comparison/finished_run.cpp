@@ -102,6 +102,15 @@ FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion
   if (summary.observer) observer_gain = summary.observer->gain;
 }
 
+std::optional<std::string> damage_of(const fs::path& output) {
+  try {
+    const FinishedRun whole(output);
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen) {
   const Points &ours = lumen.points, &its = run.motion.imaged();
   const double size = (ours.rowwise().maxCoeff() - ours.rowwise().minCoeff()).norm();

@@ -28,6 +28,9 @@ struct FinishedRun {
   double observer_gain = 0;  ///< the largest by which a region was pulled toward the data [1/time]
 };
 
+/// What makes its files unreadable: the file and how; nothing if they are whole.
+std::optional<std::string> damage_of(const std::filesystem::path& output);
+
 /// The run's motion, which must outlive it. Throws InputError if it is that of another lumen.
 RunMotion motion_of(const FinishedRun& run, const LumenSurface& lumen);
 

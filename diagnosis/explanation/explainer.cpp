@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
+#include "diagnosis/comparison/finished_run.hpp"
 #include "diagnosis/evidence/stored_run.hpp"
 #include "diagnosis/explanation/explained_distances.hpp"
 #include "diagnosis/explanation/explained_steps.hpp"
@@ -127,6 +128,8 @@ class Explainer {
 
   void simulate_and_compare(const PathModel& model) {
     write_case(model.folder(), ", " + model.told.name, model.values);
+    const fs::path compared = output_ / model.folder() / "comparison.json";
+    if (fs::exists(compared) && damage_of(output_ / model.folder())) fs::remove(compared);  // the step is made again
     steps_.make(fmt::format("model {}, {}: against the data", model.told.number, model.told.name),
                 case_of(model.folder()), model.folder(), "comparison.json",
                 [&](bool) { return work_.compare(task(model.folder(), model.folder())); });
