@@ -45,9 +45,12 @@ class Pipe {
   std::array<int, 2> ends_{};
 };
 
+/// With a number of its own: of two servers that look for a free one, the first takes the socket of the second away
+/// when it ends in that moment.
 Command server(const Pipe& number) {
-  return {{"sh", "-c", "exec Xvfb -displayfd \"$0\" -screen 0 1280x1024x24 -nolisten tcp >/dev/null 2>&1",
-           std::to_string(number.write_end())},
+  constexpr int first = 100, numbers = 50000;  // a display's number is below 59536
+  return {{"sh", "-c", "exec Xvfb \":$1\" -displayfd \"$0\" -screen 0 1280x1024x24 -nolisten tcp >/dev/null 2>&1",
+           std::to_string(number.write_end()), std::to_string(first + getpid() % numbers)},
           {}};
 }
 

@@ -107,7 +107,10 @@ void check_known(const CaseFile& file, const std::string& field, const std::vect
 
 EffectsList listed_by(const std::string& program, const CaseFile& file) {
   const ChildEnd end = capture({{sibling(program).string(), "--list-effects", file.path().string()}, {}});
-  if (end.exit_code != exit_done) throw InputError(end.errors);
+  if (end.exit_code == exit_input_wrong) throw InputError(end.errors);
+  if (end.exit_code != exit_done)
+    throw run_error("{} --list-effects {}{}{}", program, how_it_ended(end.exit_code), end.errors.empty() ? "" : ": ",
+                    end.errors);
   return record_of<EffectsList>(end.output, program + " --list-effects");
 }
 
