@@ -14,8 +14,9 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
   const std::string document = collected(folder);
   const auto title = nlohmann::json::parse(document)["title"].get<std::string>();
   const std::filesystem::path path = folder / "report.html";
+  const std::string page = page_of(title, document);
   std::ofstream file(path, std::ios::binary);
-  file << page_of(title, document) << std::flush;
+  file << page << std::flush;
   if (!file) throw write_error(path);
   return path;
 }

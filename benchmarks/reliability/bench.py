@@ -85,7 +85,7 @@ class Bench:
         return self.folder / f"{verb}_job"
 
     def told(self, job):
-        return job.message().replace(str(self.folder) + "/", "")
+        return job.message().replace(f"{self.folder}/", "").replace(f"{TETHER.parent}/", "")
 
     def judge(self, verb, job, code, end, **more):
         """What a fault led to, and what the same command finds after it."""

@@ -132,7 +132,7 @@ def second_job(bench, verb, phase):
     begin = time.time()
     second = Job(verb, bench.case(verb), bench.output(verb), name="second")
     code, end = second.end(60), time.time() - begin
-    return bench.judge(verb, first, first.end(300), end, second={"code": code, "message": second.message()})
+    return bench.judge(verb, first, first.end(300), end, second={"code": code, "message": bench.told(second)})
 
 
 def circumstances(bench):

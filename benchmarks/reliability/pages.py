@@ -50,10 +50,10 @@ def cell(key, result):
     return f"{told}, {result['seconds']:.1f} s" + (", resumed" if result.get("resumed") else "")
 
 
-def last_words(result):
-    lines = [line for line in result["message"].splitlines() if not line.startswith("To continue")]
-    text = lines[-1] if lines else ""
-    return text.replace("|", "\\|")
+def said(result):
+    """The first line of what was said: the cause. Of a second job: what it was told."""
+    message = result.get("second", result)["message"]
+    return message.split("\n", 1)[0].replace("|", "\\|")
 
 
 def signals_table(known):
@@ -68,31 +68,13 @@ def signals_table(known):
     return lines
 
 
-def writes_table(known):
-    lines = ["| job | program | call | error | outcome | said |", "|---|---|---|---|---|---|"]
+def table(known, kind, headings, columns):
+    """All faults of a kind, one a row: columns of their keys, the outcome, and what was said."""
+    lines = [f"| {headings} | outcome | said |", "|---" * (len(columns) + 2) + "|"]
     for key, result in known.items():
-        verb, kind, program, phase, fault = parts_of(key)
-        if kind == "write":
-            lines.append(f"| {verb} | {program} | {phase} | {fault} | {cell(key, result)} | {last_words(result)} |")
-    return lines
-
-
-def damages_table(known):
-    lines = ["| job | file | damage | the same command | said |", "|---|---|---|---|---|"]
-    for key, result in known.items():
-        verb, kind, _, _, fault = parts_of(key)
-        if kind == "damage":
-            lines.append(f"| {verb} | {key.split('/', 3)[3].rsplit('/', 1)[0]} | {fault} | {cell(key, result)} | {last_words(result)} |")
-    return lines
-
-
-def others_table(known):
-    lines = ["| job | program | phase | what happens | outcome | said |", "|---|---|---|---|---|---|"]
-    for key, result in known.items():
-        verb, kind, program, phase, fault = parts_of(key)
-        if kind == "other":
-            said = last_words(result["second"] if "second" in result else result)
-            lines.append(f"| {verb} | {program} | {phase} | {fault} | {cell(key, result)} | {said} |")
+        parts = dict(zip(("verb", "kind", "program", "phase", "fault"), parts_of(key)))
+        if parts["kind"] == kind:
+            lines.append("| " + " | ".join([*(parts[name] for name in columns), cell(key, result), said(result)]) + " |")
     return lines
 
 
@@ -136,12 +118,12 @@ def write_page(known, folder):
             "A process that is stopped (SIGSTOP) is waited for 5 s here (`TETHER_STOPPED_LIMIT`, a minute otherwise); the front-end and mpirun are let go on after three. SIGKILL of the front-end itself can be told by nobody.", "",
             *signals_table(known), "", "## Files that cannot be written", "",
             "By a library between program and kernel (`tests/faults/faults.c`): the call named fails on that file, and all matching ones after it (number: which of them is the first to fail).", "",
-            *writes_table(known), "", "## Damaged files", "",
+            *table(known, "write", "job | program | call | error", ("verb", "program", "phase", "fault")), "", "## Damaged files", "",
             "In the output folder of a simulation and an identification that were killed in a step, and of an explanation that was killed in its diagnosis; the same command, with `--resume` where it has that.", "",
-            *damages_table(known), "", "## Other circumstances", "",
+            *table(known, "damage", "job | file | damage", ("verb", "phase", "fault")), "", "## Other circumstances", "",
             "*No more memory*: a process may not have a megabyte more (`RLIMIT_AS`). The clock jumps in all processes, two seconds after their start. The disk is a tmpfs that is made larger afterwards; one that vanishes is a mount that is taken away and given back. "
             "Of a second job: what it is told.", "",
-            *others_table(known), "", *of_chaos(folder), *of_haul(folder)]
+            *table(known, "other", "job | program | phase | what happens", ("verb", "program", "phase", "fault")), "", *of_chaos(folder), *of_haul(folder)]
     (ROOT / "docs/reliability.md").write_text("\n".join(text))
     for key, what in wrong.items():
         print("not green:", key, "; ".join(what))

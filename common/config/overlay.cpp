@@ -79,8 +79,9 @@ void write_overlay(const fs::path& file, const Overlay& overlay) {
   entry_of(tree, "name") = scalar(overlay.name);
   if (!overlay.title.empty()) entry_of(tree, "title") = scalar(overlay.title);
   for (const auto& value : overlay.values) set(tree, value);
+  const std::string text = yaml_text(tree);
   std::ofstream to(file);
-  to << yaml_text(tree);
+  to << text;
   to.close();
   if (!to) throw write_error(file);
 }

@@ -245,8 +245,9 @@ std::string json_of(const T& record) {
 
 template <class T>
 void write_record(const std::filesystem::path& path, const T& record) {
+  const std::string json = json_of(record);  // first: what else fails between opening and telling hides the cause
   std::ofstream file(path, std::ios::binary);
-  file << json_of(record) << std::endl;
+  file << json << std::endl;
   if (!file) throw write_error(path);
 }
 

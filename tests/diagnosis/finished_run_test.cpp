@@ -4,6 +4,7 @@
 
 #include "common/config/case_tree.hpp"
 #include "common/config/input_files.hpp"
+#include "common/io/lumen_motion.hpp"
 #include "common/io/record_file.hpp"
 #include "fsi_master/results/run_summary.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -68,6 +69,19 @@ TEST_F(FinishedRunTest, DependsOnMeasurementsIfAnObserverFollowsThem) {
   write_summary("case.yaml", observed);
   EXPECT_EQ(why_not(observed), "it can");
   EXPECT_EQ(why_not(with_solid + "observer: {gain: 3}\n"), said(" had another 'observations'"));
+}
+
+TEST_F(FinishedRunTest, OneThatIsDamagedSaysWhere) {
+  EXPECT_EQ(damage_of(output).value_or("none"), (output / "lumen.motion").string() + ": is not the motion of a lumen");
+  LumenMotionWriter writer(output / "lumen.motion", Points::Random(3, 4));
+  writer.start();
+  for (int step = 0; step <= 2; ++step) writer.append(0.1 * step, Points::Random(3, 4));
+  EXPECT_EQ(damage_of(output), std::nullopt);
+  fs::resize_file(output / "lumen.motion", fs::file_size(output / "lumen.motion") - 1);
+  EXPECT_EQ(damage_of(output).value_or("none"),
+            (output / "lumen.motion").string() + ": is cut short: it has 2 records of a run of 2 steps");
+  std::ofstream(output / "summary.json") << "{\"steps\": 2";
+  EXPECT_EQ(damage_of(output).value_or("none"), (output / "summary.json").string() + ": is no JSON");
 }
 
 /// What a file holds counts, and not when it was written.

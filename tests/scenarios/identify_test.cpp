@@ -54,7 +54,7 @@ class Identify : public ::testing::Test {
     ASSERT_EQ(tether("simulate", truth, "truth_out", {}).exit_code, 0);
     case_file = case_variant(source, folder / "case", coarse({{"output:", section}}));
     write_surfaces(truth);
-    const ChildEnd end = tether("identify", case_file, "one", {"--processes", "1"});
+    const ChildEnd end = tether("identify", case_file, "one", {"--processes", "2"});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
   }
   static void TearDownTestSuite() {
@@ -127,13 +127,14 @@ TEST_F(Identify, FindsWhatTheDataWereMadeWith) {
   expect_same("one", "three");
 }
 
+/// To the bit: with three particles on two groups of processes.
 TEST_F(Identify, KilledAndResumedItFindsTheSame) {
   for (const char* program : {"solid", "fsi_master", "observation_manager"}) {
     const std::string output = std::string("killed_") + program;
     fs::copy(folder / "one", folder / output, fs::copy_options::recursive);  // what a run before left
     fs::remove_all(folder / output / "checkpoint");
     auto end = std::async(std::launch::async, [&] {
-      return tether("identify", case_file, output, {"--processes", "1"});
+      return tether("identify", case_file, output, {"--processes", "2"});
     });
     const auto saved = folder / output / "checkpoint/identification.bin";
     while (!fs::exists(saved) && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
@@ -151,7 +152,7 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
     for (int wait = 0; wait < 600 && process_of("fluid", case_file) != 0; ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_EQ(process_of("fluid", case_file), 0) << "an orphan";
-    ASSERT_EQ(tether("identify", case_file, output, {"--resume", "--processes", "1"}).exit_code, 0);
+    ASSERT_EQ(tether("identify", case_file, output, {"--resume", "--processes", "2"}).exit_code, 0);
     for (const char* name : {"estimate.csv", "identified.yaml"})
       EXPECT_EQ(content_of(folder / "one" / name), content_of(folder / output / name)) << name;
   }

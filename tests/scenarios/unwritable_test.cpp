@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Unwritable{"Renaming", "fsi_master:rename:checkpoint:1:EIO", "Input/output error"},
                       Unwritable{"OfAPartner", "solid:write:vtk/solid:4:ENOSPC", "vtk/solid"},
                       Unwritable{"Summary", "fsi_master:open:summary.json:1:EACCES",
-                                 "summary.json: cannot be written"}),
+                                 "summary.json: cannot be written: Permission denied"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
