@@ -100,8 +100,9 @@ void check_points(const Simulation& simulation, const CaseFile& file, double siz
 }
 
 /// What a person should know before the run: in summary.json, and printed unless quiet.
-std::vector<std::string> notices_of(std::span<Partner> partners, const RunPlan& plan) {
-  std::vector<std::string> all;
+std::vector<std::string> notices_of(const CoupledCodes& codes, const RunPlan& plan) {
+  const std::span<Partner> partners = codes.processes();
+  std::vector<std::string> all = codes.interface_notices();
   if (const std::string sentence = unusual_image_pressure(plan.image_pressure, plan.units); !sentence.empty())
     all.push_back(sentence);
   for (Partner& partner : partners) {
@@ -202,7 +203,7 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<
   plan.fingerprint = with_initial_state(model, master.file.path());
   plan.origin = origin_of(master.file, codes.interface().points, model);
   if (master.initial_state) plan.initial = initial_state_of(*master.initial_state, master.file, plan.origin);
-  const std::vector<std::string> notices = notices_of(processes, plan);
+  const std::vector<std::string> notices = notices_of(codes, plan);
   Crew crew = codes.crew();
   crew.usage = [&crew, processes] { return costs(crew, processes); };
   for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
@@ -225,6 +226,7 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<
       master.file.common().observer.largest_gain(),
       notices,
       from,
+      codes.interface_record(),
       periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start, plan.image_pressure, plan.units),
       rest_in(plan.output)};
   check_held(plan.output);

@@ -5,18 +5,33 @@
 namespace tether {
 namespace {
 
-InterfaceMap map_of(const CouplingCase& coupling, const InterfaceSurface& fluid, const InterfaceSurface& solid) {
-  const double size = diagonal(solid.points);
-  if (coupling.mapping == "match")
-    return InterfaceMap::match(fluid, solid, coupling.mapping_distance.value_or(1e-5 * size));
-  return InterfaceMap::nearest_triangle(fluid, solid, coupling.mapping_distance.value_or(0.02 * size));
+/// What "automatic" stands for.
+std::string mapping_of(const CouplingCase& coupling, const InterfaceSurface& fluid, const InterfaceSurface& solid) {
+  if (coupling.mapping != "automatic") return coupling.mapping;
+  return InterfaceMap::matches(fluid, solid, same_node * diagonal(solid.points)) ? "match" : "mortar";
 }
 
-/// `field`: of coupling.programs.
-protocol::Program partner_program(const char* role, const char* field, const std::string& executable,
+InterfaceMap map_of(const std::string& mapping, const CouplingCase& coupling, const InterfaceSurface& fluid,
+                    const InterfaceSurface& solid) {
+  const double size = diagonal(solid.points);
+  if (mapping == "match")
+    return InterfaceMap::match(fluid, solid, coupling.mapping_distance.value_or(same_node * size));
+  const double trust = coupling.mapping_distance.value_or(trusted_distance * size);
+  return mapping == "mortar" ? InterfaceMap::mortar(fluid, solid, trust)
+                             : InterfaceMap::nearest_triangle(fluid, solid, trust);
+}
+
+/// `field`: of coupling.programs and coupling.ranks.
+protocol::Program partner_program(const char* role, const std::string& field, const std::string& executable, int ranks,
                                   const CaseFile& file) {
-  const std::string where = file.where(std::string("coupling.programs.") + field);
-  return {role, executable, {std::filesystem::absolute(file.path()).string()}, 1, where};
+  if (ranks > 1 && executable.find('/') == std::string::npos)
+    throw input_error("{}: {}: Tether's own {} runs in one process", file.where("coupling.ranks." + field), ranks,
+                      executable);
+  return {role,
+          executable,
+          {std::filesystem::absolute(file.path()).string()},
+          ranks,
+          file.where("coupling.programs." + field)};
 }
 
 /// Throws InputError if a code has no state observer.
@@ -31,10 +46,19 @@ std::unique_ptr<Observer> make_observer(const ObserverCase& observer, Observatio
 }  // namespace
 
 CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner> processes)
-    : processes_(processes), interface_(ask_interface(processes[1])), size_(diagonal(interface_.points)) {
+    : processes_(processes),
+      interface_(ask_interface(processes[1])),
+      size_(diagonal(interface_.points)),
+      units_(master.file.units()) {
   const InterfaceSurface of_fluid = ask_interface(processes[0]);
   solid_.emplace(processes[1]);
-  fluid_.emplace(processes[0], map_of(master.coupling, of_fluid, interface_));
+  mapping_ = mapping_of(master.coupling, of_fluid, interface_);
+  fluid_.emplace(processes[0], map_of(mapping_, master.coupling, of_fluid, interface_));
+  fit_ = interface_fit(of_fluid, interface_, master.coupling.mapping_distance.value_or(trusted_distance * size_));
+  if (fit_.looks_away())
+    throw input_error(
+        "the interface triangles of {} and {} look to opposite sides: their normals must point out of the fluid",
+        fluid_->name(), solid_->name());
   const CouplingOptions options{master.coupling.tolerance, master.coupling.max_iterations, master.coupling.reuse,
                                 size_};
   coupling_ = make_coupling(master.coupling.method, *fluid_, *solid_, options);
@@ -42,6 +66,27 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
   observation_.emplace(*measurements());
   const ObserverCase& observer = master.file.common().observer;
   if (observer.is_on()) observer_ = make_observer(observer, *observation_, *fluid_, *solid_, interface_.points);
+}
+
+InterfaceRecord CoupledCodes::interface_record() const {
+  const InterfaceBalance& lost = fluid_->balance();
+  return {.mapping = mapping_,
+          .fluid_nodes = fit_.fluid_nodes,
+          .wall_nodes = fit_.wall_nodes,
+          .largest_gap_mm = units_.to_mm(fit_.largest_gap),
+          .largest_overlap_mm = units_.to_mm(fit_.largest_overlap),
+          .rms_distance_mm = units_.to_mm(fit_.rms_distance),
+          .bare_share = fit_.bare_share(),
+          .force_error = lost.force,
+          .moment_error = lost.moment,
+          .work_error = lost.work};
+}
+
+std::vector<std::string> CoupledCodes::interface_notices() const {
+  std::vector<std::string> all;
+  if (mapping_ != "match")
+    all.push_back(fmt::format("the interfaces differ and are joined by {}: {}", mapping_, in_words(fit_, units_)));
+  return all;
 }
 
 Crew CoupledCodes::crew() {
@@ -56,10 +101,11 @@ Crew CoupledCodes::crew() {
 
 std::vector<protocol::Program> programs_of(const MasterCase& master, bool with_measurements) {
   const auto& programs = master.coupling.programs;
-  std::vector<protocol::Program> all{partner_program("fluid", "fluid", programs.fluid, master.file),
-                                     partner_program("solid", "solid", programs.solid, master.file)};
+  const auto& ranks = master.coupling.ranks;
+  std::vector<protocol::Program> all{partner_program("fluid", "fluid", programs.fluid, ranks.fluid, master.file),
+                                     partner_program("solid", "solid", programs.solid, ranks.solid, master.file)};
   if (with_measurements)
-    all.push_back(partner_program("solid_observation", "observation", programs.observation, master.file));
+    all.push_back(partner_program("solid_observation", "observation", programs.observation, 1, master.file));
   return all;
 }
 

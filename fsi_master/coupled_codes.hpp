@@ -9,7 +9,9 @@
 #include "common/protocol/launch.hpp"
 #include "fsi_master/coupling_case.hpp"
 #include "fsi_master/message_partners.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "fsi_master/simulation.hpp"
+#include "fsi_master/transfer/interface_fit.hpp"
 #include "observation_manager/measurements/flow_observations.hpp"
 
 namespace tether {
@@ -45,6 +47,10 @@ class CoupledCodes {
   Crew crew();
   std::span<protocol::Partner> processes() const { return processes_; }
   const InterfaceSurface& interface() const { return interface_; }
+  /// How the fluid's interface lies on it, and what got lost between them so far.
+  InterfaceRecord interface_record() const;
+  /// What a person should know of interfaces that do not match; none if they do.
+  std::vector<std::string> interface_notices() const;
   /// Of its interface [length].
   double size() const { return size_; }
   /// The process that measures; none if the case has no data.
@@ -54,6 +60,9 @@ class CoupledCodes {
   std::span<protocol::Partner> processes_;
   InterfaceSurface interface_;  ///< of the solid
   double size_;
+  UnitSystem units_;
+  InterfaceFit fit_;
+  std::string mapping_;  ///< that is used
   std::optional<MessageFluid> fluid_;
   std::optional<MessageSolid> solid_;
   std::unique_ptr<Coupling> coupling_;

@@ -3,9 +3,14 @@
 namespace tether {
 
 void CouplingCase::Programs::declare(Fields& f) {
-  f.text("fluid", fluid, "the program that solves the blood flow");
-  f.text("solid", solid, "the program that solves the wall");
-  f.text("observation", observation, "the program that measures the distance to the data, if the observer is on");
+  f.program("fluid", fluid, "the program that solves the blood flow");
+  f.program("solid", solid, "the program that solves the wall");
+  f.program("observation", observation, "the program that measures the distance to the data, if the observer is on");
+}
+
+void CouplingCase::Ranks::declare(Fields& f) {
+  f.integer("fluid", fluid, {1, 4096}, "of the program that solves the blood flow");
+  f.integer("solid", solid, {1, 4096}, "of the program that solves the wall");
 }
 
 void CouplingCase::declare(Fields& f) {
@@ -20,15 +25,22 @@ void CouplingCase::declare(Fields& f) {
   f.integer("reuse", reuse, {0, 100}, "iqn_ils: earlier steps whose differences are kept");
   f.integer("halvings", halvings, {0, 10}, "times that a step which fails may be halved");
   f.choice("mapping", mapping,
-           {{"match", "the interface meshes agree node for node"},
+           {{"automatic", "match if the interface meshes agree node for node, else mortar"},
+            {"match", "they must agree node for node"},
+            {"mortar",
+             "the fluid's motion is that of the wall in the mean of squares over the interface; the load comes "
+             "back as the traction that it stands for. Force, moment and work are kept"},
             {"nearest_triangle",
-             "each fluid node follows the closest point of the wall's triangles; forces and work are kept"}},
+             "each fluid node follows the closest place of the wall's triangles. Force, moment and "
+             "work are kept, but a load is only where a fluid node is"}},
            "how the interface of the fluid follows that of the wall");
-  f.number(
-      "mapping_distance", mapping_distance, dimension::length, range::positive,
-      "farthest that a fluid node may be from its counterpart; if absent 1e-5 (match) or 0.02 (nearest_triangle) of "
-      "the interface's diagonal");
-  f.group("programs", programs, "executables; a name without slash is looked for beside fsi_master");
+  f.number("mapping_distance", mapping_distance, dimension::length, range::positive,
+           "farthest that a fluid node may be from the wall; if absent 0.02 of the interface's diagonal, and 1e-5 of "
+           "it where "
+           "nodes must match");
+  f.group("programs", programs,
+          "executables; a name without slash is one of Tether's own, a path is relative to the case file");
+  f.group("ranks", ranks, "processes of a program of one's own that runs in several; on an mpirun line its -n says it");
 }
 
 }  // namespace tether

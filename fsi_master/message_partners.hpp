@@ -3,13 +3,11 @@
 #include <utility>
 
 #include "common/protocol/partner.hpp"
-#include "fsi_master/interface_map.hpp"
 #include "fsi_master/partners.hpp"
+#include "fsi_master/transfer/announced_interface.hpp"
+#include "fsi_master/transfer/interface_map.hpp"
 
 namespace tether {
-
-/// The reference surface that a partner announces. Throws RunError if its numbers do not fit together.
-InterfaceSurface ask_interface(protocol::Partner& partner);
 
 /// Samples to nodes (O.5): weight H' w, direction H' (w d n) along the mean normal H' (w n).
 Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes);
@@ -35,12 +33,15 @@ class MessageFluid : public FluidPartner {
   Later<Done> move_interface(const VectorXd& change) override;
   bool has_velocity() const override;
   Later<Points> velocity_at(const Points& points) override;
+  /// The worst of what got lost between the interfaces in evaluations so far; zero where nodes match.
+  const InterfaceBalance& balance() const { return balance_; }
 
  private:
   VectorXd received(const protocol::Load& load) const;
 
   protocol::Partner& partner_;
   InterfaceMap map_;
+  InterfaceBalance balance_;
 };
 
 /// A solid in another process; its interface nodes are the master's.

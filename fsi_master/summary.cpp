@@ -80,6 +80,7 @@ RunSummary summary_of(const Simulation& simulation, const RunFacts& facts) {
   add_results(summary, simulation);
   if (const Observer* observer = simulation.observer())
     summary.observer = work_of(observer->statistics(), facts.observer_gain, plan.units);
+  summary.interface = facts.interface;
   summary.notices = facts.notices;
   summary.effective_case.text = facts.effective_case;
   summary.periodicity = facts.periodicity;

@@ -22,6 +22,7 @@ struct RunFacts {
   double observer_gain = 0;           ///< the largest of any region [1/s]
   std::vector<std::string> notices;
   MadeFrom made_from;
+  InterfaceRecord interface;
   std::optional<Periodicity> periodicity;
   std::optional<RestState> rest;
 };

@@ -69,6 +69,9 @@ class Fields {
   virtual void integer(Text name, int& value, IntegerRange range, Text meaning) = 0;
   virtual void flag(Text name, bool& value, Text meaning) = 0;
   virtual void text(Text name, std::string& value, Text meaning, Need need = Need::optional) = 0;
+  /// A program: a name, or a path, which has a slash and is written relative to the case file. Read as an absolute
+  /// path.
+  virtual void program(Text name, std::string& value, Text meaning) { text(name, value, meaning); }
   /// One of some words. An empty value must be given.
   virtual void choice(Text name, std::string& value, std::span<const Word> words, Text meaning) = 0;
   void choice(Text name, std::string& value, std::initializer_list<Word> words, Text meaning) {

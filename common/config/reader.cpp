@@ -167,6 +167,13 @@ void Reader::choice(Text name, std::string& value, std::span<const Word> words, 
   wrong(field, node->place, node->text, fmt::format("must be one of {}{}", listed(known), hint));
 }
 
+void Reader::program(Text name, std::string& value, Text meaning) {
+  text(name, value, meaning, Need::optional);
+  const YamlNode* node = find({name, meaning, "", false});
+  if (node && value.find('/') != std::string::npos)
+    value = std::filesystem::absolute(node->place.file->path.parent_path() / value).lexically_normal().string();
+}
+
 void Reader::path(Text name, std::filesystem::path& value, Text meaning, Need need) {
   const Field field{name, meaning, "", need == Need::required && value.empty()};
   const YamlNode* node = scalar(field);

@@ -37,6 +37,7 @@ class Reader : public Fields {
   void flag(Text name, bool& value, Text meaning) override;
   void text(Text name, std::string& value, Text meaning, Need need) override;
   void choice(Text name, std::string& value, std::span<const Word> words, Text meaning) override;
+  void program(Text name, std::string& value, Text meaning) override;
   void path(Text name, std::filesystem::path& value, Text meaning, Need need) override;
   void numbers(Text name, std::vector<double>& values, const ListRule& rule, Text meaning, Need need) override;
   void texts(Text name, std::vector<std::string>& values, Text meaning, Need need) override;

@@ -72,6 +72,28 @@ struct FollowedPoint {
   }
 };
 
+/// How the interfaces of fluid and wall fit, and what got lost between them.
+struct InterfaceRecord {
+  static constexpr const char* type_name = "interface_record";
+  std::string mapping;
+  std::int64_t fluid_nodes = 0, wall_nodes = 0;
+  double largest_gap_mm = 0, largest_overlap_mm = 0, rms_distance_mm = 0, bare_share = 0;
+  double force_error = 0, moment_error = 0, work_error = 0;
+
+  static void fields(auto& self, auto&& field) {
+    field("mapping", self.mapping, "match, mortar or nearest_triangle");
+    field("fluid_nodes", self.fluid_nodes, "of its interface");
+    field("wall_nodes", self.wall_nodes, "of its interface");
+    field("largest_gap_mm", self.largest_gap_mm, "wall outside the fluid's surface, at a fluid node [mm]");
+    field("largest_overlap_mm", self.largest_overlap_mm, "wall inside it [mm]");
+    field("rms_distance_mm", self.rms_distance_mm, "of the fluid's nodes from the wall [mm]");
+    field("bare_share", self.bare_share, "of the wall's area, where no load of the fluid reaches it");
+    field("force_error", self.force_error, "largest difference of the sums over both sides, to the sum of sizes");
+    field("moment_error", self.moment_error, "the same of moments, at the places of the image");
+    field("work_error", self.work_error, "the same of work");
+  }
+};
+
 /// What a state observer did: the run follows the data, and is no evidence for the model.
 struct ObserverWork {
   static constexpr const char* type_name = "observer_work";
@@ -130,6 +152,7 @@ struct RunSummary {
   MeanAndMax coupling_iterations, krylov_iterations;
   std::int64_t repeated_steps = 0;
   double mass_balance_error_max = 0;
+  std::optional<InterfaceRecord> interface;
   std::optional<PressureRange> pressure;
   double max_displacement = 0, max_displacement_mm = 0;
   std::map<std::string, FollowedPoint> points;
@@ -162,6 +185,7 @@ struct RunSummary {
     field("krylov_iterations", self.krylov_iterations, "a step");
     field("repeated_steps", self.repeated_steps, "done in halves");
     field("mass_balance_error_max", self.mass_balance_error_max, "[flow]");
+    field("interface", self.interface, "between fluid and wall; its errors since the run began or went on");
     field("pressure", self.pressure, "of the blood's observables; null: it has none");
     field("max_displacement", self.max_displacement, "of the lumen [length]");
     field("max_displacement_mm", self.max_displacement_mm, "the same [mm]");

@@ -1,13 +1,15 @@
-#include "fsi_master/interface_map.hpp"
+#include "fsi_master/transfer/interface_map.hpp"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
 #include <numeric>
 #include <random>
 
 #include "common/base/error.hpp"
+#include "fsi_master/transfer/interface_fit.hpp"
 
 namespace tether {
 namespace {
@@ -66,31 +68,104 @@ TEST(InterfaceMap, MatchSaysHowManyNodesAreAloneAndWhere) {
                InputError);  // each fluid node has its partner, not each wall node
 }
 
-TEST(InterfaceMap, NearestTriangleKeepsForceAndWork) {
-  const InterfaceSurface solid = tube(16, 8), fluid = tube(24, 11);
-  const InterfaceMap map = InterfaceMap::nearest_triangle(fluid, solid, 0.1);
-  const VectorXd motion = VectorXd::Random(solid.points.size());
-  const VectorXd load = VectorXd::Random(fluid.points.size());
-  const std::vector<double> there = map.to_fluid(motion), forces(load.begin(), load.end());
-  const VectorXd back = map.to_solid(forces);
-  EXPECT_NEAR(Eigen::Map<const VectorXd>(there.data(), load.size()).dot(load), motion.dot(back), 1e-12);
-  const Vec3 total = Eigen::Map<const Points>(load.data(), 3, fluid.points.cols()).rowwise().sum();
-  const Vec3 received = Eigen::Map<const Points>(back.data(), 3, solid.points.cols()).rowwise().sum();
-  EXPECT_LT((total - received).norm(), 1e-12);
+/// Both maps of surfaces that differ in their nodes, in their facets and by a gap.
+std::vector<InterfaceMap> maps_of(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust = 0.3) {
+  std::vector<InterfaceMap> maps;
+  maps.push_back(InterfaceMap::nearest_triangle(fluid, solid, trust));
+  maps.push_back(InterfaceMap::mortar(fluid, solid, trust));
+  return maps;
 }
 
-TEST(InterfaceMap, NearestTriangleReproducesLinearMotionsOfItsOwnSurface) {
+TEST(InterfaceMap, SurfacesThatDifferKeepForceMomentAndWork) {
   const InterfaceSurface solid = tube(16, 8);
-  const InterfaceMap map = InterfaceMap::nearest_triangle(solid, solid, 1e-6);
-  const std::vector<double> there = map.to_fluid(flat(solid.points));
-  EXPECT_LT((Eigen::Map<const VectorXd>(there.data(), solid.points.size()) - flat(solid.points)).norm(), 1e-12);
+  InterfaceSurface fluid = tube(23, 11);
+  fluid.points.topRows(2) *= 0.96;
+  for (const InterfaceMap& map : maps_of(fluid, solid)) {
+    const VectorXd motion = VectorXd::Random(solid.points.size()), load = VectorXd::Random(fluid.points.size());
+    const InterfaceBalance lost = map.balance({load.begin(), load.end()}, motion);
+    EXPECT_LT(lost.force, 1e-14);
+    EXPECT_LT(lost.moment, 1e-14);
+    EXPECT_LT(lost.work, 1e-14);
+  }
 }
 
-TEST(InterfaceMap, NearestTriangleRefusesASurfaceElsewhere) {
+TEST(InterfaceMap, ABalanceThatIsNotKeptIsSeen) {
+  const Points points = tube(6, 2).points;
+  const VectorXd force = VectorXd::Random(points.size()), motion = VectorXd::Random(points.size());
+  VectorXd other = force;
+  other(5) += 1e-3 * force.cwiseAbs().sum();
+  const InterfaceBalance lost = balance({points, force, motion}, {points, other, motion});
+  EXPECT_GT(lost.force, 1e-4);
+  EXPECT_GT(lost.moment, 1e-4);
+  EXPECT_GT(lost.work, 1e-5);
+}
+
+TEST(InterfaceMap, AFluidFollowsARigidWallRigidlyAcrossAGap) {
+  const InterfaceSurface solid = tube(16, 8);
+  InterfaceSurface fluid = tube(23, 11);
+  fluid.points.topRows(2) *= 0.96;
+  const Vec3 turn(0.3, -0.2, 0.5), shift(0.1, 0.7, -0.4);
+  const auto rigid = [&](const Points& points) -> VectorXd {
+    Points motion = points;
+    for (auto column : motion.colwise()) column = turn.cross(Vec3(column)) + shift;
+    return flat(motion);
+  };
+  for (const InterfaceMap& map : maps_of(fluid, solid)) {
+    const std::vector<double> there = map.to_fluid(rigid(solid.points));
+    EXPECT_LT((Eigen::Map<const VectorXd>(there.data(), fluid.points.size()) - rigid(fluid.points)).norm(), 1e-12);
+  }
+}
+
+TEST(InterfaceMap, ItsOwnSurfaceIsFollowedExactlyUnderLinearMotions) {
+  const InterfaceSurface solid = tube(16, 8);
+  for (const InterfaceMap& map : maps_of(solid, solid)) {
+    const std::vector<double> there = map.to_fluid(flat(solid.points));
+    EXPECT_LT((Eigen::Map<const VectorXd>(there.data(), solid.points.size()) - flat(solid.points)).norm(), 1e-11);
+  }
+}
+
+TEST(InterfaceMap, OfItsOwnSurfaceTheMortarIsTheIdentity) {
+  const InterfaceSurface solid = tube(16, 8);
+  const InterfaceMap map = InterfaceMap::mortar(solid, solid, 0.1);
+  const VectorXd motion = VectorXd::Random(solid.points.size());
+  const std::vector<double> there = map.to_fluid(motion);
+  EXPECT_LT((Eigen::Map<const VectorXd>(there.data(), motion.size()) - motion).norm(), 1e-11 * motion.norm());
+}
+
+TEST(InterfaceMap, ASurfaceElsewhereIsRefused) {
   const InterfaceSurface solid = tube(16, 8);
   InterfaceSurface fluid = solid;
   fluid.points.row(2).array() += 1.0;
   EXPECT_THROW(InterfaceMap::nearest_triangle(fluid, solid, 0.5), InputError);
+  EXPECT_THROW(InterfaceMap::mortar(fluid, solid, 0.5), InputError);
+}
+
+TEST(InterfaceMap, SurfacesWithoutTrianglesOrAreaAreRefused) {
+  const InterfaceSurface good = tube(16, 8);
+  InterfaceSurface bare = good, flat_triangle = good;
+  bare.triangles.clear();
+  flat_triangle.triangles[3] = {4, 4, 5};
+  for (const InterfaceSurface& bad : {bare, flat_triangle}) {
+    EXPECT_THROW(InterfaceMap::mortar(good, bad, 0.5), InputError);
+    EXPECT_THROW(InterfaceMap::mortar(bad, good, 0.5), InputError);
+    EXPECT_THROW(InterfaceMap::nearest_triangle(good, bad, 0.5), InputError);
+  }
+}
+
+TEST(InterfaceFit, TellsGapsOverlapsAndBareWall) {
+  const InterfaceSurface solid = tube(48, 12);
+  InterfaceSurface fluid = tube(48, 12);
+  fluid.points.topRows(2) *= 0.95;
+  fluid.points.row(2) *= 0.5;  // half as long
+  fluid.points.topRows(2).col(5) *= 2.1 / (0.95 * 2.0);
+  const InterfaceFit fit = interface_fit(fluid, solid, 0.3);
+  EXPECT_NEAR(fit.largest_gap, 0.1, 1e-3);
+  EXPECT_NEAR(fit.largest_overlap, 0.1, 1e-3);
+  EXPECT_NEAR(fit.rms_distance, 0.1, 1e-3);
+  EXPECT_NEAR(fit.bare_area / fit.wall_area, 0.5, 0.05);
+  EXPECT_EQ(fit.against_area, 0);
+  for (Triangle& t : fluid.triangles) std::swap(t[1], t[2]);
+  EXPECT_NEAR(interface_fit(fluid, solid, 0.3).against_area, fit.fluid_area, 1e-12);
 }
 
 }  // namespace

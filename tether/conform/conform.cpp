@@ -9,6 +9,7 @@ std::vector<Check> Examiner::run() {
       {"says hello", &Examiner::hello},
       {"interface is a surface", &Examiner::surface},
       {"normals point out of the fluid", &Examiner::orientation},
+      {"its interface fits the other code's", &Examiner::fit},
       {"a step can be evaluated", &Examiner::evaluate},
       {"the same evaluation again gives the same", &Examiner::repeat},
       {"a rejected step leaves no trace", &Examiner::reject},
@@ -55,8 +56,8 @@ void Examiner::rest() {
   }
 }
 
-std::vector<Check> conform(Partner& partner, double dt) {
-  return Examiner(partner, dt).run();
+std::vector<Check> conform(Partner& partner, double dt, const std::optional<Counterpart>& counterpart) {
+  return Examiner(partner, dt, counterpart).run();
 }
 
 std::string table_of(const std::vector<Check>& checks) {

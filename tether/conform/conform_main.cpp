@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "common/config/case_file.hpp"
 #include "common/protocol/run.hpp"
 #include "tether/conform/conform.hpp"
 
@@ -10,31 +11,54 @@ using namespace tether::protocol;
 namespace {
 
 constexpr const char* usage =
-    "usage: tether_conform [--dt SECONDS] PROGRAM [ARGUMENTS]\n"
-    "Plays the master against a fluid or solid program and checks that it keeps the contract of docs/protocol.md.";
+    "usage: tether_conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]\n"
+    "Plays the master against a fluid or solid program and checks that it keeps the contract of docs/protocol.md; "
+    "--with: and that its interface fits that of the other code, which gets the same arguments.";
 
 struct Options {
   double dt = 1e-3;
+  std::string with;  ///< the other code; empty: none
   Program program;
 };
 
 Options options_from(std::vector<std::string> words) {
   Options options;
-  if (words.size() >= 2 && words[0] == "--dt") {
-    options.dt = std::atof(words[1].c_str());
-    words.erase(words.begin(), words.begin() + 2);
+  for (; words.size() >= 2 && words[0].starts_with("--"); words.erase(words.begin(), words.begin() + 2)) {
+    if (words[0] == "--dt")
+      options.dt = std::atof(words[1].c_str());
+    else if (words[0] == "--with")
+      options.with = words[1];
+    else
+      throw InputError(usage);
   }
   if (words.empty() || !(options.dt > 0)) throw InputError(usage);
   options.program = {"", words[0], {words.begin() + 1, words.end()}};
   return options;
 }
 
+/// Of the case that the programs get; else cgs.
+UnitSystem units_of(const Program& program) {
+  for (const std::string& word : program.arguments)
+    if (word.ends_with(".yaml")) return CaseFile(word).units();
+  return UnitSystem::cgs();
+}
+
 void examine(Session& session, const Options& options) {
-  Partner& partner = session.launch({options.program}, "conform-output").front();
+  std::vector<Program> programs{options.program};
+  if (!options.with.empty()) programs.push_back({"", options.with, options.program.arguments});
+  const std::span<Partner> partners = session.launch(programs, "conform-output");
+  Partner& partner = partners.front();
   if (partner.role() != "fluid" && partner.role() != "solid")
     throw input_error("{} is a {}: only a fluid or a solid can be checked", options.program.executable, partner.role());
-  partner.hello();
-  const auto checks = conform(partner, options.dt);
+  std::optional<Counterpart> counterpart;
+  if (partners.size() > 1) {
+    if (partners[1].role() != (partner.role() == "fluid" ? "solid" : "fluid"))
+      throw input_error("{} is a {}, as {}", options.with, partners[1].role(), options.program.executable);
+    counterpart.emplace(partners[1], units_of(options.program));
+  }
+  for (Partner& each : partners) each.hello();
+  const auto checks = conform(partner, options.dt, counterpart);
+  if (counterpart) counterpart->partner.stop("the check is done");
   std::printf("%s", table_of(checks).c_str());
   std::fflush(stdout);
   if (!all_passed(checks)) throw run_error("{} does not conform", options.program.executable);

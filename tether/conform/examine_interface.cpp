@@ -2,6 +2,9 @@
 #include <map>
 #include <set>
 
+#include "fsi_master/transfer/announced_interface.hpp"
+#include "fsi_master/transfer/interface_fit.hpp"
+#include "fsi_master/transfer/interface_map.hpp"
 #include "tether/conform/examiner.hpp"
 
 namespace tether::protocol {
@@ -55,6 +58,27 @@ std::string Examiner::orientation() {
   const double outwardness = Shape(surface_).outwardness;
   require(outwardness > 0, "the triangles look inward");
   return "";
+}
+
+std::string Examiner::fit() {
+  if (!counterpart_) throw Skipped("no other code is named (--with PROGRAM)");
+  const InterfaceSurface own = ask_interface(partner_), others = ask_interface(counterpart_->partner);
+  const bool is_fluid = partner_.role() == "fluid";
+  const InterfaceSurface &fluid = is_fluid ? own : others, &solid = is_fluid ? others : own;
+  const double size = diagonal(solid.points), trust = trusted_distance * size;
+  const bool matches = InterfaceMap::matches(fluid, solid, same_node * size);
+  const InterfaceMap map =
+      matches ? InterfaceMap::match(fluid, solid, same_node * size) : InterfaceMap::mortar(fluid, solid, trust);
+  const InterfaceFit fit = interface_fit(fluid, solid, trust);
+  require(!fit.looks_away(), "its triangles look to the side opposite to those of {}",
+          counterpart_->partner.hello().program);
+  const VectorXd load = VectorXd::Random(fluid.points.size()), motion = VectorXd::Random(solid.points.size());
+  const InterfaceBalance lost = map.balance({load.begin(), load.end()}, motion);
+  const double most = std::max({lost.force, lost.moment, lost.work});
+  require(most < balance_tolerance, "force, moment or work are kept to {:.1e} only", most);
+  if (matches) return fmt::format("node for node, {} of them", fit.fluid_nodes);
+  return fmt::format("by mortar: {}; force, moment and work are kept to {:.0e}", in_words(fit, counterpart_->units),
+                     most);
 }
 
 }  // namespace tether::protocol

@@ -12,6 +12,7 @@ namespace tether::protocol {
 
 inline constexpr double repeat_tolerance = 1e-8;    // the same evaluation twice, or after a rejected step
 inline constexpr double tangent_tolerance = 1e-3;   // against central differences
+inline constexpr double balance_tolerance = 1e-10;  // of sums over both sides of an interface: round-off
 inline constexpr double symmetry_tolerance = 1e-8;  // of the solid's operators
 
 /// Thrown by a check that found something wrong, or has nothing to look at.
@@ -34,7 +35,8 @@ inline bool all_finite(const Numbers& values) {
 /// The checks, each a function that returns what it measured. They run in this order and build on each other.
 class Examiner {
  public:
-  Examiner(Partner& partner, double dt) : partner_(partner), dt_(dt) {}
+  Examiner(Partner& partner, double dt, const std::optional<Counterpart>& counterpart)
+      : partner_(partner), dt_(dt), counterpart_(counterpart) {}
   std::vector<Check> run();
 
  private:
@@ -46,6 +48,7 @@ class Examiner {
   std::string hello();
   std::string surface();
   std::string orientation();
+  std::string fit();
   std::string evaluate();
   std::string repeat();
   std::string reject();
@@ -79,6 +82,7 @@ class Examiner {
 
   Partner& partner_;
   double dt_;
+  std::optional<Counterpart> counterpart_;
   std::vector<Check> checks_;
   Interface surface_;
   std::optional<Excitation> drive_;

@@ -1,0 +1,143 @@
+#include "fsi_master/transfer/interface_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+/// Nodes in cells of a regular grid, so that all within one cell's width of a point are in the 27 cells around it.
+class NodeGrid {
+ public:
+  NodeGrid(const Points& points, double width) : points_(points), width_(width) {
+    for (int a = 0; a < points.cols(); ++a) cells_[cell(points.col(a))].push_back(a);
+  }
+
+  /// The nearest node closer than the width; -1 if there is none.
+  int nearest(const Vec3& x) const {
+    int nearest = -1;
+    double least = width_;
+    const Cell centre = cell(x);
+    for (int offset = 0; offset < 27; ++offset) {
+      const auto found =
+          cells_.find({centre[0] + offset % 3 - 1, centre[1] + offset / 3 % 3 - 1, centre[2] + offset / 9 - 1});
+      if (found == cells_.end()) continue;
+      for (int a : found->second)
+        if (const double distance = (points_.col(a) - x).norm(); distance <= least) nearest = a, least = distance;
+    }
+    return nearest;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  Cell cell(const Vec3& x) const {
+    return {std::llround(x(0) / width_), std::llround(x(1) / width_), std::llround(x(2) / width_)};
+  }
+  const Points& points_;
+  double width_;
+  std::map<Cell, std::vector<int>> cells_;
+};
+
+/// Nodes of `from` that have none of `to` within the tolerance, in words; empty if there are none.
+std::string lonely(const char* from_name, const Points& from, const char* to_name, const Points& to, double tolerance) {
+  const NodeGrid grid(to, tolerance);
+  int count = 0, worst = 0;
+  double farthest = -1;
+  for (int a = 0; a < from.cols(); ++a) {
+    if (grid.nearest(from.col(a)) >= 0) continue;
+    ++count;
+    const double distance = std::sqrt((to.colwise() - from.col(a)).colwise().squaredNorm().minCoeff());
+    if (distance > farthest) farthest = distance, worst = a;
+  }
+  if (count == 0) return {};
+  return fmt::format(
+      "{} of {} {} nodes have no {} node within {:.2g}, the farthest is {:.4g} away, at ({:.6g}, {:.6g}, {:.6g})",
+      count, from.cols(), from_name, to_name, tolerance, farthest, from(0, worst), from(1, worst), from(2, worst));
+}
+
+/// What is wrong with a matching of the nodes; empty if nothing is.
+std::string mismatch(const Points& fluid, const Points& solid, double tolerance) {
+  std::string problem = lonely("fluid", fluid, "wall", solid, tolerance);
+  return problem.empty() ? lonely("wall", solid, "fluid", fluid, tolerance) : problem;
+}
+
+}  // namespace
+
+InterfaceMap::InterfaceMap(Points fluid, Points solid, Rows rows, std::vector<int> solved, const Mass& mass)
+    : fluid_(std::move(fluid)), solid_(std::move(solid)), rows_(std::move(rows)), solved_(std::move(solved)) {
+  if (solved_.empty()) return;
+  mass_ = std::make_unique<Eigen::SparseLU<Mass>>(mass);
+  if (mass_->info() != Eigen::Success)
+    throw input_error("the interfaces cannot be joined by mortar ({}): use coupling.mapping: nearest_triangle",
+                      mass_->lastErrorMessage());
+}
+
+bool InterfaceMap::matches(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance) {
+  return fluid.points.cols() == solid.points.cols() && mismatch(fluid.points, solid.points, tolerance).empty();
+}
+
+InterfaceMap InterfaceMap::match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance) {
+  const std::string problem = mismatch(fluid.points, solid.points, tolerance);
+  if (!problem.empty()) throw input_error("unmatched interface: {}", problem);
+  const NodeGrid grid(solid.points, tolerance);
+  std::vector<int> partner_of(static_cast<std::size_t>(solid.points.cols()), -1);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int a = 0; a < fluid.points.cols(); ++a) {
+    const int node = grid.nearest(fluid.points.col(a));
+    int& partner = partner_of[static_cast<std::size_t>(node)];
+    if (partner >= 0)
+      throw input_error("unmatched interface: fluid nodes {} and {} are both nearest to wall node {}", partner, a,
+                        node);
+    partner = a;
+    for (int i = 0; i < 3; ++i) entries.emplace_back(3 * a + i, 3 * node + i, 1.0);
+  }
+  Rows rows(fluid.points.size(), solid.points.size());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  InterfaceMap map(fluid.points, solid.points, std::move(rows), {}, {});
+  map.node_for_node_ = true;
+  return map;
+}
+
+std::vector<double> InterfaceMap::to_fluid(const VectorXd& solid) const {
+  TETHER_ASSERT(solid.size() == rows_.cols(), "{} numbers for {} nodes", solid.size(), solid_nodes());
+  std::vector<double> values(static_cast<std::size_t>(rows_.rows()));
+  Eigen::Map<VectorXd> fluid(values.data(), rows_.rows());
+  fluid = rows_ * solid;
+  solve_mass(fluid, false);
+  return values;
+}
+
+VectorXd InterfaceMap::to_solid(const std::vector<double>& fluid) const {
+  TETHER_ASSERT(static_cast<Eigen::Index>(fluid.size()) == rows_.rows(), "{} numbers for {} nodes", fluid.size(),
+                fluid_nodes());
+  VectorXd load = Eigen::Map<const VectorXd>(fluid.data(), rows_.rows());
+  solve_mass(load, true);
+  return rows_.transpose() * load;
+}
+
+InterfaceBalance InterfaceMap::balance(const std::vector<double>& load, const VectorXd& motion) const {
+  const std::vector<double> there = to_fluid(motion);
+  const auto vector = [](const std::vector<double>& values) {
+    return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  return tether::balance({fluid_, vector(load), vector(there)}, {solid_, to_solid(load), motion});
+}
+
+void InterfaceMap::solve_mass(Eigen::Ref<VectorXd> fluid, bool transposed) const {
+  if (solved_.empty()) return;
+  MatrixXd values(solved_.size(), 3);
+  for (std::size_t i = 0; i < solved_.size(); ++i)
+    values.row(static_cast<Eigen::Index>(i)) = fluid.segment<3>(3 * solved_[i]).transpose();
+  if (transposed)
+    values = mass_->transpose().solve(values).eval();
+  else
+    values = mass_->solve(values).eval();
+  for (std::size_t i = 0; i < solved_.size(); ++i)
+    fluid.segment<3>(3 * solved_[i]) = values.row(static_cast<Eigen::Index>(i)).transpose();
+}
+
+}  // namespace tether
