@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/echo.hpp"
@@ -34,16 +35,24 @@ struct ServedCase {
   MeshCase mesh;
 };
 
-/// Of all that a run depends on beside the values of its numbers.
-std::string hash_of(const protocol::Hello& model, const CaseFile& file) {
-  const std::uint64_t time = hash_case(echo_json("time", file.common().time), hash_case(model.effective_case, 0));
-  return fmt::format("{:016x}", hash_case(echo_json("image", file.common().image), time));
-}
-
 /// What a case says of a field of a section, as text.
 std::string said_of(const YamlNode* section, std::string_view field) {
   const YamlNode* node = section == nullptr ? nullptr : section->find(field);
   return node == nullptr ? "" : yaml_text(*node);
+}
+
+/// Of all that a run depends on beside the values of its numbers: the model, its times, how and by which programs it is
+/// solved, and what these programs are where they are not Tether's own.
+std::string hash_of(const protocol::Hello& model, const CaseFile& file) {
+  std::uint64_t hash = hash_case(model.effective_case, 0);
+  for (const std::string& section : {echo_json("time", file.common().time), echo_json("image", file.common().image)})
+    hash = hash_case(section, hash);
+  const YamlNode tree = as_one_file(read_case_tree(file.path()));
+  const std::string coupling = said_of(&tree, "coupling");
+  hash = hash_bytes(coupling.data(), coupling.size(), hash);
+  for (const InputFile& input : input_files(file.path()))
+    if (input.field.starts_with("coupling.")) hash = hash_bytes(&input.content, sizeof input.content, hash);
+  return fmt::format("{:016x}", hash);
 }
 
 /// Those of the environment, if it names a folder. Runs of other versions, with other solver settings or without the

@@ -52,13 +52,13 @@ Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
 }
 
 Made<NoiseMeasurements> measure_noise(const fs::path& first, const fs::path& second, const fs::path& output) {
+  hold_output(output);
   SeenNoise seen = noise_between(surface_in(first), surface_in(second));
   seen.source = first.filename().string() + " and " + second.filename().string();
   seen.frames = {first.filename().string(), second.filename().string()};
   NoiseMeasurements noise;
   noise.case_name = seen.source;
   noise.measurements.push_back(measured_noise(seen, ""));
-  fs::create_directories(output);
   return written(std::move(noise), output);
 }
 

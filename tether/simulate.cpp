@@ -2,10 +2,12 @@
 #include <array>
 #include <csignal>
 #include <iostream>
+#include <set>
 
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
 #include "common/config/case_file.hpp"
+#include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
@@ -42,11 +44,24 @@ void check_with(const char* program, const CommandLine& command) {
                                    : message);
 }
 
+/// A case may be somebody else's: the programs that it names are shown before they run, each once.
+void show_programs(const std::filesystem::path& case_file) {
+  static std::set<std::string> shown;
+  const YamlNode tree = read_case_tree(case_file);
+  const YamlNode* coupling = tree.find("coupling");
+  const YamlNode* programs = coupling == nullptr ? nullptr : coupling->find("programs");
+  if (programs == nullptr) return;
+  for (const YamlNode::Entry& entry : programs->entries)
+    if (shown.insert(entry.key + "|" + entry.value.text).second)
+      fmt::print(stderr, "{}: this case runs {} as its {}\n", entry.place.text(), entry.value.text, entry.key);
+}
+
 }  // namespace
 
 void check_case(const CommandLine& command) {
   if (!std::filesystem::exists(command.case_file)) throw input_error("{}: no such file", command.case_file.string());
   check_with("fsi_master", command);
+  show_programs(command.case_file);
 }
 
 void check_identification(const CommandLine& command) {

@@ -96,7 +96,7 @@ std::string holder_name() {
 void hold_folder(const fs::path& folder) {
   const fs::path path = fs::canonical(folder) / folder_lock_name;
   if (held().contains(path)) return;
-  const int file = open(path.c_str(), O_RDWR | O_CREAT, 0666);
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (file < 0) refuse_folder(folder, "cannot be written to", errno);
   const Lock lock = wait_for_lock(file);
   const Holder other = read_holder(file);
@@ -115,6 +115,10 @@ void check_held(const fs::path& folder) {
   const auto found = held().find(fs::weakly_canonical(folder) / folder_lock_name);
   if (found != held().end() && identity_of(found->first) != found->second)
     throw run_error("{}: was removed during the run, or another run has taken it", folder.string());
+}
+
+void check_all_held() {
+  for (const auto& [lock, identity] : held()) check_held(lock.parent_path());
 }
 
 }  // namespace tether

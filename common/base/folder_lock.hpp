@@ -14,6 +14,9 @@ void hold_folder(const std::filesystem::path& folder);
 /// Throws RunError if a folder that this process holds, or uses beside its holder, was removed or taken by another.
 void check_held(const std::filesystem::path& folder);
 
+/// The same of all folders of this process.
+void check_all_held();
+
 /// In the environment of programs that work in folders which this process holds: its name.
 inline constexpr const char* holder_variable = "TETHER_HOLDER";
 

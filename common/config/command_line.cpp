@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "common/base/error.hpp"
+#include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
 #include "common/config/case.hpp"
 #include "common/config/describe.hpp"
@@ -98,7 +99,12 @@ int act(const Program& program, const Typed& typed) {
 
 int guarded(const std::string& program, const std::function<int()>& body) {
   try {
-    return body();
+    try {
+      return body();
+    } catch (const InputError&) {
+      check_all_held();  // what is missing in a folder that is gone is no mistake of the user's
+      throw;
+    }
   } catch (const InputError& error) {
     std::cerr << error.what() << std::endl;
     return exit_input_wrong;

@@ -1,6 +1,7 @@
 #include "common/config/input_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <fstream>
@@ -37,25 +38,44 @@ bool is_number(std::string_view text) {
   return error == std::errc{} && last == text.data() + text.size();
 }
 
-/// The files that the cells of a table, or the attributes of a series, name.
+std::string with_xml_entities_read(std::string text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> entities{
+      {{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}}};
+  for (const auto& [entity, character] : entities)
+    for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; at += character.size())
+      text.replace(at, entity.size(), character);
+  return text;
+}
+
+/// Without blanks and quotes around it.
+std::string bare(std::string_view text) {
+  constexpr std::string_view around = " \"'";
+  const std::size_t begin = std::min(text.find_first_not_of(around), text.size());
+  return std::string(text.substr(begin, text.find_last_not_of(around) + 1 - begin));
+}
+
+/// The files that the cells of a table, or the attributes of a series, name: whatever text between two of some marks is
+/// the name of a file. A name may hold the other marks.
 std::set<fs::path> files_named_in(const fs::path& path) {
   std::string kind = path.extension().string();
   std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
   if (kind != ".csv" && kind != ".pvd") return {};
-  constexpr std::string_view separators = ",\"'\t\r";
   std::set<fs::path> found;
+  const auto add_if_file = [&](const std::string& name) {
+    std::error_code none;
+    if (!name.empty() && !is_number(name) && fs::is_regular_file(path.parent_path() / name, none))
+      found.insert(path.parent_path() / name);
+  };
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
-    for (std::size_t begin = 0; begin < line.size();) {
-      const std::size_t end = std::min(line.find_first_of(separators, begin), line.size());
-      std::string text = line.substr(begin, end - begin);
-      text = text.substr(std::min(text.find_first_not_of(' '), text.size()));
-      text.resize(text.find_last_not_of(' ') + 1);
-      begin = end + 1;
-      std::error_code none;
-      if (!text.empty() && !is_number(text) && fs::is_regular_file(path.parent_path() / text, none))
-        found.insert(path.parent_path() / text);
-    }
+    for (const std::string_view marks : {",;\t\r", "\"", "'", ",\"'\t\r"})
+      for (std::size_t begin = 0; begin < line.size();) {
+        const std::size_t end = std::min(line.find_first_of(marks, begin), line.size());
+        const std::string text = bare(std::string_view(line).substr(begin, end - begin));
+        add_if_file(text);
+        if (text.find('&') != std::string::npos) add_if_file(with_xml_entities_read(text));
+        begin = end + 1;
+      }
   return found;
 }
 
@@ -77,10 +97,13 @@ std::uint64_t hash_state(const fs::path& checkpoint) {
   return hash_file(checkpoint / "solid.bin", hash_file(checkpoint / "fluid.bin", begin_of_hash));
 }
 
+constexpr std::string_view initial_state = "initial_state";  ///< the section that names a run for its state
+
 /// Of a folder that the case stands in, which may hold results as well, the files alone.
-std::uint64_t content_for(const fs::path& path, const fs::path& case_folder) {
+std::uint64_t content_for(const fs::path& path, const std::string& field, const fs::path& case_folder) {
   std::error_code none;
-  if (fs::is_directory(path / "checkpoint", none)) return hash_content(path);
+  if (field.starts_with(initial_state) && fs::is_directory(path / "checkpoint", none))
+    return hash_state(path / "checkpoint");
   const fs::path from_it = fs::canonical(case_folder, none).lexically_relative(fs::canonical(path, none));
   const bool holds_case = fs::is_directory(path, none) && !from_it.empty() && *from_it.begin() != "..";
   return holds_case ? hash_folder(path, begin_of_hash, 0) : hash_content(path);
@@ -89,18 +112,20 @@ std::uint64_t content_for(const fs::path& path, const fs::path& case_folder) {
 void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<InputFile>& found) {
   std::error_code none;
   if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::exists(folder / node.text, none))
-    found.push_back({field, node.text, content_for(folder / node.text, folder)});
+    found.push_back({field, node.text, content_for(folder / node.text, field, folder)});
   for (const YamlNode& item : node.items) gather(item, field, folder, found);
   for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);
 }
 
 /// Files count by what they hold, and their folders do not: a case may be moved.
-void look_into_files(nlohmann::json& value) {
+void look_into_files(nlohmann::json& value, const std::string& field) {
   if (value.is_string() && value.get_ref<const std::string&>().starts_with('/')) {
     const std::filesystem::path path = value.get<std::string>();
-    value = nlohmann::json::array({path.filename().string(), hash_content(path)});
-  } else if (value.is_structured()) {
-    for (auto& item : value) look_into_files(item);
+    value = nlohmann::json::array({path.filename().string(), content_for(path, field, "/")});
+  } else if (value.is_object()) {
+    for (auto& [key, item] : value.items()) look_into_files(item, field.empty() ? key : field);
+  } else if (value.is_array()) {
+    for (auto& item : value) look_into_files(item, field);
   }
 }
 
@@ -111,7 +136,7 @@ std::string essence(const std::string& effective_case) {
     for (const char* name : {"output", "coupling", "title"}) json.erase(name);
     if (json.contains("time") && json["time"].is_object()) json["time"].erase("end");
   }
-  look_into_files(json);
+  look_into_files(json, {});
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -119,7 +144,6 @@ std::string essence(const std::string& effective_case) {
 
 std::uint64_t hash_content(const fs::path& path) {
   std::error_code none;
-  if (fs::is_directory(path / "checkpoint", none)) return hash_state(path / "checkpoint");
   if (fs::is_directory(path, none)) return hash_folder(path, begin_of_hash, folders_deep);
   if (!fs::is_regular_file(path, none)) return 0;
   std::uint64_t hash = hash_file(path, begin_of_hash);

@@ -10,8 +10,7 @@
 namespace tether {
 
 /// A hash of what a file holds, and of what the files hold that a table (.csv) or series (.pvd) names; of a folder: of
-/// the names and contents of the files in it and in its folders; of the output folder of a run: of the state that it
-/// saved last. The hash of nothing if there is no such file.
+/// the names and contents of the files in it and in its folders. The hash of nothing if there is no such file.
 std::uint64_t hash_content(const std::filesystem::path& path);
 
 /// A file or folder that a value of a case names.
@@ -21,8 +20,9 @@ struct InputFile {
   std::uint64_t content = 0;
 };
 
-/// All of them, in the order of the case. A word that happens to be the name of a file beside the case counts as one:
-/// what a program of somebody else reads is not known here.
+/// All of them, in the order of the case; of a run that `initial_state` names the state that it saved last. A word that
+/// happens to be the name of a file beside the case counts as one: what a program of somebody else reads is not known
+/// here.
 std::vector<InputFile> input_files(const std::filesystem::path& case_file);
 
 /// Names an effective case (JSON) by a hash. Texts that begin with '/' are files: what they hold counts (hash_content),

@@ -54,6 +54,23 @@ std::string key_of(const fs::path& case_file, std::uint64_t asked) {
   return fmt::format("{:016x} {}", hash, built_from);
 }
 
+std::string content_of(const fs::path& file) {
+  return fmt::format("{:016x}", hash_content(file));
+}
+
+/// The records and tables in a step's folder, by name.
+std::vector<LeftFile> left_in(const fs::path& folder) {
+  std::vector<LeftFile> left;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string kind = entry.path().extension().string();
+    if (!entry.is_regular_file() || (kind != ".json" && kind != ".yaml" && kind != ".csv")) continue;
+    left.push_back({entry.path().filename().string(), content_of(entry.path())});
+  }
+  std::sort(left.begin(), left.end(), [](const LeftFile& a, const LeftFile& b) { return a.name < b.name; });
+  return left;
+}
+
 }  // namespace
 
 ExplainedSteps::ExplainedSteps(fs::path output, bool quiet) : output_(std::move(output)), quiet_(quiet) {
@@ -67,14 +84,10 @@ ExplainedSteps::ExplainedSteps(fs::path output, bool quiet) : output_(std::move(
 void ExplainedSteps::make(const std::string& title, const fs::path& case_file, const std::string& folder,
                           const std::string& result, const std::function<void(bool)>& act, std::uint64_t asked) {
   const std::string key = key_of(case_file, asked);
-  const fs::path made = output_ / folder / result;
-  const auto kept = std::find_if(before_.begin(), before_.end(), [&](const ExplainedStep& step) {
-    return step.name == title && step.folder == folder && step.key == key;
-  });
   if (!quiet_) std::cout << fmt::format("\n== {}\n", title) << std::flush;
-  if (kept != before_.end() && fs::exists(made)) {
+  if (const StepMade* before = kept({title, folder, 0, 0, key}); before && fs::exists(output_ / folder / result)) {
     if (!quiet_) std::cout << fmt::format("is there, in {}\n", (output_ / folder).string()) << std::flush;
-    done_.push_back(*kept);
+    done_.push_back(*before);
     return;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -87,8 +100,29 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
   } catch (const ToldFailure& failure) {
     throw run_error("{}: {}; the same command goes on from here", title, failure.what());
   }
-  done_.push_back({title, folder, seconds_since(start), cpu_seconds_of_all() - cpu, key});
+  done_.push_back({{title, folder, seconds_since(start), cpu_seconds_of_all() - cpu, key}, left_in(output_ / folder)});
   save();
+}
+
+const StepMade* ExplainedSteps::kept(const ExplainedStep& step) const {
+  const auto found = std::find_if(before_.begin(), before_.end(), [&](const StepMade& made) {
+    return made.step.name == step.name && made.step.folder == step.folder && made.step.key == step.key;
+  });
+  if (found == before_.end()) return nullptr;
+  const fs::path folder = output_ / step.folder;
+  const auto damaged = std::find_if(found->left.begin(), found->left.end(), [&](const LeftFile& file) {
+    return content_of(folder / file.name) != file.content;
+  });
+  if (damaged == found->left.end()) return &*found;
+  fmt::print(stderr, "{}: is not as its step left it: the step is made again\n", (folder / damaged->name).string());
+  for (const LeftFile& file : found->left) fs::remove(folder / file.name);
+  return nullptr;
+}
+
+std::vector<ExplainedStep> ExplainedSteps::all() const {
+  std::vector<ExplainedStep> steps;
+  for (const StepMade& made : done_) steps.push_back(made.step);
+  return steps;
 }
 
 void ExplainedSteps::save() const {

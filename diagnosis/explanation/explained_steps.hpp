@@ -8,8 +8,8 @@
 
 namespace tether {
 
-/// Makes the steps of an explanation, and leaves out those that were made before from the same case and files:
-/// steps.json in the output folder remembers.
+/// Makes the steps of an explanation, and leaves out those that were made before from the same case and files and whose
+/// results are as they were left: steps.json in the output folder remembers.
 class ExplainedSteps {
  public:
   ExplainedSteps(std::filesystem::path output, bool quiet);
@@ -19,14 +19,16 @@ class ExplainedSteps {
   void make(const std::string& title, const std::filesystem::path& case_file, const std::string& folder,
             const std::string& result, const std::function<void(bool was_begun)>& act, std::uint64_t asked = 0);
 
-  const std::vector<ExplainedStep>& all() const { return done_; }
+  std::vector<ExplainedStep> all() const;
 
  private:
   void save() const;
+  /// The step as it was made before, if its results are there as it left them. Of damaged ones nothing is kept.
+  const StepMade* kept(const ExplainedStep& step) const;
 
   std::filesystem::path output_;
   bool quiet_;
-  std::vector<ExplainedStep> before_, done_;
+  std::vector<StepMade> before_, done_;
 };
 
 }  // namespace tether

@@ -71,10 +71,33 @@ struct ExplainedStep {
   }
 };
 
+/// A file of a step's folder, as the step left it.
+struct LeftFile {
+  static constexpr const char* type_name = "left_file";
+  std::string name, content;
+
+  static void fields(auto& self, auto&& field) {
+    field("name", self.name, "in the step's folder");
+    field("content", self.content, "a hash of what it holds");
+  }
+};
+
+/// A step, and its results.
+struct StepMade {
+  static constexpr const char* type_name = "step_made";
+  ExplainedStep step;
+  std::vector<LeftFile> left;
+
+  static void fields(auto& self, auto&& field) {
+    field("step", self.step, "what was made");
+    field("left", self.left, "its records and tables: one that is not as it was left is made again");
+  }
+};
+
 /// The steps that were made so far: steps.json.
 struct StepsMade {
   static constexpr const char* type_name = "steps_made";
-  std::vector<ExplainedStep> steps;
+  std::vector<StepMade> steps;
 
   static void fields(auto& self, auto&& field) { field("steps", self.steps, "in their order"); }
 };

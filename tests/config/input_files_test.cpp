@@ -40,6 +40,34 @@ TEST_F(InputFiles, CountWithTheFilesThatTheyName) {
   EXPECT_FALSE(changes("data/list.csv", "data/3.vtp", "not named"));
 }
 
+/// Names may hold what tables and series are made of.
+TEST_F(InputFiles, CountWithFilesOfAnyName) {
+  write_file("data/patient's 1.vtp", "one");
+  write_file("data/a&b.vtp", "two");
+  write_file("data/x;y.vtp", "three");
+  write_file("data/list.csv", "file, time [s]\npatient's 1.vtp, 0\nx;y.vtp, 1\n");
+  write_file("data/list.pvd", "<DataSet timestep=\"0\" file=\"a&amp;b.vtp\"/><DataSet file=\"patient's 1.vtp\"/>\n");
+  EXPECT_TRUE(changes("data/list.csv", "data/patient's 1.vtp", "other"));
+  EXPECT_TRUE(changes("data/list.csv", "data/x;y.vtp", "other"));
+  EXPECT_TRUE(changes("data/list.pvd", "data/a&b.vtp", "other"));
+  EXPECT_TRUE(changes("data/list.pvd", "data/patient's 1.vtp", "yet another"));
+}
+
+/// A folder of surfaces may hold the output of a run; only where a case begins from a run does its state stand for it.
+TEST_F(InputFiles, OfARunTheStateCountsWhereACaseBeginsFromIt) {
+  fs::create_directories(test_folder() / "data/checkpoint");
+  write_file("data/checkpoint/solid.bin", "state");
+  write_file("data/checkpoint/fluid.bin", "state");
+  EXPECT_TRUE(changes("data", "data/lumen_1.vtp", "surface"));
+  const fs::path file = write_file("case.yaml", "name: tube\ninitial_state: {run: data}\n");
+  const auto content = [&] { return input_files(file).front().content; };
+  const std::uint64_t before = content();
+  write_file("data/summary.json", "what it has cost");
+  EXPECT_EQ(content(), before);
+  write_file("data/checkpoint/solid.bin", "another state");
+  EXPECT_NE(content(), before);
+}
+
 TEST_F(InputFiles, CountWithAllThatIsInAFolder) {
   write_file("mesh/mesh.vtu", "mesh");
   EXPECT_TRUE(changes("mesh", "mesh/surfaces/wall.vtp", "wall"));

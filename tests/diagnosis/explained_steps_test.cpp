@@ -51,6 +51,19 @@ TEST_F(ExplainedStepsTest, AreMadeAnewForOtherContent) {
   EXPECT_TRUE(is_made(1)) << "its result is gone";
 }
 
+/// What a step left is read later, and an emptied file may read as nothing found.
+TEST_F(ExplainedStepsTest, WhoseResultsAreDamagedAreMadeAnew) {
+  EXPECT_TRUE(is_made());
+  for (const char* damaged : {"", "{", "null"}) {
+    folder.file("out/model_0/comparison.json", damaged);
+    EXPECT_TRUE(is_made()) << damaged;
+    EXPECT_FALSE(is_made()) << damaged;
+  }
+  folder.file("out/model_0/notes.csv", "of the user's own");
+  EXPECT_FALSE(is_made());
+  EXPECT_TRUE(fs::exists(folder / "out/model_0/notes.csv"));
+}
+
 TEST_F(ExplainedStepsTest, OfADamagedMemoryAreMadeAnew) {
   for (const char* damaged : {"", "{", "[{}]", "{\"steps\": [{}]}", "null", "\xFF\xFE"}) {
     folder.file("out/steps.json", damaged);
