@@ -283,10 +283,12 @@ class Client {
   int end() {
     if (stage_ == Stage::stopping) {
       master().send(pack(Ready{}));
-      if (std::get<Stop>(message_).abrupt)
+      if (std::get<Stop>(message_).abrupt) {
         master().flush();
-      else
+      } else {
+        session_.gather_processes();
         master().close(exit_done);
+      }
     }
     link_.reset();
     return session_.end(exit_done);

@@ -225,7 +225,28 @@ Partner& Session::first_to_reply(std::span<Partner* const> asked) {
   return *first;
 }
 
+void Session::gather_processes() {
+  int size = 1;
+  MPI_Comm_size(parts_->own, &size);
+  if (parts_->parent == MPI_COMM_NULL || size == 1) return;
+  MPI_Request meeting = MPI_REQUEST_NULL;
+  check_mpi(MPI_Ibarrier(parts_->own, &meeting), "MPI_Ibarrier");
+  const auto have_met = [&meeting] {
+    int flag = 0;
+    check_mpi(MPI_Test(&meeting, &flag, MPI_STATUS_IGNORE), "MPI_Test");
+    return flag != 0;
+  };
+  wait_until(have_met, [] {});
+}
+
 int Session::end(int exit_code) {
+  if (parts_->parent != MPI_COMM_NULL && !parts_->is_leader) {
+    gather_processes();
+    const Guard deadline(0.5, [exit_code](double seconds) {
+      if (seconds > finalize_limit) end_job(exit_code);
+    });
+    MPI_Comm_disconnect(&parts_->parent);
+  }
   parts_->watch.unfollow();
   const std::vector<Partner*> partners = parts_->partners();
   const auto all = [&](auto condition) { return std::all_of(partners.begin(), partners.end(), condition); };

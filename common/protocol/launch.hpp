@@ -64,6 +64,10 @@ class Session {
   /// Interrupted.
   Partner& first_to_reply(std::span<Partner* const> asked);
 
+  /// The processes of a spawned code take leave of its master all together, as MPI asks: they wait for each other here,
+  /// the leader before it closes its link.
+  void gather_processes();
+
   /// Ends the job, the last thing in main. Partners that wait for a request are stopped. If all ended in good order:
   /// MPI_Finalize, and returns `exit_code`. Otherwise (a partner is dead, busy or lost) does not return: ends this
   /// process with `exit_code`, and all it launched, within a second.

@@ -12,11 +12,11 @@ Results are as docs/schema has them (tether.results). A code is coupled by tethe
 from tether.results import Result, load
 
 
-def serve(role, make, communicator=None):
+def serve(role, make, communicator=None, together=False):
     """Serves a fluid or solid written in Python; see tether.coupling."""
     from tether import coupling
 
-    return coupling.serve(role, make, communicator)
+    return coupling.serve(role, make, communicator, together)
 
 
 __all__ = ["Result", "load", "serve"]

@@ -37,6 +37,7 @@ import ctypes
 import math
 import os
 import pathlib
+import time
 
 import numpy
 
@@ -141,44 +142,113 @@ def _several(result):
     return list(result) if isinstance(result, tuple) else [result]
 
 
-def _answer(code, r):
-    """The arrays of the reply to request `r`."""
-    if r.kind == 2:
-        code.set_parameters({r.names[i].decode(): value for i, value in enumerate(r.values.numpy())})
-        return []
-    if r.kind == 4:
-        code.set_state(r.values.numpy())
-        return []
-    if r.kind == 5:
-        code.begin_step(r.step, r.time, r.dt, _vectors(r.displacement))
-        return []
-    if r.kind == 6:
-        reported = code.end_step(bool(r.accepted))
-        return [[] if reported is None else reported]
-    if r.kind == 7:
-        if hasattr(code, "write"):
-            code.write(r.step, r.time)
-        return []
-    calls = {
-        3: lambda: code.get_state(),
-        9: lambda: code.evaluate(_vectors(r.displacement), _vectors(r.velocity)),
-        10: lambda: code.tangent(_vectors(r.velocity)),
-        11: lambda: code.evaluate(_vectors(r.load)),
-        12: lambda: code.tangent(_vectors(r.load)),
-        13: lambda: code.residual(r.values.numpy(), _vectors(r.load)),
-        14: lambda: code.product(r.values.numpy()),
-        15: lambda: code.precondition(r.values.numpy()),
-        21: lambda: code.velocity(_vectors(r.values)),
+_METHODS = {2: "set_parameters", 3: "get_state", 4: "set_state", 5: "begin_step", 6: "end_step", 7: "write", 9: "evaluate",
+            10: "tangent", 11: "evaluate", 12: "tangent", 13: "residual", 14: "product", 15: "precondition", 21: "velocity"}
+
+
+def _call_of(r):
+    """The method that answers request `r`, and its arguments."""
+    arguments = {
+        2: lambda: ({r.names[i].decode(): value for i, value in enumerate(r.values.numpy())},),
+        3: lambda: (),
+        4: lambda: (r.values.numpy(),),
+        5: lambda: (r.step, r.time, r.dt, _vectors(r.displacement)),
+        6: lambda: (bool(r.accepted),),
+        7: lambda: (r.step, r.time),
+        9: lambda: (_vectors(r.displacement), _vectors(r.velocity)),
+        10: lambda: (_vectors(r.velocity),),
+        11: lambda: (_vectors(r.load),),
+        12: lambda: (_vectors(r.load),),
+        13: lambda: (r.values.numpy(), _vectors(r.load)),
+        14: lambda: (r.values.numpy(),),
+        15: lambda: (r.values.numpy(),),
+        21: lambda: (_vectors(r.values),),
     }
-    return _several(calls[r.kind]())
+    return _METHODS[r.kind], arguments[r.kind]()
 
 
-def _converse(library, partner, code):
+def _answer(code, method, arguments):
+    """The arrays of the reply."""
+    if method == "write" and not hasattr(code, "write"):
+        return []
+    result = getattr(code, method)(*arguments)
+    if method in ("set_parameters", "set_state", "begin_step", "write"):
+        return []
+    return [[] if result is None else result] if method == "end_step" else _several(result)
+
+
+class _Alone:
+    """The leader answers; its code sees to other processes, if there are any."""
+
+    def make(self, make):
+        return make()
+
+    def answer(self, code, method, arguments):
+        return _answer(code, method, arguments)
+
+    def end(self):
+        pass
+
+
+class _Together:
+    """All processes of a communicator make the code and call its methods at once, with the same arguments."""
+
+    def __init__(self, communicator):
+        self.communicator = communicator
+
+    def make(self, make):
+        return self._agreed(make)
+
+    def answer(self, code, method, arguments):
+        for rank in range(1, self.communicator.size):
+            self.communicator.send((method, arguments), rank)
+        return self._agreed(lambda: _answer(code, method, arguments))
+
+    def end(self):
+        for rank in range(1, self.communicator.size):
+            self.communicator.send(None, rank)
+
+    def follow(self, make):
+        """The life of a process that is not the leader."""
+        try:
+            code = self._agreed(make)
+        except Exception:  # the leader tells it
+            code = None
+        while (call := self._received()) is not None:
+            method, arguments = call
+            try:
+                self._agreed(lambda: getattr(code, method)(*arguments) if hasattr(code, method) else None)
+            except Exception:
+                pass
+
+    def _received(self):
+        nap = 1e-4
+        while not self.communicator.Iprobe(source=0):  # a receive would take a whole processor while it waits
+            time.sleep(nap)
+            nap = min(1.5 * nap, 2e-3)
+        return self.communicator.recv(source=0)
+
+    def _agreed(self, call):
+        """The result of a call; the exception of the first process that has one, in all of them."""
+        result = error = None
+        try:
+            result = call()
+        except Exception as raised:
+            error = raised
+        failed = [text for text in self.communicator.allgather(None if error is None else f"{type(error).__name__}: {error}") if text]
+        if error is not None:
+            raise error
+        if failed:
+            raise RuntimeError(failed[0])
+        return result
+
+
+def _converse(library, partner, code, group):
     """Answers requests until the job is over."""
     request = _Request()
     while library.tether_next(partner, ctypes.byref(request)) == 1:
         try:
-            arrays = [_doubles(values) for values in _answer(code, request)]
+            arrays = [_doubles(values) for values in group.answer(code, *_call_of(request))]
         except Exception as error:
             library.tether_fail(partner, f"{type(error).__name__}: {error}".encode())
             continue
@@ -194,24 +264,30 @@ def _handle(communicator):
     return -2 if communicator.Get_name() == "MPI_COMM_WORLD" else communicator.py2f()
 
 
-def serve(role, make, communicator=None):
+def serve(role, make, communicator=None, together=False):
     """Connects as `role` ("fluid" or "solid"), calls make() for the code and lets it answer until the job is over.
 
     make: a class or function without arguments; it finds the case file in sys.argv. communicator: mpi4py
     communicator of this code's processes, all of which call serve; COMM_WORLD means those of this program, also on
-    an mpirun line that has others. Returns the exit code.
+    an mpirun line that has others. together: make() and each method are called by all of them at once, with the same
+    arguments, and what the leader's return is sent; else only the leader's are called. Returns the exit code.
     """
     library = _load_library()
     partner = library.tether_connect(role.encode(), _handle(communicator))
     if not partner:
         raise RuntimeError(library.tether_error().decode())
-    if library.tether_is_leader(partner):
-        try:
-            code = make()
-            introduction = _Introduction(code)
-        except Exception as error:
-            library.tether_refuse(partner, f"{type(error).__name__}: {error}".encode())
-        else:
-            library.tether_introduce(partner, ctypes.byref(introduction.description))
-            _converse(library, partner, code)
+    group = _Together(communicator) if together and communicator.size > 1 else _Alone()
+    if not library.tether_is_leader(partner):
+        if isinstance(group, _Together):
+            group.follow(make)
+        return library.tether_end(partner)
+    try:
+        code = group.make(make)
+        introduction = _Introduction(code)
+    except Exception as error:
+        library.tether_refuse(partner, f"{type(error).__name__}: {error}".encode())
+    else:
+        library.tether_introduce(partner, ctypes.byref(introduction.description))
+        _converse(library, partner, code, group)
+    group.end()
     return library.tether_end(partner)
