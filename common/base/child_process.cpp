@@ -185,12 +185,13 @@ ForegroundEnd run_in_foreground(const Command& command) {
   const Forwarding forwarding;
   const pid_t pid = start(command, detach_from_terminal);
   foreground_child = pid;
+  const StoppedChildren children(pid, command.words.front());
   const int status = end_of(pid, command.words.front());
-  return {exit_code_in(status), WIFSIGNALED(status), handed_on};
+  return {exit_code_in(status), WIFSIGNALED(status), handed_on, children.were_killed()};
 }
 
 RunningProgram::RunningProgram(const Command& command)
-    : name_(command.words.front()), pid_(start(command, detach_from_terminal)) {}
+    : name_(command.words.front()), pid_(start(command, detach_from_terminal)), children_(pid_, name_) {}
 
 RunningProgram::~RunningProgram() {
   if (exit_code()) return;

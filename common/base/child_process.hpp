@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/stopped_children.hpp"
+
 namespace tether {
 
 /// A program to run: its path (or a name to be looked for in PATH), its arguments, and what to add to the environment.
@@ -36,6 +38,7 @@ struct ForegroundEnd {
   int exit_code = 0;        ///< as ChildEnd has it
   bool was_killed = false;  ///< a signal ended the program itself, not one that it ran
   int handed_on = 0;        ///< the last signal that this process got meanwhile and handed on
+  bool was_still = false;   ///< all that it ran was stopped, which was told, and killed in the end
 };
 /// Runs a program to its end in this process's place: it writes where this process writes, reads nothing, gets the
 /// signals INT, TERM and HUP that this process gets, and TERM if this process dies. One at a time.
@@ -59,6 +62,7 @@ class RunningProgram {
  private:
   std::string name_;
   pid_t pid_;
+  StoppedChildren children_;
   std::optional<int> code_;
 };
 

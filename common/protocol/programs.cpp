@@ -95,7 +95,7 @@ int report_failure(const ForegroundEnd& end, const std::string& master, const ch
   const protocol::Told told = note_of_failure().take();
   if (end.handed_on != 0 && told != protocol::Told::interruption)
     std::cerr << "tether: interrupted\n";
-  else if (told == protocol::Told::nothing)
+  else if (told == protocol::Told::nothing && !end.was_still)
     std::cerr << fmt::format("tether: {} {}{}\n", end.was_killed ? "mpirun" : master, how_it_ended(end.exit_code),
                              end.exit_code == 128 + SIGKILL ? ": out of memory?"
                              : end.exit_code > 128          ? ""
