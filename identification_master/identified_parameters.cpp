@@ -72,6 +72,7 @@ class Builder {
     made_.mother = mother_in(earlier);
     made_.mother ? begin_from(earlier[*made_.mother], earlier.covariance(*made_.mother, *made_.mother)) : begin();
     check_reach();
+    check_walk();
   }
   IdentifiedParameter take() { return std::move(made_); }
 
@@ -100,6 +101,7 @@ class Builder {
   void begin() {
     made_.prior_mean = theta_of(mean_ = given_.mean.value_or(given_.factor ? 1 : usual_value()));
     made_.prior_deviation = given_.deviation ? *given_.deviation : announced_deviation();
+    check_is_seen();
   }
   std::optional<Eigen::Index> mother_in(const EarlierEstimate& earlier) const {
     if (given_.part_of.empty()) return earlier.find(made_.name);
@@ -154,6 +156,25 @@ class Builder {
           where("deviation"), first_.name, first_.prior_deviation, first_.transform, made_.range.lower,
           made_.range.upper, name_of(made_.transform));
     return deviation;
+  }
+
+  /// Particles a deviation apart must be different numbers, and its square one that can be divided by.
+  void check_is_seen() const {
+    constexpr double share = 1e-9, tiny = 1e-30;
+    const double least = std::max(share * std::abs(made_.prior_mean), tiny);
+    if (made_.prior_deviation < least)
+      throw input_error("{}: {} of the {} is too small: its mean there is {:.6g}: must be at least {:.3g}",
+                        where("deviation"), made_.prior_deviation,
+                        made_.transform == Transform::linear ? "value" : name_of(made_.transform), made_.prior_mean,
+                        least);
+  }
+
+  /// What is known at first would be nothing against it.
+  void check_walk() const {
+    constexpr double most = 1e6;  // of the deviation
+    if (given_.walk > most * made_.prior_deviation)
+      throw input_error("{}: {} is too large: must be at most {:.3g}, a million deviations before the data",
+                        where("walk"), given_.walk, most * made_.prior_deviation);
   }
 
   /// Two deviations from the mean there must still be numbers.

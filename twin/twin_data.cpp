@@ -83,7 +83,38 @@ void check_frames(const TwinCase& given, const std::vector<double>& times, const
   }
 }
 
+/// Of an image, which takes some 24 bytes for each, and of a trace.
+constexpr double most_voxels = 5e7, most_values = 1e6;
+
+void check_image(const Scanner& scanner, const Vec3& extent, const WhereInCase& where) {
+  const double largest = extent.maxCoeff();
+  if (scanner.voxel.maxCoeff() > largest)
+    throw input_error("{}: {:.4g}: must not be larger than the vessel, which is {:.4g} long", where("twin.image.voxel"),
+                      scanner.voxel.maxCoeff(), largest);
+  if (scanner.blur > largest)
+    throw input_error("{}: {:.4g}: must not be larger than the vessel, which is {:.4g} long", where("twin.image.blur"),
+                      scanner.blur, largest);
+  const double voxels = ((extent.array() + 2 * scanner.reach()) / scanner.voxel.array() + 4).prod();
+  if (!(voxels <= most_voxels))
+    throw input_error("{}: would make {:.3g} voxels: must make at most {:.3g}", where("twin.image.voxel"), voxels,
+                      most_voxels);
+}
+
 }  // namespace
+
+void check_scales(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth, double first,
+                  const WhereInCase& where) {
+  const Points x = truth.positions(truth.start);
+  const Vec3 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+  if (const Scanner scanner = scanner_of(given, units); scanner.is_on()) check_image(scanner, extent, where);
+  if (given.noise.deviation > extent.maxCoeff())
+    throw input_error("{}: {:.4g}: must not be larger than the vessel, which is {:.4g} long",
+                      where("twin.noise.deviation"), given.noise.deviation, extent.maxCoeff());
+  for (const auto& [name, trace] : given.traces)
+    if (const double values = (truth.end - first) / trace.interval; !(values <= most_values))
+      throw input_error("{}: would make {:.3g} values: must make at most {:.3g}",
+                        where("twin.traces." + name + ".interval"), values, most_values);
+}
 
 std::vector<double> times_of_frames(const TwinCase& given, const TrueLumen& truth) {
   const double beat = given.beat.value_or(truth.end - truth.start), apart = beat / given.frames;

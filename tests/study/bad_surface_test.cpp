@@ -280,5 +280,37 @@ TEST(BadSurface, FilesThatHoldNoSurfaceAreRefused) {
   EXPECT_NE(said("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("is flat"), std::string::npos);
 }
 
+struct Length {
+  const char* name;
+  void (*set)(StudyCase&);
+  const char* said;
+};
+void PrintTo(const Length& length, std::ostream* out) {
+  *out << length.name;
+}
+class RefusedLength : public ::testing::TestWithParam<Length> {};
+
+/// A length that leaves nothing, or makes more than can be had.
+TEST_P(RefusedLength, IsToldWithItsField) {
+  StudyCase study = spoilt(std::string("length_") + GetParam().name, [](RawSurface&) {});
+  GetParam().set(study);
+  bool placed = false;
+  EXPECT_EQ(refusal(study, placed), GetParam().said);
+}
+
+const Length lengths[] = {
+    {"merge", [](StudyCase& s) { s.repair.merge = 20, s.lines["repair.merge"] = "study.yaml:3"; },
+     "study.yaml:3: repair.merge: 20 cm: leaves no triangle of the surface: must be shorter than its edges"},
+    {"merge_of_a_few", [](StudyCase& s) { s.repair.merge = 5; },
+     "repair.merge: 5 cm: leaves no triangle of the surface: must be shorter than its edges"},
+    {"longest", [](StudyCase& s) { s.edges.longest = 1e-4; }, ""},
+    {"longest_of_nothing", [](StudyCase& s) { s.edges.longest = 1e-300; }, ""},
+    {"shortest", [](StudyCase& s) { s.edges.per_radius = 0.5, s.edges.shortest = 1e-4; }, ""},
+    {"spacing", [](StudyCase& s) { s.centreline_spacing = 1e-7; }, ""},
+    {"inner_edge", [](StudyCase& s) { s.model.emplace().longest_edge = 1e-3; }, ""},
+};
+INSTANTIATE_TEST_SUITE_P(BadSurface, RefusedLength, ::testing::ValuesIn(lengths),
+                         [](const auto& info) { return std::string(info.param.name); });
+
 }  // namespace
 }  // namespace tether

@@ -261,5 +261,31 @@ TEST_F(FrontEnd, ListsItsVerbs) {
   EXPECT_EQ(tether("score case.yaml --resume").exit_code, 2);
 }
 
+/// What a person was to read and did not get is no success.
+TEST_F(FrontEnd, FailsWhereWhatItTellsIsLost) {
+  program("solid", "echo 'solid.density [g/cm3]  (number)'; echo '    mass per volume'");
+  for (const char* words : {"describe", "schema", "schema summary.json", "--help", "simulate --help"}) {
+    const ChildEnd end = tether(std::string(words) + " >/dev/full");
+    EXPECT_EQ(end.exit_code, 1) << words;
+    EXPECT_EQ(end.errors, "tether: what it tells cannot be written: is the disk full?\n") << words;
+  }
+}
+
+TEST_F(FrontEnd, NamesAFolderOfTemporaryFilesThatIsNone) {
+  const ChildEnd end = capture(
+      {{"/bin/sh", "-c", "cd " + folder_.string() + " && TMPDIR=/nonexistent ./tether simulate case.yaml"}, {}});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors,
+            "TMPDIR: /nonexistent: must name a folder, for the notes that a run's programs leave each other\n");
+}
+
+TEST_F(FrontEnd, RefusesANameThatIsTooLongForAFile) {
+  const std::string name(300, 'a');
+  std::ofstream(folder_ / "case.yaml") << "name: " << name << "\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
+  const ChildEnd end = tether("simulate case.yaml");
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("at most 200 of them"), std::string::npos) << end.errors;
+}
+
 }  // namespace
 }  // namespace tether
