@@ -40,7 +40,7 @@ std::string named(const Where& where, const std::string& field) {
 constexpr double most_nodes = 3e6;
 
 void check_nodes(const SweptCase& given, const DiscSettings& disc, const std::string& where) {
-  const double nodes = (make_disc(disc).node_count() + double(given.around) * given.layers) * (given.along + 1.0);
+  const double nodes = (make_disc(disc).node_count() + double(given.around) * (given.layers + 1)) * (given.along + 1.0);
   if (nodes > most_nodes)
     throw input_error("{}: around: {}, along: {} and layers: {} would make {:.3g} nodes: must make at most {:.3g}",
                       where, given.around, given.along, given.layers, nodes, most_nodes);

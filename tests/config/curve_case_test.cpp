@@ -88,7 +88,7 @@ TEST(Curve, PeriodMayBeGivenByTheLastRow) {
 
 TEST(Curve, ScaleIsNoLargerThanAnyChangeOfUnits) {
   write_file("q.csv", "time, value\n0,1\n1,1\n");
-  EXPECT_EQ(errors_in<CurveCase>("fluid: {file: q.csv, scale: 1e300}\n"),
+  EXPECT_EQ(errors_in("fluid: {file: q.csv, scale: 1e300}\n", CurveCase(dimension::flow)),
             "case.yaml:6: fluid.scale: 1e300: must be at least -1e12 and at most 1e12");
 }
 

@@ -28,23 +28,17 @@ RawSurface given_surface(const StudyCase& study, BuiltSurface& built) {
   return std::move(lumen.surface);
 }
 
-/// A length that swallows whole triangles leaves nothing to go on with.
-void require_triangles(const RawSurface& surface, const StudyCase& study, const std::string& field, double length) {
-  if (surface.triangles.empty())
-    throw input_error("{}: {:.4g} cm: leaves no triangle of the surface: must be shorter than its edges",
-                      study.where(field), length);
-}
-
 void repair(Repaired& state, const StudyCase& study) {
   const RepairCase& given = study.repair;
   merge_points(state, given.merge);
-  require_triangles(state.surface, study, "repair.merge", given.merge);
+  if (state.surface.triangles.empty())
+    throw input_error("{}: {:.4g} cm: leaves no triangle of the surface: must be shorter than its edges",
+                      study.where("repair.merge"), given.merge);
   drop_fins(state);
   keep_largest_piece(state);
   split_points(state);
   orient(state);
   remove_slivers(state, given.sliver);
-  require_triangles(state.surface, study, "repair.sliver", given.sliver);
   remove_crossings(state);
 }
 
@@ -52,26 +46,31 @@ void repair(Repaired& state, const StudyCase& study) {
 /// could take.
 constexpr double most_points = 5000, most_triangles = 2e6, most_tetrahedra = 2e7;
 
+std::string counted(double number) {
+  return std::isfinite(number) ? fmt::format("{:.3g}", number) : "countless";
+}
+
 /// Refuses lengths that would make more points than can be had, by what is known before they are made.
 void check_counts(const LabelledSurface& closed, const std::vector<Rim>& rims, const StudyCase& study) {
   double apart = 0;
   for (const Rim& rim : rims)
     apart = std::max(apart, (rim.plane.origin - rims[static_cast<std::size_t>(closed.inlet)].plane.origin).norm());
   if (const double points = apart / study.centreline_spacing; points > most_points)
-    throw input_error("{}: {:.4g} cm: would make a line of {:.3g} points or more: must make at most {:.0f}",
-                      study.where("centreline_spacing"), study.centreline_spacing, points, most_points);
+    throw input_error("{}: {:.4g} cm: would make a line of {} points or more: must make at most {:.0f}",
+                      study.where("centreline_spacing"), study.centreline_spacing, counted(points), most_points);
   const bool by_radius = study.edges.per_radius > 0;  // all edges are made the shortest first
   const double edge = by_radius ? study.edges.shortest : study.edges.longest;
   const double triangles = total_area(closed.points, closed.triangles) / (std::sqrt(3) / 4 * edge * edge);
   if (!(triangles <= most_triangles))
-    throw input_error("{}: {:.4g} cm: would make {:.3g} triangles: must make at most {:.3g}",
-                      study.where(by_radius ? "edges.shortest" : "edges.longest"), edge, triangles, most_triangles);
+    throw input_error("{}: {:.4g} cm: would make {} triangles: must make at most {:.3g}",
+                      study.where(by_radius ? "edges.shortest" : "edges.longest"), edge, counted(triangles),
+                      most_triangles);
   if (!study.model || !study.model->longest_edge) return;
   const double inner = *study.model->longest_edge;
   const double tetrahedra = measures_of(closed).volume / (std::sqrt(2) / 12 * inner * inner * inner);
   if (!(tetrahedra <= most_tetrahedra))
-    throw input_error("{}: {:.4g} cm: would make {:.3g} tetrahedra: must make at most {:.3g}",
-                      study.where("model.longest_edge"), inner, tetrahedra, most_tetrahedra);
+    throw input_error("{}: {:.4g} cm: would make {} tetrahedra: must make at most {:.3g}",
+                      study.where("model.longest_edge"), inner, counted(tetrahedra), most_tetrahedra);
 }
 
 int trunk_of(const LabelledSurface& surface, const StudyCase& study, const std::vector<Rim>& rims) {
