@@ -39,8 +39,8 @@ void check_scales(const TwinCase& given, const UnitSystem& units, const TrueLume
 /// The stated times of all frames.
 std::vector<double> times_of_frames(const TwinCase& given, const TrueLumen& truth);
 
-/// Images, segments and spoils the truth. Throws InputError, beginning with `where`, for a frame outside the run or a
-/// fault of a frame that does not exist.
+/// Images, segments and spoils the truth. Throws InputError, beginning with `where`, for a frame outside the run, a
+/// fault of a frame that does not exist or an image that shows nothing.
 TwinFrames make_frames(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth,
                        const std::string& where);
 

@@ -279,6 +279,12 @@ TEST_F(FrontEnd, NamesAFolderOfTemporaryFilesThatIsNone) {
             "TMPDIR: /nonexistent: must name a folder, for the notes that a run's programs leave each other\n");
 }
 
+TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
+  const ChildEnd end = capture({{TETHER_PROGRAM, "conform", folder_.string()}, {}});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors, "tether_conform: the program: " + folder_.string() + " cannot be executed\n");
+}
+
 TEST_F(FrontEnd, RefusesANameThatIsTooLongForAFile) {
   const std::string name(300, 'a');
   std::ofstream(folder_ / "case.yaml") << "name: " << name << "\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";

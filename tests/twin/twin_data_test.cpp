@@ -53,6 +53,15 @@ TwinFrames made(const TwinCase& given) {
   return make_frames(given, UnitSystem::named("mm-g-s"), beating(), "case.yaml:9: twin");
 }
 
+std::string error_of(const TwinCase& given) {
+  try {
+    made(given);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
 double radius_of(const TriangleSurface& surface) {
   return surface.points.topRows(2).colwise().norm().mean();
 }
@@ -169,14 +178,6 @@ TEST(TwinFaults, ConcernAllFramesUnlessOneIsNamed) {
 }
 
 TEST(TwinFaults, OfFramesThatDoNotExistAreTold) {
-  const auto error_of = [](const TwinCase& given) -> std::string {
-    try {
-      made(given);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
   TwinCase given = plain();
   given.faults = faults_of("misplaced: {frame: 10, offset: [1, 0, 0]}");
   EXPECT_EQ(error_of(given), "case.yaml:9: twin.faults: frame 10 of 10, counted from 0");
@@ -238,6 +239,17 @@ TEST(TwinScales, ThatCannotBeMadeAreRefusedWithTheirField) {
   given = plain();
   given.traces.emplace_back("a", TwinTraceCase{}).second.interval = 1e-300;
   expect("case.yaml:9: twin.traces.a.interval: would make 1e+300 values: must make at most 1e+06");
+}
+
+TEST(TwinFrames, OfAnImageThatShowsNothingAreRefused) {
+  TwinCase given = with_voxels();
+  given.image.voxel = {38, 38, 38};
+  EXPECT_EQ(error_of(given),
+            "case.yaml:9: twin.image: nothing of the vessel is seen: its voxels or its blur are too large");
+  given.image.voxel = {1, 1, 1};
+  given.image.blur = 30;
+  EXPECT_EQ(error_of(given),
+            "case.yaml:9: twin.image: nothing of the vessel is seen: its voxels or its blur are too large");
 }
 
 /// What reading a section `twin` says.
