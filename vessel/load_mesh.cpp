@@ -37,7 +37,7 @@ std::string named(const Where& where, const std::string& field) {
 }
 
 /// Nodes of blood and wall, all told, for which a run has neither the memory nor the time.
-constexpr double most_nodes = 3e6;
+constexpr double most_nodes = 2e6;
 
 void check_nodes(const SweptCase& given, const DiscSettings& disc, const std::string& where) {
   const double nodes = (make_disc(disc).node_count() + double(given.around) * (given.layers + 1)) * (given.along + 1.0);

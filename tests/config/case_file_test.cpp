@@ -189,6 +189,7 @@ TEST(CaseFile, NamesWhatTheHeadLacks) {
             "case.yaml:2: units: cgi: must be one of cgs, SI, mm-g-s; did you mean 'cgs'? "
             "(unit system of all numbers that carry no unit of their own)\n"
             "case.yaml:3: time.end: -1: must be after time.start");
+  EXPECT_NE(error_of_whole("name: " + std::string(300, 'a') + "\n").find(", at most 200 of them\n"), std::string::npos);
   EXPECT_EQ(error_of_whole("just words\n"),
             "case.yaml:1: a case file is a section of named fields, such as 'name: tube'");
 }

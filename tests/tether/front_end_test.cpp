@@ -285,13 +285,5 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
   EXPECT_EQ(end.errors, "tether_conform: the program: " + folder_.string() + " cannot be executed\n");
 }
 
-TEST_F(FrontEnd, RefusesANameThatIsTooLongForAFile) {
-  const std::string name(300, 'a');
-  std::ofstream(folder_ / "case.yaml") << "name: " << name << "\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
-  const ChildEnd end = tether("simulate case.yaml");
-  EXPECT_EQ(end.exit_code, 2);
-  EXPECT_NE(end.errors.find("at most 200 of them"), std::string::npos) << end.errors;
-}
-
 }  // namespace
 }  // namespace tether

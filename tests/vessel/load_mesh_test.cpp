@@ -244,7 +244,7 @@ TEST(MeshCase, MoreNodesThanARunCanTakeAreRefused) {
   file.finish();
   const std::string told = message_of([&] { load_mesh(mesh, file, WallElement::prism); });
   expect_part(told, "case.yaml:5: mesh.swept: around: 1000, along: 10000 and layers: 50 would make ");
-  expect_part(told, " nodes: must make at most 3e+06");
+  expect_part(told, " nodes: must make at most 2e+06");
 }
 
 TEST(MeshCase, LengthsThatNoVesselHasAreRefused) {
