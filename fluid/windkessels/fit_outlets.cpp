@@ -134,6 +134,8 @@ std::vector<Windkessel> by_pulse(const OutletsCase& asked, const Named<TargetOut
                                  const PeriodicFlow& flow, FittedOutlets& result) {
   OutletTargets targets;
   for (const auto& [name, outlet] : outlets) targets.names.push_back(name);
+  if (const double mean = mmhg(*asked.pressure.mean); !(mean <= most_pressure))
+    throw input_error("pressure.mean: {:.4g} mmHg: is more than any vessel bears", mean);
   targets.mean_pressure = mmhg(*asked.pressure.mean - asked.pressure.venous);
   targets.pulse_pressure = mmhg(*asked.pressure.pulse);
   targets.shares = shares;

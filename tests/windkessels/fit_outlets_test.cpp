@@ -155,6 +155,12 @@ TEST(FitOutlets, RefusesFlowsThatNoVesselCarries) {
             std::string::npos);
 }
 
+TEST(FitOutlets, RefusesPressuresThatNoVesselBears) {
+  EXPECT_NE(refusal_of(flow + "pressure: {mean: 1e12, pulse: 5e11}\n" + two_outlets)
+                .find("pressure.mean: 7.501e+08 mmHg: is more than any vessel bears"),
+            std::string::npos);
+}
+
 /// A beat of n outlets takes the cube of n.
 TEST(FitOutlets, RefusesMoreOutletsThanItEndsWith) {
   std::string many = "outlets:\n";
