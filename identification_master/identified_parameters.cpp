@@ -71,7 +71,8 @@ class Builder {
     bound();
     made_.mother = mother_in(earlier);
     made_.mother ? begin_from(earlier[*made_.mother], earlier.covariance(*made_.mother, *made_.mother)) : begin();
-    check_reach();
+    check_reach("deviation", made_.prior_deviation);
+    check_walk();
   }
   IdentifiedParameter take() { return std::move(made_); }
 
@@ -100,6 +101,7 @@ class Builder {
   void begin() {
     made_.prior_mean = theta_of(mean_ = given_.mean.value_or(given_.factor ? 1 : usual_value()));
     made_.prior_deviation = given_.deviation ? *given_.deviation : announced_deviation();
+    check_is_seen();
   }
   std::optional<Eigen::Index> mother_in(const EarlierEstimate& earlier) const {
     if (given_.part_of.empty()) return earlier.find(made_.name);
@@ -156,13 +158,33 @@ class Builder {
     return deviation;
   }
 
+  /// Particles a deviation apart must be different numbers, and its square one that can be divided by.
+  void check_is_seen() const {
+    constexpr double share = 1e-9, tiny = 1e-30;
+    const double least = std::max(share * std::abs(made_.prior_mean), tiny);
+    if (made_.prior_deviation < least)
+      throw input_error("{}: {} of the {} is too small: its mean there is {:.6g}: must be at least {:.3g}",
+                        where("deviation"), made_.prior_deviation,
+                        made_.transform == Transform::linear ? "value" : name_of(made_.transform), made_.prior_mean,
+                        least);
+  }
+
+  /// What is known at first would be nothing against it; and after one unit of time the value must still be a number.
+  void check_walk() const {
+    constexpr double most = 1e3;  // of the deviation
+    if (given_.walk > most * made_.prior_deviation)
+      throw input_error("{}: {} is too large: must be at most {:.3g}, a thousand deviations before the data",
+                        where("walk"), given_.walk, most * made_.prior_deviation);
+    check_reach("walk", given_.walk);
+  }
+
   /// Two deviations from the mean there must still be numbers.
-  void check_reach() const {
+  void check_reach(const char* field, double deviation) const {
     for (const double side : {-2.0, 2.0}) {
-      const double value = unstretched(made_.transform, made_.prior_mean + side * made_.prior_deviation, made_.range);
+      const double value = unstretched(made_.transform, made_.prior_mean + side * deviation, made_.range);
       if (!std::isfinite(value) || (is_logarithmic(made_.transform) && !(value > 0)))
         throw input_error("{}: {} of the {} is too large: two deviations from the mean the value would be {}",
-                          where("deviation"), made_.prior_deviation,
+                          where(field), deviation,
                           made_.transform == Transform::linear ? "value" : name_of(made_.transform), value);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -106,8 +107,17 @@ std::string usage() {
 
 }  // namespace
 
-int front_end(int argc, char** argv) {
-  end_when_interrupted();
+namespace {
+
+/// The exit code, if all that was told could be written.
+int told_to_the_end(int exit_code) {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  std::cerr << "tether: what it tells cannot be written: is the disk full?" << std::endl;
+  return exit_code == exit_done ? exit_run_failed : exit_code;
+}
+
+int answered(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "conform") return conform(argc - 2, argv + 2);
   if (word == "measure-noise" && argc > 3 && argv[2][0] != '-' && argv[3][0] != '-')
@@ -119,6 +129,13 @@ int front_end(int argc, char** argv) {
   if (!asked && !word.empty()) std::cerr << "tether: unknown verb '" << word << "'\n\n";
   (asked ? std::cout : std::cerr) << usage();
   return asked ? exit_done : exit_input_wrong;
+}
+
+}  // namespace
+
+int front_end(int argc, char** argv) {
+  end_when_interrupted();
+  return told_to_the_end(answered(argc, argv));
 }
 
 }  // namespace tether

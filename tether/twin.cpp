@@ -135,6 +135,8 @@ void check(const CaseWithTwin& given, const Truth& truth) {
 TwinFrames write_data(const fs::path& folder, const CaseWithTwin& given, const Truth& truth) {
   const TrueLumen lumen = truth.lumen();
   const double first = times_of_frames(given.twin, lumen).front();
+  check_scales(given.twin, given.file.units(), lumen, first,
+               [&](const std::string& field) { return given.file.where(field); });
   TwinFrames frames = make_frames(given.twin, given.file.units(), lumen, given.file.where("twin"));
   write_frames(folder / "data", frames.frames);
   std::uint64_t seed = static_cast<std::uint64_t>(given.twin.seed) * 16 + 8;

@@ -64,7 +64,7 @@ vtkSmartPointer<vtkPolyData> level(const Image& image) {
 
 /// A pass band of 0.1 keeps shapes above some ten voxels (Taubin, Zhang and Golub 1996).
 vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData* surface, int passes) {
-  if (passes == 0) return surface;
+  if (passes == 0 || surface->GetNumberOfPolys() == 0) return surface;
   vtkNew<vtkWindowedSincPolyDataFilter> filter;
   filter->SetInputData(surface);
   filter->SetNumberOfIterations(passes);

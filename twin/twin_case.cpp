@@ -1,5 +1,10 @@
 #include "twin/twin_case.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "observation_manager/measurements/trace_case.hpp"
 
 namespace tether {
@@ -55,6 +60,11 @@ void TwinCase::declare(Fields& f) {
   f.group("faults", faults, "what goes wrong with the data");
   f.groups("traces", traces, "traces to be measured, by name");
   f.group("hidden", hidden, "the answer, sealed away from everything but tether score");
+  int kept = 0;
+  for (int frame = 0; frame < frames; ++frame) kept += faults.lose(frame) ? 0 : 1;
+  f.check(std::all_of(held_out.begin(), held_out.end(),
+                      [&](double number) { return number < kept && number == std::floor(number); }),
+          "held_out", fmt::format("must be whole numbers, from 0 to {}: of the frames that are kept", kept - 1));
 }
 
 }  // namespace tether

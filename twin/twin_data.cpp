@@ -53,11 +53,18 @@ TriangleSurface round_lumen(const TriangleSurface& lumen, std::uint64_t seed) {
   return rounded(rounded(lumen, seed), seed + 1);
 }
 
-TriangleSurface imaged(const TriangleSurface& truth, const Scanner& scanner, const TwinImageCase& how) {
+/// Throws InputError, beginning with `where`, if the voxels or the blur are so large that nothing is seen.
+TriangleSurface imaged(const TriangleSurface& truth, const Scanner& scanner, const TwinImageCase& how,
+                       const std::string& where) {
   TriangleSurface closed = closed_lumen(truth, scanner.reach());
   const VoxelImage image = coverage(closed, scanner.voxel, scanner.shift, scanner.reach());
   const TriangleSurface surface = segmented(image, {scanner.blur, how.mask, how.smoothing});
-  return part_of(surface, within_vessel(surface, SignedSurface(std::move(closed)), truth.triangles.size()));
+  std::vector<bool> keep;
+  if (!surface.triangles.empty())
+    keep = within_vessel(surface, SignedSurface(std::move(closed)), truth.triangles.size());
+  if (std::none_of(keep.begin(), keep.end(), [](bool kept) { return kept; }))
+    throw input_error("{}.image: nothing of the vessel is seen: its voxels or its blur are too large", where);
+  return part_of(surface, keep);
 }
 
 /// Squares of the distances from the true nodes to a surface, where it is not open.
@@ -83,7 +90,42 @@ void check_frames(const TwinCase& given, const std::vector<double>& times, const
   }
 }
 
+/// Of an image, which takes some 24 bytes for each, and of a trace.
+constexpr double most_voxels = 5e7, most_values = 1e6;
+
+std::string counted(double number) {
+  return std::isfinite(number) ? fmt::format("{:.3g}", number) : "countless";
+}
+
+void check_image(const Scanner& scanner, const Vec3& extent, const WhereInCase& where) {
+  const double largest = extent.maxCoeff();
+  if (scanner.voxel.maxCoeff() > largest)
+    throw input_error("{}: {:.4g}: must not be larger than the vessel, which is {:.4g} long", where("twin.image.voxel"),
+                      scanner.voxel.maxCoeff(), largest);
+  if (scanner.blur > largest)
+    throw input_error("{}: {:.4g}: must not be larger than the vessel, which is {:.4g} long", where("twin.image.blur"),
+                      scanner.blur, largest);
+  const double voxels = ((extent.array() + 2 * scanner.reach()) / scanner.voxel.array() + 4).prod();
+  if (!(voxels <= most_voxels))
+    throw input_error("{}: would make {} voxels: must make at most {:.3g}", where("twin.image.voxel"), counted(voxels),
+                      most_voxels);
+}
+
 }  // namespace
+
+void check_scales(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth, double first,
+                  const WhereInCase& where) {
+  const Points x = truth.positions(truth.start);
+  const Vec3 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+  if (const Scanner scanner = scanner_of(given, units); scanner.is_on()) check_image(scanner, extent, where);
+  if (given.noise.deviation > extent.maxCoeff())
+    throw input_error("{}: {:.4g}: must not be larger than the vessel, which is {:.4g} long",
+                      where("twin.noise.deviation"), given.noise.deviation, extent.maxCoeff());
+  for (const auto& [name, trace] : given.traces)
+    if (const double values = (truth.end - first) / trace.interval; !(values <= most_values))
+      throw input_error("{}: would make {} values: must make at most {:.3g}",
+                        where("twin.traces." + name + ".interval"), counted(values), most_values);
+}
 
 std::vector<double> times_of_frames(const TwinCase& given, const TrueLumen& truth) {
   const double beat = given.beat.value_or(truth.end - truth.start), apart = beat / given.frames;
@@ -107,7 +149,7 @@ TwinFrames make_frames(const TwinCase& given, const UnitSystem& units, const Tru
     const auto i = static_cast<std::size_t>(frame);
     const double shown = std::clamp(times[i] + given.faults.delay(frame), truth.start, truth.end);
     const TriangleSurface lumen = round_lumen({truth.positions(shown), truth.triangles}, seed_of(given, of_triangles));
-    TriangleSurface surface = scanner.is_on() ? imaged(lumen, scanner, given.image) : lumen;
+    TriangleSurface surface = scanner.is_on() ? imaged(lumen, scanner, given.image, where) : lumen;
     if (scanner.is_on())
       for (const double square : squared_errors(lumen.points, surface)) errors.push_back(square);
     move_along_normals(surface, noise(i, surface.points).array() + given.faults.moved_outward());

@@ -28,11 +28,19 @@ struct TwinFrames {
       0;  ///< root mean square distance of the surfaces from the truth before noise and faults [length]
 };
 
+/// Where a field of the case stands: "case.yaml:9: twin.image.voxel".
+using WhereInCase = std::function<std::string(const std::string& field)>;
+
+/// Throws InputError for an image, noise or traces that cannot be made: more voxels or values than there is memory
+/// for, or voxels, a blur or a noise larger than the vessel. first: time of the first frame.
+void check_scales(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth, double first,
+                  const WhereInCase& where);
+
 /// The stated times of all frames.
 std::vector<double> times_of_frames(const TwinCase& given, const TrueLumen& truth);
 
-/// Images, segments and spoils the truth. Throws InputError, beginning with `where`, for a frame outside the run or a
-/// fault of a frame that does not exist.
+/// Images, segments and spoils the truth. Throws InputError, beginning with `where`, for a frame outside the run, a
+/// fault of a frame that does not exist or an image that shows nothing.
 TwinFrames make_frames(const TwinCase& given, const UnitSystem& units, const TrueLumen& truth,
                        const std::string& where);
 

@@ -30,8 +30,26 @@ std::vector<Points> contours_of(const ContoursCase& given, const UnitSystem& uni
 /// Where a field of the case stands, for messages; "" if nobody knows.
 using Where = std::function<std::string(const std::string& field)>;
 
-VesselMesh swept(const SweptCase& given, const UnitSystem& units) {
+/// Where the field stands if that is known, else its name.
+std::string named(const Where& where, const std::string& field) {
+  const std::string line = where(field);
+  return line.empty() ? field : line;
+}
+
+/// Nodes of blood and wall, all told, for which a run has neither the memory nor the time.
+constexpr double most_nodes = 2e6;
+
+void check_nodes(const SweptCase& given, const DiscSettings& disc, const std::string& where) {
+  const double nodes = (make_disc(disc).node_count() + double(given.around) * (given.layers + 1)) * (given.along + 1.0);
+  if (nodes > most_nodes)
+    throw input_error("{}: around: {}, along: {} and layers: {} would make {:.3g} nodes: must make at most {:.3g}",
+                      where, given.around, given.along, given.layers, nodes, most_nodes);
+}
+
+VesselMesh swept(const SweptCase& given, const UnitSystem& units, const Where& where) {
   SweepSettings settings;
+  settings.disc = {given.around, given.boundary_layers, given.boundary_layer_ratio};
+  check_nodes(given, settings.disc, named(where, "mesh.swept"));
   if (given.contours) {
     settings.sections = contours_of(*given.contours, units);
   } else {
@@ -43,19 +61,12 @@ VesselMesh swept(const SweptCase& given, const UnitSystem& units) {
   settings.wall_thickness = given.wall_thickness;
   settings.along = given.along;
   settings.layers = given.layers;
-  settings.disc = {given.around, given.boundary_layers, given.boundary_layer_ratio};
   settings.regions = regions_of(given.regions);
   return sweep(settings);
 }
 
 Thickness thickness_of(const ThicknessCase& given) {
   return {given.thickness, given.fraction_of_radius};
-}
-
-/// Where the field stands if that is known, else its name.
-std::string named(const Where& where, const std::string& field) {
-  const std::string line = where(field);
-  return line.empty() ? field : line;
 }
 
 void set_grown_wall(VesselFiles& files, const std::optional<GrownWallCase>& given, const std::string& section,
@@ -144,7 +155,7 @@ VesselFiles files_of(const MeshCompleteCase& given, const Where& where) {
 }
 
 ReadVessel from_source(const MeshCase& mesh, const UnitSystem& units, WallElement element, const Where& where) {
-  if (mesh.source == "swept") return {swept(mesh.swept, units), {}};
+  if (mesh.source == "swept") return {swept(mesh.swept, units, where), {}};
   VesselFiles files = mesh.source == "files" ? files_of(mesh.files, where, units) : files_of(mesh.mesh_complete, where);
   files.prisms = element == WallElement::prism;
   return read_vessel_and_growth(files);

@@ -1,5 +1,7 @@
 #include "vessel/mesh_case.hpp"
 
+#include <cmath>
+
 #include "common/config/columns.hpp"
 
 namespace tether {
@@ -7,6 +9,14 @@ namespace tether {
 namespace {
 
 constexpr Range up_to_one{0, 1};
+
+/// In any of the unit systems a vessel's lengths lie within this; squares and cubes beyond it would not be finite.
+constexpr double shortest_length = 1e-6, longest_length = 1e6;
+
+void check_length(Fields& f, const char* field, std::optional<double> length) {
+  f.check(!length || *length == 0 || (*length >= shortest_length && *length <= longest_length), field,
+          "must be at least 1e-6 and at most 1e6: no vessel's length is beyond that in any unit");
+}
 
 void declare_regions(Fields& f, Named<RegionCase>& regions, Vec3& angle_origin) {
   f.groups("regions", regions,
@@ -34,6 +44,8 @@ void ContoursCase::declare(Fields& f) {
 void ExtendCase::declare(Fields& f) {
   f.number("inlet", inlet, dimension::length, range::not_negative, "before the first contour");
   f.number("outlet", outlet, dimension::length, range::not_negative, "behind the last contour");
+  check_length(f, "inlet", inlet);
+  check_length(f, "outlet", outlet);
 }
 
 void SweptCase::declare(Fields& f) {
@@ -54,6 +66,9 @@ void SweptCase::declare(Fields& f) {
   f.number("boundary_layer_ratio", boundary_layer_ratio, dimension::none, {0, 1, true, false},
            "thickness of each of them over the one further in (the first: over the spacing of nodes around)");
   declare_regions(f, regions, angle_origin);
+  check_length(f, "radius", radius);
+  check_length(f, "length", length);
+  check_length(f, "wall_thickness", std::isnan(wall_thickness) ? std::nullopt : std::optional(wall_thickness));
 }
 
 void FaceCase::declare(Fields& f) {

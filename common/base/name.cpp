@@ -8,6 +8,7 @@ namespace tether {
 namespace {
 
 constexpr std::size_t longest_name = 100;
+constexpr std::size_t longest_file_name = 200;  // file systems take 255 bytes, and more is added to it
 
 bool is_ascii(char c) {
   return static_cast<unsigned char>(c) < 0x80;
@@ -80,9 +81,9 @@ bool is_name(std::string_view text) {
 }
 
 bool is_file_name(std::string_view text) {
-  return !text.empty() && text.front() != '.' && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  });
+  if (text.empty() || text.size() > longest_file_name || text.front() == '.') return false;
+  return std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; });
 }
 
 }  // namespace tether

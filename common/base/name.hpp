@@ -12,7 +12,8 @@ inline constexpr std::string_view name_rule = "a name consists of letters, digit
 bool is_name(std::string_view text);
 
 /// The rule for names of cases and studies, after which folders are named.
-inline constexpr std::string_view file_name_rule = "must consist of letters, digits, '_', '-' and '.'";
+inline constexpr std::string_view file_name_rule =
+    "must consist of letters, digits, '_', '-' and '.', at most 200 of them";
 bool is_file_name(std::string_view text);
 
 /// Whether a text is valid UTF-8, as all files of results must be (RFC 3629: no overlong forms, no surrogates).

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/config/columns.hpp"
@@ -32,6 +34,8 @@ void CurveCase::declare(Fields& f) {
   f.number("ramp", ramp, dimension::time, range::not_negative,
            "time in which the value rises smoothly from zero at t = 0");
   f.number("scale", scale, dimension::none, range::any, "factor on all values");
+  constexpr double most = 1e12;  // beyond any change of units
+  f.check(std::abs(scale) <= most, "scale", "must be at least -1e12 and at most 1e12");
   check_column(f, "time", time, file);
   check_column(f, "value", value, file);
 }

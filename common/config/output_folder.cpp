@@ -22,11 +22,19 @@ bool is_empty_but_for_lock(const fs::path& folder) {
                      [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
 }
 
+/// A pipe in the place of a file would be waited for without end.
+void refuse_pipes(const fs::path& folder) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.is_fifo(none)) throw input_error("{}: is a pipe, not a file of results", entry.path().string());
+}
+
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
 /// checkpoint then says whose they are.
 void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file, bool goes_on) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
+  refuse_pipes(folder);
   if (!fs::exists(folder / case_as_run)) {
     if (is_empty_but_for_lock(folder)) return;
     throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
@@ -45,6 +53,7 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
 }  // namespace
 
 std::optional<fs::path> owner_of(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / case_as_run)) return std::nullopt;
   std::ifstream mark(folder / case_as_run);
   std::string first;
   std::getline(mark, first);
@@ -62,6 +71,7 @@ void hold_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, "cannot be made", error.value());
+  refuse_pipes(folder);
   hold_folder(folder);
 }
 

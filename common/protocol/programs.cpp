@@ -9,6 +9,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/base/temporary_folder.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/told.hpp"
@@ -46,7 +47,7 @@ class NoteOfFailure {
   protocol::Told take() { return protocol::take_note(path_); }
 
  private:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / fmt::format("tether_told_{}", getpid());
+  std::filesystem::path path_ = temporary_folder() / fmt::format("tether_told_{}", getpid());
 };
 
 NoteOfFailure& note_of_failure() {

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/base/temporary_folder.hpp"
 #include "common/protocol/signals.hpp"
 
 namespace tether::protocol {
@@ -122,7 +123,7 @@ void SocketChannel::read(void* data, std::size_t size, double limit) {
 }
 
 SocketListener::SocketListener() {
-  std::string folder = (std::filesystem::temp_directory_path() / "tether_runs_XXXXXX").string();
+  std::string folder = (temporary_folder() / "tether_runs_XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) throw socket_error("no folder", folder);
   path_ = std::filesystem::path(folder) / "socket";
   const sockaddr_un address = address_of(path_);

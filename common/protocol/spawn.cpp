@@ -7,6 +7,7 @@
 
 #include "common/base/limits.hpp"
 #include "common/base/process.hpp"
+#include "common/base/temporary_folder.hpp"
 #include "common/protocol/guard.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/signals.hpp"
@@ -24,9 +25,7 @@ constexpr const char* starter = "echo $$ >>\"$0\"; exec \"$@\"";
 /// The file for that pid, removed with this object.
 class PidFile {
  public:
-  PidFile() : path_(std::filesystem::temp_directory_path() / fmt::format("tether-{}-{}", process_id(), ++count_)) {
-    remove();
-  }
+  PidFile() : path_(temporary_folder() / fmt::format("tether-{}-{}", process_id(), ++count_)) { remove(); }
   ~PidFile() { remove(); }
   PidFile(const PidFile&) = delete;
   PidFile& operator=(const PidFile&) = delete;

@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double rounding = 2e-3;  ///< by which shares of three digits may miss 1
+constexpr double most_flow = 1e5,
+                 most_pressure = 1e5;  ///< [ml/s], [mmHg]: ten whales' hearts, an atmosphere hundredfold
 
 double mmhg(double dyn_per_cm2) {
   return UnitSystem::cgs().to_mmhg(dyn_per_cm2);
@@ -112,6 +114,9 @@ AskedFlow flow_of(const OutletsCase& asked, const std::optional<OutletsBase>& ba
                       mean);
   if (asked.mean_flow) made.factor = UnitSystem::cgs().to_ml_per_s(*asked.mean_flow) / mean;
   for (double& value : made.flow.values) value *= made.factor;
+  if (!(made.flow.mean() <= most_flow && made.flow.most() <= 100 * most_flow))
+    throw input_error("{}: the flow's mean over the beat is {:.4g} ml/s, more than any vessel carries: see {}",
+                      made.curve.file.string(), made.flow.mean(), asked.mean_flow ? "mean_flow" : "flow.scale");
   return made;
 }
 
@@ -129,6 +134,8 @@ std::vector<Windkessel> by_pulse(const OutletsCase& asked, const Named<TargetOut
                                  const PeriodicFlow& flow, FittedOutlets& result) {
   OutletTargets targets;
   for (const auto& [name, outlet] : outlets) targets.names.push_back(name);
+  if (const double mean = mmhg(*asked.pressure.mean); !(mean <= most_pressure))
+    throw input_error("pressure.mean: {:.4g} mmHg: is more than any vessel bears", mean);
   targets.mean_pressure = mmhg(*asked.pressure.mean - asked.pressure.venous);
   targets.pulse_pressure = mmhg(*asked.pressure.pulse);
   targets.shares = shares;
@@ -151,6 +158,9 @@ std::vector<Windkessel> by_curve(const OutletsCase& asked, const std::vector<dou
                       static_cast<double>(measured.values.size());
   if (mean <= 0)
     throw input_error("{}: the mean pressure must be above the venous one, {:.4g} mmHg", curve.file.string(), venous);
+  if (!(mean <= most_pressure))
+    throw input_error("{}: the mean pressure is {:.4g} mmHg, more than any vessel bears: see pressure.curve.scale",
+                      curve.file.string(), mean);
   if (measured.values.size() < 4)
     throw input_error("{}: {} pressures do not tell three elements", curve.file.string(), measured.values.size());
   const CurveFit found = fit_to_curve(measured, flow, vessel_of(asked));

@@ -62,6 +62,8 @@ void OutletsCase::declare(Fields& f) {
   f.check(flow || !case_file.empty(), "flow", "must be given where there is no case");
   f.check(!flow || flow->period.has_value(), "flow", "needs a period");
   f.check(!outlets.empty() || !case_file.empty(), "outlets", "must be given where there is no case");
+  constexpr std::size_t most = 300;  // a beat of them takes the cube of their number
+  f.check(outlets.size() <= most, "outlets", fmt::format("are {}: must be at most {}", outlets.size(), most));
   f.check(!(has_curve() && proximal.wave_speed), "proximal", "wave_speed is of no use with a pressure curve");
 }
 

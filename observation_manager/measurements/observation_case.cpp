@@ -6,13 +6,18 @@ namespace tether {
 void NoiseCase::declare(Fields& f) {
   f.number("deviation", deviation, dimension, range::not_negative,
            "standard deviation of a single value; 0: not known");
-  constexpr double least = 1e-12;  // of the unit: its square is divided by
+  constexpr double least = 1e-12, most = 1e12;  // of the unit: its square is divided by
   f.check(deviation == 0 || deviation >= least, "deviation",
           "must not be smaller than 1e-12: nothing is measured so well");
+  f.check(deviation <= most, "deviation", "must not be larger than 1e12: nothing is measured so badly");
   f.number("correlation_length", correlation_length, dimension::length, range::not_negative,
            "distance along the wall within which errors are alike; 0: not known");
   f.number("correlation_time", correlation_time, dimension::time, range::not_negative,
            "time within which errors are alike; 0: not known");
+  constexpr double shortest = 1e-9, longest = 1e9;  // of the unit: waves are made of its inverse
+  const auto is_sane = [](double scale) { return scale == 0 || (scale >= shortest && scale <= longest); };
+  f.check(is_sane(correlation_length), "correlation_length", "must be 0, or at least 1e-9 and at most 1e9");
+  f.check(is_sane(correlation_time), "correlation_time", "must be 0, or at least 1e-9 and at most 1e9");
 }
 
 void LumenDataCase::declare(Fields& f) {

@@ -33,5 +33,11 @@ TEST(Utf8, IsWhatTheStandardSays) {
   EXPECT_EQ(first_line_not_utf8("a\nb\nc"), 0);
 }
 
+TEST(FileName, LeavesRoomForWhatIsAddedToIt) {
+  EXPECT_TRUE(is_file_name(std::string(200, 'a')));
+  EXPECT_FALSE(is_file_name(std::string(201, 'a')));
+  for (const char* bad : {"", ".a", "a/b", "a b"}) EXPECT_FALSE(is_file_name(bad)) << bad;
+}
+
 }  // namespace
 }  // namespace tether

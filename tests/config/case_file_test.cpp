@@ -185,10 +185,11 @@ TEST(CaseFile, NamesWhatTheHeadLacks) {
             "case.yaml:1: time.step: missing: must be given in s (time step)\n"
             "case.yaml:1: time.end: missing: must be given in s (time at which the run ends)");
   EXPECT_EQ(error_of_whole("name: a/b\nunits: cgi\ntime: {step: 0.1, end: -1}\n"),
-            "case.yaml:1: name: a/b: must consist of letters, digits, '_', '-' and '.'\n"
+            "case.yaml:1: name: a/b: must consist of letters, digits, '_', '-' and '.', at most 200 of them\n"
             "case.yaml:2: units: cgi: must be one of cgs, SI, mm-g-s; did you mean 'cgs'? "
             "(unit system of all numbers that carry no unit of their own)\n"
             "case.yaml:3: time.end: -1: must be after time.start");
+  EXPECT_NE(error_of_whole("name: " + std::string(300, 'a') + "\n").find(", at most 200 of them\n"), std::string::npos);
   EXPECT_EQ(error_of_whole("just words\n"),
             "case.yaml:1: a case file is a section of named fields, such as 'name: tube'");
 }

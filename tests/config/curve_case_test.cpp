@@ -86,5 +86,11 @@ TEST(Curve, PeriodMayBeGivenByTheLastRow) {
   EXPECT_DOUBLE_EQ(closed(-0.25), 1.75);
 }
 
+TEST(Curve, ScaleIsNoLargerThanAnyChangeOfUnits) {
+  write_file("q.csv", "time, value\n0,1\n1,1\n");
+  EXPECT_EQ(errors_in("fluid: {file: q.csv, scale: 1e300}\n", CurveCase(dimension::flow)),
+            "case.yaml:6: fluid.scale: 1e300: must be at least -1e12 and at most 1e12");
+}
+
 }  // namespace
 }  // namespace tether

@@ -1,5 +1,7 @@
 #include "common/config/output_folder.hpp"
 
+#include <sys/stat.h>
+
 #include "common/base/folder_lock.hpp"
 #include "tests/config/case_text.hpp"
 
@@ -75,6 +77,18 @@ TEST_F(OutputFolder, IsNotTouchedWhereItIsRefused) {
   std::ofstream(test_folder() / "results" / "thesis.txt") << "precious";
   EXPECT_NE(claim("tube"), "no error");
   EXPECT_FALSE(std::filesystem::exists(test_folder() / "results" / folder_lock_name));
+}
+
+/// To open a pipe that nobody writes to would wait without end.
+TEST_F(OutputFolder, IsRefusedWhereAPipeStandsForAFile) {
+  for (const char* name : {"case_as_run.yaml", "timeseries.csv"}) {
+    std::filesystem::remove_all(test_folder());
+    EXPECT_EQ(claim("tube"), "no error");
+    std::filesystem::remove(test_folder() / "results" / name);
+    ASSERT_EQ(mkfifo((test_folder() / "results" / name).c_str(), 0600), 0);
+    for (const bool overwrite : {false, true})
+      EXPECT_EQ(claim("tube", overwrite), std::string("results/") + name + ": is a pipe, not a file of results");
+  }
 }
 
 }  // namespace

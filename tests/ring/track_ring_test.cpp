@@ -135,6 +135,9 @@ TEST_F(TrackRing, MistakesNameTheFrame) {
   EXPECT_NE(fault(twice).find("two frames at 0 s"), std::string::npos) << fault(twice);
   std::ofstream(folder / "frames.csv") << "file,time\nlost.stl,0\n";
   EXPECT_NE(fault(twice).find("lost.stl"), std::string::npos) << fault(twice);
+  std::ofstream(folder / "lines.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 1 2\nf 3 3 4\n";
+  std::ofstream(folder / "frames.csv") << "file,time\nlines.obj,0\n";
+  EXPECT_NE(fault(twice).find("lines.obj: all its triangles are without area"), std::string::npos) << fault(twice);
 }
 
 }  // namespace track_ring_test

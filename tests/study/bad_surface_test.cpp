@@ -280,5 +280,42 @@ TEST(BadSurface, FilesThatHoldNoSurfaceAreRefused) {
   EXPECT_NE(said("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("is flat"), std::string::npos);
 }
 
+struct Length {
+  const char* name;
+  void (*set)(StudyCase&);
+  const char* said;
+};
+void PrintTo(const Length& length, std::ostream* out) {
+  *out << length.name;
+}
+class RefusedLength : public ::testing::TestWithParam<Length> {};
+
+/// A length that leaves nothing, or makes more than can be had.
+TEST_P(RefusedLength, IsToldWithItsField) {
+  StudyCase study = spoilt(std::string("length_") + GetParam().name, [](RawSurface&) {});
+  GetParam().set(study);
+  bool placed = false;
+  EXPECT_EQ(refusal(study, placed), GetParam().said);
+}
+
+const Length lengths[] = {
+    {"merge", [](StudyCase& s) { s.repair.merge = 20, s.lines["repair.merge"] = "study.yaml:3"; },
+     "study.yaml:3: repair.merge: 20 cm: leaves no triangle of the surface: must be shorter than its edges"},
+    {"merge_of_a_few", [](StudyCase& s) { s.repair.merge = 5; },
+     "repair.merge: 5 cm: leaves no triangle of the surface: must be shorter than its edges"},
+    {"longest", [](StudyCase& s) { s.edges.longest = 1e-4; },
+     "edges.longest: 0.0001 cm: would make 1.36e+10 triangles: must make at most 2e+06"},
+    {"longest_of_nothing", [](StudyCase& s) { s.edges.longest = 1e-300; },
+     "edges.longest: 1e-300 cm: would make countless triangles: must make at most 2e+06"},
+    {"shortest", [](StudyCase& s) { s.edges.per_radius = 0.5, s.edges.shortest = 1e-4; },
+     "edges.shortest: 0.0001 cm: would make 1.36e+10 triangles: must make at most 2e+06"},
+    {"spacing", [](StudyCase& s) { s.centreline_spacing = 1e-7; },
+     "centreline_spacing: 1e-07 cm: would make a line of 6.93e+07 points or more: must make at most 5000"},
+    {"inner_edge", [](StudyCase& s) { s.model.emplace().longest_edge = 1e-3; },
+     "model.longest_edge: 0.001 cm: would make 2.22e+11 tetrahedra: must make at most 2e+07"},
+};
+INSTANTIATE_TEST_SUITE_P(BadSurface, RefusedLength, ::testing::ValuesIn(lengths),
+                         [](const auto& info) { return std::string(info.param.name); });
+
 }  // namespace
 }  // namespace tether

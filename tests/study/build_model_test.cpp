@@ -97,5 +97,16 @@ TEST(BuildModel, BranchesThatAreNoneAreToldBeforeAnythingIsBuilt) {
       << message;
 }
 
+TEST(BuildModel, AMergeThatLeavesNothingIsToldWithItsLine) {
+  const ChildEnd end = built(study_in("study_merged", "repair: {merge: 20}\n", testing::bent_tube()));
+  EXPECT_EQ(end.exit_code, exit_input_wrong);
+  EXPECT_NE(end.errors.find("study.yaml:8: repair.merge: 20 cm: leaves no triangle"), std::string::npos) << end.errors;
+  const ChildEnd beyond = built(study_in("study_merged_beyond", "repair: {merge: 1e300}\n", testing::bent_tube()));
+  EXPECT_EQ(beyond.exit_code, exit_input_wrong);
+  EXPECT_NE(beyond.errors.find("study.yaml:8: repair.merge: 1e300 cm: must be at least 1e-09 and at most 100"),
+            std::string::npos)
+      << beyond.errors;
+}
+
 }  // namespace
 }  // namespace tether

@@ -261,5 +261,29 @@ TEST_F(FrontEnd, ListsItsVerbs) {
   EXPECT_EQ(tether("score case.yaml --resume").exit_code, 2);
 }
 
+/// What a person was to read and did not get is no success.
+TEST_F(FrontEnd, FailsWhereWhatItTellsIsLost) {
+  program("solid", "echo 'solid.density [g/cm3]  (number)'; echo '    mass per volume'");
+  for (const char* words : {"describe", "schema", "schema summary.json", "--help", "simulate --help"}) {
+    const ChildEnd end = tether(std::string(words) + " >/dev/full");
+    EXPECT_EQ(end.exit_code, 1) << words;
+    EXPECT_EQ(end.errors, "tether: what it tells cannot be written: is the disk full?\n") << words;
+  }
+}
+
+TEST_F(FrontEnd, NamesAFolderOfTemporaryFilesThatIsNone) {
+  const ChildEnd end = capture(
+      {{"/bin/sh", "-c", "cd " + folder_.string() + " && TMPDIR=/nonexistent ./tether simulate case.yaml"}, {}});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors,
+            "TMPDIR: /nonexistent: must name a folder, for the notes that a run's programs leave each other\n");
+}
+
+TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
+  const ChildEnd end = capture({{TETHER_PROGRAM, "conform", folder_.string()}, {}});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors, "tether_conform: the program: " + folder_.string() + " cannot be executed\n");
+}
+
 }  // namespace
 }  // namespace tether

@@ -53,6 +53,15 @@ TwinFrames made(const TwinCase& given) {
   return make_frames(given, UnitSystem::named("mm-g-s"), beating(), "case.yaml:9: twin");
 }
 
+std::string error_of(const TwinCase& given) {
+  try {
+    made(given);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
 double radius_of(const TriangleSurface& surface) {
   return surface.points.topRows(2).colwise().norm().mean();
 }
@@ -169,14 +178,6 @@ TEST(TwinFaults, ConcernAllFramesUnlessOneIsNamed) {
 }
 
 TEST(TwinFaults, OfFramesThatDoNotExistAreTold) {
-  const auto error_of = [](const TwinCase& given) -> std::string {
-    try {
-      made(given);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
   TwinCase given = plain();
   given.faults = faults_of("misplaced: {frame: 10, offset: [1, 0, 0]}");
   EXPECT_EQ(error_of(given), "case.yaml:9: twin.faults: frame 10 of 10, counted from 0");
@@ -202,6 +203,91 @@ TEST(TwinTrace, IsTheRunsValuesWithNoise) {
   double squares = 0;
   for (std::size_t i = 0; i < noisy.times.size(); ++i) squares += std::pow(noisy.values[i] - 500 * noisy.times[i], 2);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(noisy.times.size())), 2, 0.05);
+}
+
+/// What check_scales says of a twin; "accepted" if nothing.
+std::string scale_refusal(const TwinCase& given) {
+  try {
+    check_scales(given, UnitSystem::named("mm-g-s"), beating(), 1,
+                 [](const std::string& field) { return "case.yaml:9: " + field; });
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(TwinScales, ThatCannotBeMadeAreRefusedWithTheirField) {
+  EXPECT_EQ(scale_refusal(plain()), "accepted");
+  EXPECT_EQ(scale_refusal(with_voxels()), "accepted");
+  TwinCase given = plain();
+  const auto expect = [&](const std::string& part) {
+    EXPECT_NE(scale_refusal(given).find(part), std::string::npos) << scale_refusal(given);
+  };
+  for (const double voxel : {1e-4, 1e-300}) {
+    given.image.voxel = {voxel, voxel, voxel};
+    expect("case.yaml:9: twin.image.voxel: would make ");
+    expect(" voxels: must make at most 5e+07");
+  }
+  given.image.voxel = {1e300, 1, 1};
+  expect("case.yaml:9: twin.image.voxel: 1e+300: must not be larger than the vessel, which is 40 long");
+  given.image.voxel = {1, 1, 1};
+  given.image.blur = 1e300;
+  expect("case.yaml:9: twin.image.blur: 1e+300: must not be larger than the vessel");
+  given = plain();
+  given.noise.deviation = 1e10;
+  expect("case.yaml:9: twin.noise.deviation: 1e+10: must not be larger than the vessel");
+  given = plain();
+  given.traces.emplace_back("a", TwinTraceCase{}).second.interval = 1e-300;
+  expect("case.yaml:9: twin.traces.a.interval: would make 1e+300 values: must make at most 1e+06");
+}
+
+TEST(TwinFrames, OfAnImageThatShowsNothingAreRefused) {
+  TwinCase given = with_voxels();
+  given.image.voxel = {38, 38, 38};
+  EXPECT_EQ(error_of(given),
+            "case.yaml:9: twin.image: nothing of the vessel is seen: its voxels or its blur are too large");
+  given.image.voxel = {1, 1, 1};
+  given.image.blur = 30;
+  EXPECT_EQ(error_of(given),
+            "case.yaml:9: twin.image: nothing of the vessel is seen: its voxels or its blur are too large");
+}
+
+/// What reading a section `twin` says.
+std::string reading(const std::string& text) {
+  const TemporaryFolder folder;
+  try {
+    CaseFile file(folder.file("case.yaml",
+                              "name: tube\nunits: mm-g-s\ntime: {step: 1e-2, end: 2}\ntwin:\n  truth: case.yaml\n  "
+                              "hidden: {verdict: nothing_missing}\n  frames: 4\n  faults: {lost: [1]}\n  " +
+                                  text + "\n"));
+    TwinCase given;
+    file.read("twin", given);
+    file.finish();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(TwinCase, HoldsOutFramesThatItHas) {
+  EXPECT_EQ(reading("held_out: [0, 2]"), "accepted");
+  for (const char* wrong : {"held_out: [99999]", "held_out: [3]", "held_out: [0.5]"})
+    EXPECT_NE(reading(wrong).find("case.yaml:9: twin.held_out: must be whole numbers, from 0 to 2"), std::string::npos)
+        << reading(wrong);
+}
+
+TEST(TwinCase, NoiseIsOfAScale) {
+  EXPECT_EQ(reading("noise: {deviation: 0.3, correlation_length: 5}"), "accepted");
+  EXPECT_NE(reading("noise: {deviation: 1e300}")
+                .find("case.yaml:9: twin.noise.deviation: 1e300: must not be larger than 1e12"),
+            std::string::npos);
+  for (const char* field : {"correlation_length", "correlation_time"})
+    for (const char* value : {"1e-300", "1e300"}) {
+      const std::string told = reading(fmt::format("noise: {{deviation: 1, {}: {}}}", field, value));
+      EXPECT_NE(told.find(fmt::format("case.yaml:9: twin.noise.{}: {}: must be 0, or at least", field, value)),
+                std::string::npos)
+          << told;
+    }
 }
 
 }  // namespace

@@ -234,5 +234,32 @@ TEST(MeshCase, MistakesAreNamedWithTheirLine) {
   expect_part(message_of([] { load(peer_case("    grown_wall: {thickness: 0.2}\n    inlet: {}\n")); }), "inlets");
 }
 
+/// Each within its range, all together beyond memory and time.
+TEST(MeshCase, MoreNodesThanARunCanTakeAreRefused) {
+  const TemporaryFolder folder;
+  CaseFile file(folder.file("case.yaml", head + "mesh:\n  swept: {radius: 2, length: 10, wall_thickness: 0.2, around: "
+                                                "1000, along: 10000, layers: 50}\n"));
+  MeshCase mesh;
+  file.read("mesh", mesh);
+  file.finish();
+  const std::string told = message_of([&] { load_mesh(mesh, file, WallElement::prism); });
+  expect_part(told, "case.yaml:5: mesh.swept: around: 1000, along: 10000 and layers: 50 would make ");
+  expect_part(told, " nodes: must make at most 2e+06");
+}
+
+TEST(MeshCase, LengthsThatNoVesselHasAreRefused) {
+  for (const char* length : {"1e-300", "1e-7", "1e7", "1e300"})
+    for (const char* field : {"radius", "length", "wall_thickness"}) {
+      std::string text = "mesh:\n  swept:\n    radius: 2\n    length: 10\n    wall_thickness: 0.2\n";
+      const std::size_t at = text.find(std::string(" ") + field) + 3 + std::string(field).size();
+      text.replace(at, text.find('\n', at) - at, length);
+      expect_part(message_of([&] { load(text); }),
+                  fmt::format("mesh.swept.{}: {}: must be at least 1e-6 and at most 1e6", field, length));
+    }
+  expect_part(
+      message_of([] { load("mesh: {swept: {radius: 2, length: 9, wall_thickness: 0.2, extend: {inlet: 1e300}}}"); }),
+      "mesh.swept.extend.inlet: 1e300: must be at least 1e-6");
+}
+
 }  // namespace load_mesh_test
 }  // namespace tether

@@ -144,5 +144,30 @@ TEST(FitOutlets, RefusesWhatCannotBe) {
             std::string::npos);
 }
 
+TEST(FitOutlets, RefusesFlowsThatNoVesselCarries) {
+  const auto scaled = [&](const std::string& scale) {
+    return refusal_of("flow: {file: flow.csv, value: flow, period: 0.8, scale: " + scale + "}\n" + targets +
+                      two_outlets);
+  };
+  EXPECT_NE(scaled("1e300").find("outlets.yaml:2: flow.scale: 1e300: must be at least -1e12"), std::string::npos);
+  EXPECT_NE(scaled("1e9").find("more than any vessel carries: see flow.scale"), std::string::npos);
+  EXPECT_NE(refusal_of(flow + targets + two_outlets + "mean_flow: 1e300\n").find("carries: see mean_flow"),
+            std::string::npos);
+}
+
+TEST(FitOutlets, RefusesPressuresThatNoVesselBears) {
+  EXPECT_NE(refusal_of(flow + "pressure: {mean: 1e12, pulse: 5e11}\n" + two_outlets)
+                .find("pressure.mean: 7.501e+08 mmHg: is more than any vessel bears"),
+            std::string::npos);
+}
+
+/// A beat of n outlets takes the cube of n.
+TEST(FitOutlets, RefusesMoreOutletsThanItEndsWith) {
+  std::string many = "outlets:\n";
+  for (int i = 0; i < 2000; ++i) many += fmt::format("  o{}: {{share: 0.0005}}\n", i);
+  EXPECT_NE(refusal_of(flow + targets + many).find("outlets.yaml:4: outlets: are 2000: must be at most 300"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace tether

@@ -44,6 +44,7 @@ RawSurface open_surface(const fs::path& file, const RingTrackCase& asked) {
   constexpr double same_point = 1e-5;  // [cm], as of a study
   Repaired state{read_surface(given), {}};
   merge_points(state, same_point);
+  if (state.surface.triangles.empty()) throw input_error("{}: all its triangles are without area", file.string());
   drop_fins(state);
   keep_largest_piece(state);
   split_points(state);

@@ -28,14 +28,49 @@ RawSurface given_surface(const StudyCase& study, BuiltSurface& built) {
   return std::move(lumen.surface);
 }
 
-void repair(Repaired& state, const RepairCase& given) {
+void repair(Repaired& state, const StudyCase& study) {
+  const RepairCase& given = study.repair;
   merge_points(state, given.merge);
+  if (state.surface.triangles.empty())
+    throw input_error("{}: {:.4g} cm: leaves no triangle of the surface: must be shorter than its edges",
+                      study.where("repair.merge"), given.merge);
   drop_fins(state);
   keep_largest_piece(state);
   split_points(state);
   orient(state);
   remove_slivers(state, given.sliver);
   remove_crossings(state);
+}
+
+/// Of a line along the vessel, whose making takes the square of them; of a surface and within it, beyond what a run
+/// could take.
+constexpr double most_points = 5000, most_triangles = 2e6, most_tetrahedra = 2e7;
+
+std::string counted(double number) {
+  return std::isfinite(number) ? fmt::format("{:.3g}", number) : "countless";
+}
+
+/// Refuses lengths that would make more points than can be had, by what is known before they are made.
+void check_counts(const LabelledSurface& closed, const std::vector<Rim>& rims, const StudyCase& study) {
+  double apart = 0;
+  for (const Rim& rim : rims)
+    apart = std::max(apart, (rim.plane.origin - rims[static_cast<std::size_t>(closed.inlet)].plane.origin).norm());
+  if (const double points = apart / study.centreline_spacing; points > most_points)
+    throw input_error("{}: {:.4g} cm: would make a line of {} points or more: must make at most {:.0f}",
+                      study.where("centreline_spacing"), study.centreline_spacing, counted(points), most_points);
+  const bool by_radius = study.edges.per_radius > 0;  // all edges are made the shortest first
+  const double edge = by_radius ? study.edges.shortest : study.edges.longest;
+  const double triangles = total_area(closed.points, closed.triangles) / (std::sqrt(3) / 4 * edge * edge);
+  if (!(triangles <= most_triangles))
+    throw input_error("{}: {:.4g} cm: would make {} triangles: must make at most {:.3g}",
+                      study.where(by_radius ? "edges.shortest" : "edges.longest"), edge, counted(triangles),
+                      most_triangles);
+  if (!study.model || !study.model->longest_edge) return;
+  const double inner = *study.model->longest_edge;
+  const double tetrahedra = measures_of(closed).volume / (std::sqrt(2) / 12 * inner * inner * inner);
+  if (!(tetrahedra <= most_tetrahedra))
+    throw input_error("{}: {:.4g} cm: would make {} tetrahedra: must make at most {:.3g}",
+                      study.where("model.longest_edge"), inner, counted(tetrahedra), most_tetrahedra);
 }
 
 int trunk_of(const LabelledSurface& surface, const StudyCase& study, const std::vector<Rim>& rims) {
@@ -118,13 +153,15 @@ std::vector<BuiltBranch> branches_of(const CentrelineTree& tree) {
 
 /// From the surface as it was given.
 void build(Repaired& state, const StudyCase& study, const StepSeen& show, BuiltSurface& built) {
-  repair(state, study.repair);
+  repair(state, study);
   show("2_repaired", state.surface);
   std::vector<Vec3> middles = open_ends(state, study);
   built.summary.smoothing_volume_change = smooth(state.surface, study.repair.smoothing);
   show("3_opened", state.surface);
   LabelledSurface closed = capped(state.surface, middles, study);
-  const int trunk = trunk_of(closed, study, rims_at(state.surface, middles));
+  const std::vector<Rim> rims = rims_at(state.surface, middles);
+  const int trunk = trunk_of(closed, study, rims);
+  check_counts(closed, rims, study);
   built.tree = find_tree(closed, trunk, study.centreline_spacing);
   if (trim(state.surface, built.tree, study, middles)) {
     closed = capped(state.surface, middles, study);

@@ -22,7 +22,8 @@ void SurfaceCase::declare(Fields& f) {
 }
 
 void RepairCase::declare(Fields& f) {
-  f.number("merge", merge, dimension::length, range::positive, "points nearer to each other than this are one");
+  constexpr Range merging{1e-9, 100};  // cells of that size are counted in integers; no vessel is 1 m long
+  f.number("merge", merge, dimension::length, merging, "points nearer to each other than this are one");
   f.number("sliver", sliver, dimension::length, range::positive, "edges of needles shorter than this are removed");
   f.number("largest_hole", largest_hole, dimension::length, range::not_negative,
            "radius up to which a rim that is no opening is filled");
@@ -76,12 +77,17 @@ void StudyCase::declare(Fields& f) {
             "must each have one of label, near, order and cut");
 }
 
+std::string StudyCase::where(const std::string& field) const {
+  const auto line = lines.find(field);
+  return line == lines.end() ? field : line->second + ": " + field;
+}
+
 namespace {
 
 /// The line of each field below a node.
 void find_lines(const YamlNode& node, const std::string& field, std::map<std::string, std::string>& lines) {
   for (const auto& entry : node.entries) {
-    const std::string path = field + "." + entry.key;
+    const std::string path = field.empty() ? entry.key : field + "." + entry.key;
     lines[path] = entry.place.text();
     find_lines(entry.value, path, lines);
   }
@@ -136,10 +142,8 @@ StudyCase read_study(const std::filesystem::path& file) {
   problems.throw_if_any();
   if (const YamlNode* model = tree.find("model")) BranchNames(study, problems).check(*model);
   problems.throw_if_any();
-  if (const YamlNode* image = tree.find("image")) {
-    study.image->lines["image"] = image->place.text();
-    find_lines(*image, "image", study.image->lines);
-  }
+  find_lines(tree, "", study.lines);
+  if (study.image) study.image->lines = study.lines;
   return study;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,8 +61,12 @@ struct StudyCase {
   std::string inlet, trunk;
   double centreline_spacing = 0.2;
   EdgeCase edges;
-  std::optional<VolumeCase> model;  ///< none: the surface alone
+  std::optional<VolumeCase> model;           ///< none: the surface alone
+  std::map<std::string, std::string> lines;  ///< where each field of the file stands: "study.yaml:3"
   void declare(Fields& f);
+
+  /// "study.yaml:3: repair.merge"; the field alone where the file is silent.
+  std::string where(const std::string& field) const;
 
   std::filesystem::path file() const { return surface ? surface->file : image->file; }
 };

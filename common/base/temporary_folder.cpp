@@ -1,0 +1,18 @@
+#include "common/base/temporary_folder.hpp"
+
+#include <cstdlib>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+
+std::filesystem::path temporary_folder() {
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (!error) return folder;
+  const char* given = std::getenv("TMPDIR");
+  throw input_error("TMPDIR: {}: must name a folder, for the notes that a run's programs leave each other",
+                    given ? given : "not given, and there is no /tmp");
+}
+
+}  // namespace tether
