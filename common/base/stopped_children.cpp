@@ -51,15 +51,18 @@ void StoppedChildren::look_now_and_then() {
     stopped = are_all_stopped(children) ? stopped + between_looks.count() : 0;
     if (stopped == 0) is_told = false;
     if (stopped >= soon && !is_told) {
-      fmt::print(stderr,
-                 "all processes of {} (pid {}) are stopped: kill -CONT {} lets them go on, else they are ended in {:g} s "
-                 "(TETHER_STOPPED_LIMIT=SECONDS waits longer)\n",
-                 name_, program_, fmt::join(children, " "), stopped_limit());
+      fmt::print(
+          stderr,
+          "all processes of {} (pid {}) are stopped: kill -CONT {} lets them go on, else they are ended in {:g} s "
+          "(TETHER_STOPPED_LIMIT=SECONDS waits longer)\n",
+          name_, program_, fmt::join(children, " "), stopped_limit());
       is_told = true;
     }
     if (stopped < soon + stopped_limit()) continue;
-    fmt::print(stderr, "all processes of {} were stopped, and still are {:g} s later (TETHER_STOPPED_LIMIT=SECONDS waits longer)\n",
-               name_, stopped_limit());
+    fmt::print(
+        stderr,
+        "all processes of {} were stopped, and still are {:g} s later (TETHER_STOPPED_LIMIT=SECONDS waits longer)\n",
+        name_, stopped_limit());
     were_killed_ = true;
     for (const pid_t child : children) kill(child, SIGKILL);
     return;

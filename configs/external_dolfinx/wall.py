@@ -15,6 +15,8 @@ from dolfinx import fem, mesh
 from dolfinx.fem import petsc
 from mpi4py import MPI
 from petsc4py import PETSc
+from scipy import sparse
+from scipy.sparse.linalg import splu
 
 # Edges of a tetrahedron in the order in which dolfinx numbers their nodes.
 EDGES = ((2, 3), (1, 3), (1, 2), (0, 3), (0, 2), (0, 1))
@@ -39,6 +41,10 @@ class Tube:
         a, b, c, d = (self.number(np.column_stack([lumen + step, np.zeros(len(lumen), int)]))
                       for step in ([0, 0], [1, 0], [1, 1], [0, 1]))
         self.triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])  # normals into the wall
+        corners = lumen[(lumen % 2 == 0).all(axis=1)]
+        around_them = (((0, 0), (2, 0), (2, 2), (1, 0), (2, 1), (1, 1)), ((0, 0), (2, 2), (0, 2), (1, 1), (1, 2), (0, 1)))
+        self.facets = np.concatenate([np.column_stack([self.number(np.column_stack([corners + step, np.zeros(len(corners), int)]))
+                                                       for step in steps]) for steps in around_them])  # of six nodes
 
     def number(self, places):
         places = places.copy()
@@ -59,6 +65,28 @@ def made_mesh(communicator, tube):
     first = communicator.rank == 0
     cells = tube.cells if first else np.zeros((0, 10), dtype=np.int64)
     return mesh.create_mesh(communicator, cells, tube.points if first else np.zeros((0, 3)), of_second_order)
+
+
+def to_second_order(tube, place):
+    """Nodal forces are integrals of the traction with the linear functions of the announced triangles; an element of second order is
+    loaded by those with its own, or it ripples from node to node. Returns what makes the one of the other: through the traction, which
+    is linear on the triangles, so that the sum of the forces stays."""
+    a, b, wa, wb = 0.445948490915965, 0.091576213509771, 0.223381589678011, 0.109951743655322  # Dunavant (1985), degree 4
+    points = [(w, np.roll([c, c, 1 - 2 * c], turn)) for c, w in ((a, wa), (b, wb)) for turn in range(3)]
+    nodes = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5]])  # of a facet
+    linear, mixed = np.zeros((6, 6)), np.zeros((6, 6))  # of a facet of area 1
+    for part in ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]):
+        for weight, at in points:
+            L = at @ nodes[part]
+            quadratic = np.concatenate([L * (2 * L - 1), 4 * np.array([L[0] * L[1], L[1] * L[2], L[2] * L[0]])])
+            linear[np.ix_(part, part)] += weight / 4 * np.outer(at, at)
+            mixed[:, part] += weight / 4 * np.outer(quadratic, at)
+    x = tube.points[tube.facets]
+    areas = np.linalg.norm(np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1) / 2
+    rows, columns = np.repeat(place[tube.facets], 6, axis=1).ravel(), np.tile(place[tube.facets], 6).ravel()
+    whole = [sparse.csc_matrix(((areas[:, None, None] * local).ravel(), (rows, columns))) for local in (linear, mixed)]
+    traction = splu(whole[0])
+    return lambda load: whole[1] @ traction.solve(load)
 
 
 def in_region(X, angles):
@@ -96,6 +124,7 @@ class Wall:
         place = np.full(len(tube.points), -1)
         place[lumen] = np.arange(len(lumen))
         self.points, self.triangles = tube.points[lumen], place[tube.triangles]
+        self.consistent = to_second_order(tube, place)
         self.at_lumen = np.flatnonzero(place[self.owned] >= 0)  # among the owned nodes
         self.lumen = place[self.owned][self.at_lumen]  # their numbers on the interface
         self.nodes = len(tube.points)
@@ -204,7 +233,7 @@ class Wall:
 
     def add_load(self, vector, load):
         """Nodal forces of the interface to a vector, which is then zero where the wall is clamped."""
-        vector.array.reshape(-1, 3)[self.at_lumen] += load[self.lumen]
+        vector.array.reshape(-1, 3)[self.at_lumen] += self.consistent(load)[self.lumen]
         petsc.set_bc(vector, [self.clamped])
 
     def solve(self, right, new_tangent):

@@ -15,8 +15,8 @@ namespace {
 TEST(StoppedChildren, AreToldAndEndedAfterAWhile) {
   setenv("TETHER_STOPPED_LIMIT", "1", 1);
   ::testing::internal::CaptureStderr();
-  const ForegroundEnd end = run_in_foreground(
-      {{"/bin/sh", "-c", "sleep 60 & a=$!; sleep 60 & b=$!; kill -STOP $a $b; wait $a; exit 7"}, {}});
+  const ForegroundEnd end =
+      run_in_foreground({{"/bin/sh", "-c", "sleep 60 & a=$!; sleep 60 & b=$!; kill -STOP $a $b; wait $a; exit 7"}, {}});
   const std::string told = ::testing::internal::GetCapturedStderr();
   unsetenv("TETHER_STOPPED_LIMIT");
   EXPECT_EQ(end.exit_code, 7);

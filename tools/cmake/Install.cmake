@@ -24,7 +24,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/TetherConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/TetherConfig.cmake ${PROJECT_BINARY_DIR}/TetherConfigVersion.cmake DESTINATION ${package_dir})
 install(DIRECTORY tools/python/ DESTINATION lib/python3/dist-packages PATTERN __pycache__ EXCLUDE)
 
-install(DIRECTORY configs DESTINATION ${share_dir})
+install(DIRECTORY configs DESTINATION ${share_dir} USE_SOURCE_PERMISSIONS)  # programs of cases
 install(PROGRAMS tools/cine_mr_contours.py tools/end_diastolic_contours.py DESTINATION ${share_dir}/tools)
 install(FILES README.md CONTRIBUTING.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
