@@ -24,20 +24,21 @@ void CouplingCase::declare(Fields& f) {
   f.integer("max_iterations", max_iterations, {1, 1000}, "evaluations of fluid and wall before a step is given up");
   f.integer("reuse", reuse, {0, 100}, "iqn_ils: earlier steps whose differences are kept");
   f.integer("halvings", halvings, {0, 10}, "times that a step which fails may be halved");
-  f.choice("mapping", mapping,
-           {{"automatic", "match if the interface meshes agree node for node, else mortar"},
-            {"match", "they must agree node for node"},
-            {"mortar",
-             "the fluid's motion is that of the wall in the mean of squares over the interface; the load comes "
-             "back as the traction that it stands for. Force, moment and work are kept"},
-            {"nearest_triangle",
-             "each fluid node follows the closest place of the wall's triangles. Force, moment and "
-             "work are kept, but a load is only where a fluid node is"}},
-           "how the interface of the fluid follows that of the wall");
-  f.number("mapping_distance", mapping_distance, dimension::length, range::positive,
-           "farthest that a fluid node may be from the wall; if absent 0.02 of the interface's diagonal, and 1e-5 of "
-           "it where "
-           "nodes must match");
+  f.choice(
+      "mapping", mapping,
+      {{"automatic", "match if the interface meshes agree node for node, else mortar"},
+       {"match", "they must agree node for node"},
+       {"mortar",
+        "the fluid's motion is that of the wall in the mean around each node; the load comes back as the traction "
+        "that it stands for. Force, moment and work are kept"},
+       {"nearest_triangle",
+        "each fluid node follows the closest place of the wall's triangles. Force, moment and work are kept, but a "
+        "load is only where a fluid node is"}},
+      "how the interface of the fluid follows that of the wall");
+  f.number(
+      "mapping_distance", mapping_distance, dimension::length, range::positive,
+      "farthest that a fluid node may be from the wall; if absent 0.02 of the interface's diagonal, and 1e-5 of it "
+      "where nodes must match");
   f.group("programs", programs,
           "executables; a name without slash is one of Tether's own, a path is relative to the case file");
   f.group("ranks", ranks, "processes of a program of one's own that runs in several; on an mpirun line its -n says it");

@@ -84,10 +84,8 @@ Program program_of(const Verb& verb) {
 int conform(int argc, char** argv) {
   if (argc == 0 || std::string(argv[0]) == "--help") {
     std::cout << "tether conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]: starts a fluid or solid program, "
-                 "plays its "
-                 "master, and checks that it keeps the contract of docs/protocol.md; --with: and that its interface "
-                 "fits that "
-                 "of the other code, which gets the same arguments\n";
+                 "plays its master, and checks that it keeps the contract of docs/protocol.md; --with: and that its "
+                 "interface fits that of the other code, which gets the same arguments\n";
     return argc == 0 ? exit_input_wrong : exit_done;
   }
   Command command{{sibling("tether_conform").string()}, {}};

@@ -20,10 +20,9 @@ void prepare_process() {
   CPU_ZERO(&all);
   for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) CPU_SET(cpu, &all);
   sched_setaffinity(0, sizeof all, &all);
-  for (const int standard :
-       {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})  // a closed one would be the next file's number
-    if (fcntl(standard, F_GETFD) < 0) [[maybe_unused]]
-      const int opened = open("/dev/null", O_RDWR);
+  // A closed standard stream would be the next file's number.
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(standard, F_GETFD) < 0 && open("/dev/null", O_RDWR) != standard) break;
 }
 
 double cpu_seconds() {

@@ -13,7 +13,6 @@ import ufl
 import yaml
 from dolfinx import fem, mesh
 from dolfinx.fem import petsc
-from mpi4py import MPI
 from petsc4py import PETSc
 from scipy import sparse
 from scipy.sparse.linalg import splu
@@ -100,12 +99,12 @@ def in_region(X, angles):
 class Wall:
     program = "dolfinx wall 1"
 
-    def __init__(self):
+    def __init__(self, communicator):
         with open(sys.argv[1]) as file:
             case = yaml.safe_load(file)
         solid, swept = case["solid"], case["mesh"]["swept"]
         tube = Tube(swept["radius"], swept["wall_thickness"], swept["length"], **solid["mesh"])
-        self.communicator = MPI.COMM_WORLD
+        self.communicator = communicator
         self.mesh = made_mesh(self.communicator, tube)
         self.space = fem.VectorFunctionSpace(self.mesh, ("Lagrange", 2))
         self.order(tube)
@@ -261,4 +260,4 @@ class Wall:
 
 
 if __name__ == "__main__":
-    sys.exit(tether.serve("solid", Wall, MPI.COMM_WORLD, together=True))
+    sys.exit(tether.serve("solid", Wall, together=True))

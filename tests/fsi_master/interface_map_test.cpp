@@ -4,32 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <random>
 
 #include "common/base/error.hpp"
 #include "fsi_master/transfer/interface_fit.hpp"
+#include "tests/fsi_master/interface_tube.hpp"
 
 namespace tether {
 namespace {
-
-/// A tube along z, radius 2, height 6.
-InterfaceSurface tube(int around, int along) {
-  InterfaceSurface tube{Points(3, around * (along + 1)), {}};
-  for (int k = 0; k <= along; ++k)
-    for (int i = 0; i < around; ++i) {
-      const double angle = 2 * std::numbers::pi * i / around;
-      tube.points.col(k * around + i) << 2 * std::cos(angle), 2 * std::sin(angle), 6.0 * k / along;
-    }
-  for (int k = 0; k < along; ++k)
-    for (int i = 0; i < around; ++i) {
-      const int a = k * around + i, b = k * around + (i + 1) % around;
-      tube.triangles.push_back({a, b, b + around});
-      tube.triangles.push_back({a, b + around, a + around});
-    }
-  return tube;
-}
 
 VectorXd flat(const Points& points) {
   return Eigen::Map<const VectorXd>(points.data(), points.size());

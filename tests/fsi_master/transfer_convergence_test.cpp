@@ -7,34 +7,16 @@
 #include "common/linalg/cholesky.hpp"
 #include "common/mesh/surface.hpp"
 #include "fsi_master/transfer/interface_map.hpp"
+#include "tests/fsi_master/interface_tube.hpp"
 
 namespace tether {
 namespace {
-
-constexpr double radius = 2, height = 6, pi = std::numbers::pi;
-
-/// A tube along z whose rings are turned against each other, so that no two triangulations share nodes inside.
-InterfaceSurface twisted_tube(int around, int along, double twist) {
-  InterfaceSurface tube{Points(3, around * (along + 1)), {}};
-  for (int k = 0; k <= along; ++k)
-    for (int i = 0; i < around; ++i) {
-      const double angle = 2 * pi * i / around + twist * k / along;
-      tube.points.col(k * around + i) << radius * std::cos(angle), radius * std::sin(angle), height * k / along;
-    }
-  for (int k = 0; k < along; ++k)
-    for (int i = 0; i < around; ++i) {
-      const int a = k * around + i, b = k * around + (i + 1) % around;
-      tube.triangles.push_back({a, b, b + around});
-      tube.triangles.push_back({a, b + around, a + around});
-    }
-  return tube;
-}
 
 /// A smooth field of vectors: a motion, or a traction.
 VectorXd smooth(const Points& points) {
   Points values(3, points.cols());
   for (Eigen::Index a = 0; a < points.cols(); ++a) {
-    const double angle = std::atan2(points(1, a), points(0, a)), s = 2 * pi * points(2, a) / height;
+    const double angle = std::atan2(points(1, a), points(0, a)), s = 2 * std::numbers::pi * points(2, a) / tube_height;
     values.col(a) << std::cos(2 * angle) * std::sin(s), 1 + std::sin(angle + s), std::cos(s) * std::cos(3 * angle);
   }
   return values.reshaped();
@@ -92,7 +74,7 @@ template <class Map>
 Errors orders_of(Map map, double finer) {
   const auto errors = [&](int n) {
     const int m = static_cast<int>(finer * n);
-    const InterfaceSurface solid = twisted_tube(m, m / 2, 0.3), fluid = twisted_tube(n, n / 2, -0.5);
+    const InterfaceSurface solid = tube(m, m / 2, 0.3), fluid = tube(n, n / 2, -0.5);
     return errors_of(map(fluid, solid, 0.5), fluid, solid);
   };
   const Errors coarse = errors(32), fine = errors(64);

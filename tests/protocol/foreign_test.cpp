@@ -94,6 +94,26 @@ TEST_F(ForeignPython, With_mpi_of_its_own_it_conforms) {
   EXPECT_TRUE(job.orphans.empty());
 }
 
+/// Both processes of a code make it and answer, on a line that has other programs.
+TEST_F(ForeignPython, All_processes_of_a_code_answer_together) {
+  const std::string code =
+      "import runpy, sys, tether; plain = tether.serve\n"
+      "def summed(solid, communicator):\n"
+      "    answer = solid.evaluate\n"
+      "    solid.evaluate = lambda load: answer(communicator.allreduce(load) / 2)\n"
+      "    return solid if communicator.size == 2 else sys.exit('not two processes')\n"
+      "tether.serve = lambda role, make: plain(role, lambda own: summed(make(), own), together=True)\n"
+      "runpy.run_path('" +
+      python_solid + "')";
+  auto words = mpirun();
+  words.insert(words.end(), {"-n", "1", test_program("fake_master"), "x", "x", "3", ":", "-n", "1",
+                             test_program("fake_fluid"), ":", "-n", "2", "/usr/bin/python3", "-c", code});
+  const auto job = run_job(words, python_path);
+  EXPECT_EQ(job.exit_code, 0) << job.errors;
+  EXPECT_EQ(steps_of(job), steps_of(couple("fake_fluid", "fake_solid")));
+  EXPECT_TRUE(job.orphans.empty());
+}
+
 TEST(Foreign, The_conformance_check_reports_a_death) {
   const auto job = run_job({product_program("tether_conform"), test_program("fake_solid")},
                            {{"TETHER_FAKE", "solid.kill=SolidTangent"}});

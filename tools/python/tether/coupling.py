@@ -94,6 +94,7 @@ def _load_library():
     library.tether_output.restype = library.tether_error.restype = ctypes.c_char_p
     for call in "is_leader output introduce refuse next reply fail end".split():
         getattr(library, "tether_" + call).argtypes = [ctypes.c_void_p]
+    library.tether_communicator.argtypes = [ctypes.c_void_p]
     library.tether_introduce.argtypes += [ctypes.POINTER(_Description)]
     library.tether_next.argtypes += [ctypes.POINTER(_Request)]
     library.tether_reply.argtypes += [ctypes.POINTER(_Array), ctypes.c_int]
@@ -178,7 +179,7 @@ def _answer(code, method, arguments):
 
 
 class _Alone:
-    """The leader answers; its code sees to other processes, if there are any."""
+    """The leader answers, and sees to other processes, if there are any."""
 
     def make(self, make):
         return make()
@@ -191,13 +192,16 @@ class _Alone:
 
 
 class _Together:
-    """All processes of a communicator make the code and call its methods at once, with the same arguments."""
+    """All processes of a code make it and call its methods at once, with the same arguments."""
 
-    def __init__(self, communicator):
-        self.communicator = communicator
+    def __init__(self, library, partner):
+        from mpi4py import MPI
+
+        self.own = MPI.Comm.f2py(library.tether_communicator(partner))
+        self.communicator = self.own.Dup()  # what the code sends is not taken for a call
 
     def make(self, make):
-        return self._agreed(make)
+        return self._agreed(lambda: make(self.own))
 
     def answer(self, code, method, arguments):
         for rank in range(1, self.communicator.size):
@@ -211,7 +215,7 @@ class _Together:
     def follow(self, make):
         """The life of a process that is not the leader."""
         try:
-            code = self._agreed(make)
+            code = self.make(make)
         except Exception:  # the leader tells it
             code = None
         while (call := self._received()) is not None:
@@ -269,14 +273,15 @@ def serve(role, make, communicator=None, together=False):
 
     make: a class or function without arguments; it finds the case file in sys.argv. communicator: mpi4py
     communicator of this code's processes, all of which call serve; COMM_WORLD means those of this program, also on
-    an mpirun line that has others. together: make() and each method are called by all of them at once, with the same
-    arguments, and what the leader's return is sent; else only the leader's are called. Returns the exit code.
+    an mpirun line that has others. together: all processes of this program call make(communicator), with the one that
+    holds just them, and each method, at once and with the same arguments; what the leader's return is sent. One that
+    raises where others wait for it in MPI leaves them waiting. Returns the exit code.
     """
     library = _load_library()
-    partner = library.tether_connect(role.encode(), _handle(communicator))
+    partner = library.tether_connect(role.encode(), -2 if together else _handle(communicator))
     if not partner:
         raise RuntimeError(library.tether_error().decode())
-    group = _Together(communicator) if together and communicator.size > 1 else _Alone()
+    group = _Together(library, partner) if together else _Alone()
     if not library.tether_is_leader(partner):
         if isinstance(group, _Together):
             group.follow(make)
