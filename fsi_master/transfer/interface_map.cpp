@@ -67,8 +67,8 @@ std::string mismatch(const Points& fluid, const Points& solid, double tolerance)
 
 }  // namespace
 
-InterfaceMap::InterfaceMap(Points fluid, Points solid, Rows rows, std::vector<int> solved, const Mass& mass)
-    : fluid_(std::move(fluid)), solid_(std::move(solid)), rows_(std::move(rows)), solved_(std::move(solved)) {
+InterfaceMap::InterfaceMap(Points fluid, Points solid, const Rows& rows, std::vector<int> solved, const Mass& mass)
+    : fluid_(std::move(fluid)), solid_(std::move(solid)), rows_(rows), solved_(std::move(solved)) {
   if (solved_.empty()) return;
   mass_ = std::make_unique<Eigen::SparseLU<Mass>>(mass);
   if (mass_->info() != Eigen::Success)
@@ -97,7 +97,7 @@ InterfaceMap InterfaceMap::match(const InterfaceSurface& fluid, const InterfaceS
   }
   Rows rows(fluid.points.size(), solid.points.size());
   rows.setFromTriplets(entries.begin(), entries.end());
-  InterfaceMap map(fluid.points, solid.points, std::move(rows), {}, {});
+  InterfaceMap map(fluid.points, solid.points, rows, {}, {});
   map.node_for_node_ = true;
   return map;
 }

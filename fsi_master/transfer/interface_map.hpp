@@ -44,7 +44,7 @@ class InterfaceMap {
  private:
   using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using Mass = Eigen::SparseMatrix<double>;
-  InterfaceMap(Points fluid, Points solid, Rows rows, std::vector<int> solved, const Mass& mass);
+  InterfaceMap(Points fluid, Points solid, const Rows& rows, std::vector<int> solved, const Mass& mass);
   /// Solves for the values of the nodes that have a mass, in place; with its transpose for loads.
   void solve_mass(Eigen::Ref<VectorXd> fluid, bool transposed) const;
 

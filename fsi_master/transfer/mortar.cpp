@@ -111,7 +111,7 @@ InterfaceMap InterfaceMap::mortar(const InterfaceSurface& fluid, const Interface
   const auto of = [&](const Entries& entries) { return rows_of(entries, fluid.points.size(), solid.points.size()); };
   Rows all = space.tests() * of(rows);
   all += of(rims);
-  return {fluid.points, solid.points, std::move(all), space.solved(), space.mass()};
+  return {fluid.points, solid.points, all, space.solved(), space.mass()};
 }
 
 }  // namespace tether

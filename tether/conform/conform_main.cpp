@@ -54,7 +54,7 @@ void examine(Session& session, const Options& options) {
   if (partners.size() > 1) {
     if (partners[1].role() != (partner.role() == "fluid" ? "solid" : "fluid"))
       throw input_error("{} is a {}, as {}", options.with, partners[1].role(), options.program.executable);
-    counterpart.emplace(partners[1], units_of(options.program));
+    counterpart.emplace(Counterpart{partners[1], units_of(options.program)});
   }
   for (Partner& each : partners) each.hello();
   const auto checks = conform(partner, options.dt, counterpart);
