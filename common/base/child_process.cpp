@@ -159,7 +159,7 @@ void detach_from_terminal() {
 }  // namespace
 
 std::string how_it_ended(int exit_code) {
-  if (exit_code <= 128) return fmt::format("ended with {}", exit_code);
+  if (exit_code <= 128 || exit_code - 128 >= NSIG) return fmt::format("ended with {}", exit_code);
   return fmt::format("was ended by signal {} ({})", exit_code - 128, strsignal(exit_code - 128));
 }
 

@@ -20,6 +20,8 @@ void prepare_process() {
   CPU_ZERO(&all);
   for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) CPU_SET(cpu, &all);
   sched_setaffinity(0, sizeof all, &all);
+  setenv("PATH", "/usr/local/bin:/usr/bin:/bin", 0);  // without one, mpirun and gnuplot find nothing
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the call that writes, which is told
   // A closed standard stream would be the next file's number.
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(standard, F_GETFD) < 0 && open("/dev/null", O_RDWR) != standard) break;

@@ -22,11 +22,16 @@ bool is_empty_but_for_lock(const fs::path& folder) {
                      [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
 }
 
-/// A pipe in the place of a file would be waited for without end.
-void refuse_pipes(const fs::path& folder) {
+/// A pipe in the place of a file would be waited for without end; through a link files elsewhere would be written and
+/// removed.
+void refuse_what_no_run_leaves(const fs::path& folder) {
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
     if (entry.is_fifo(none)) throw input_error("{}: is a pipe, not a file of results", entry.path().string());
+    if (entry.is_symlink(none)) throw input_error("{}: is a link, not a file of results", entry.path().string());
+  }
+  if (const fs::path plots = folder / "plots"; fs::exists(plots, none) && !fs::is_directory(plots, none))
+    throw input_error("{}: is not a folder", plots.string());
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -34,7 +39,7 @@ void refuse_pipes(const fs::path& folder) {
 void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file, bool goes_on) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
-  refuse_pipes(folder);
+  refuse_what_no_run_leaves(folder);
   if (!fs::exists(folder / case_as_run)) {
     if (is_empty_but_for_lock(folder)) return;
     throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
@@ -71,7 +76,7 @@ void hold_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, "cannot be made", error.value());
-  refuse_pipes(folder);
+  refuse_what_no_run_leaves(folder);
   hold_folder(folder);
 }
 

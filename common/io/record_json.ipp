@@ -65,7 +65,8 @@ struct Place {
   Place at(const std::string& field) const { return {file, path.empty() ? field : path + "." + field}; }
   Place at(std::size_t item) const { return {file, path + "[" + std::to_string(item) + "]"}; }
   InputError wrong(const Json& json, const std::string& expected) const {
-    return input_error("{}: {}: {}: must be {}", file, path, json.dump().substr(0, 80), expected);
+    const std::string where = path.empty() ? file : file + ": " + path;
+    return input_error("{}: {}: must be {}", where, json.dump().substr(0, 80), expected);
   }
 };
 

@@ -4,8 +4,8 @@
 
 namespace tether {
 
-/// One BLAS thread, and kernels that fit the processor. To be called before the first use of BLAS; further calls do
-/// nothing.
+/// One BLAS thread, kernels that fit the processor, and its buffer. To be called before the first use of BLAS; further
+/// calls do nothing. Throws RunError if there is no memory for the buffer.
 ///
 /// OpenBLAS knows processors by their numbers. One that is newer than the library gets kernels of 2004 (SSE3), which
 /// factor a matrix at half the speed; it is then told to use those for AVX-512 or AVX2. Environment variables would not

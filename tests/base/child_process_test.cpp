@@ -28,6 +28,12 @@ TEST(Capture, TellsASignalFromAnExitCode) {
   EXPECT_EQ(capture(shell("kill -KILL $$")).exit_code, 128 + SIGKILL);
 }
 
+TEST(HowItEnded, KnowsWhichNumbersAreSignals) {
+  EXPECT_EQ(how_it_ended(3), "ended with 3");
+  EXPECT_EQ(how_it_ended(128 + SIGKILL), "was ended by signal 9 (Killed)");
+  EXPECT_EQ(how_it_ended(243), "ended with 243") << "what mpirun returns where it cannot start";
+}
+
 TEST(Capture, AddsToTheEnvironment) {
   EXPECT_EQ(capture({{"/bin/sh", "-c", "echo $COLOUR"}, {{"COLOUR", "red"}}}).output, "red\n");
 }

@@ -91,5 +91,24 @@ TEST_F(OutputFolder, IsRefusedWhereAPipeStandsForAFile) {
   }
 }
 
+/// What is written or removed through a link would be elsewhere.
+TEST_F(OutputFolder, IsRefusedWhereALinkStandsForAFileOrAFolder) {
+  std::filesystem::create_directories(test_folder() / "elsewhere");
+  for (const char* name : {"plots", "timeseries.csv", folder_lock_name}) {
+    std::filesystem::remove_all(test_folder() / "results");
+    EXPECT_EQ(claim("tube"), "no error");
+    std::filesystem::remove(test_folder() / "results" / name);
+    std::filesystem::create_symlink("../elsewhere", test_folder() / "results" / name);
+    for (const bool overwrite : {false, true})
+      EXPECT_EQ(claim("tube", overwrite), std::string("results/") + name + ": is a link, not a file of results");
+  }
+}
+
+TEST_F(OutputFolder, IsRefusedBeforeTheRunWhereItsPlotsCannotBeAFolder) {
+  EXPECT_EQ(claim("tube"), "no error");
+  write_file("results/plots", "a file");
+  for (const bool overwrite : {false, true}) EXPECT_EQ(claim("tube", overwrite), "results/plots: is not a folder");
+}
+
 }  // namespace
 }  // namespace tether

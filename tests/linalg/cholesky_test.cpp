@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <iostream>
 
+#include "common/base/error.hpp"
 #include "common/linalg/blas_kernels.hpp"
+#include "tests/io/less_memory.hpp"
 
 namespace tether {
 namespace {
@@ -45,6 +48,26 @@ TEST(Blas, UsesWhatTheProcessorOffers) {
   const bool has_more = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   EXPECT_TRUE(blas_kernels() != "Prescott" || chosen_by_user || !has_more);
 #endif
+}
+
+/// Where there is no memory for its buffer OpenBLAS would ask for it without end. In a process of its own: one that has
+/// the buffer keeps it.
+TEST(Blas, IsRefusedWhereItsBufferDoesNotFit) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer takes more address space than can be limited";
+#endif
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto prepare = [] {
+    const LessMemory less(std::size_t{64} << 20);
+    try {
+      prepare_blas();
+    } catch (const RunError& error) {
+      std::cerr << error.what();
+      std::exit(exit_run_failed);
+    }
+    std::exit(exit_done);
+  };
+  EXPECT_EXIT(prepare(), testing::ExitedWithCode(exit_run_failed), "no memory is left for a buffer of OpenBLAS");
 }
 
 }  // namespace
