@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "common/base/end_request.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/protocol/signals.hpp"
 
@@ -35,7 +36,13 @@ void Simulation::run() {
   progress_.emplace(first_step_, plan_.last_step, plan_.quiet);
   std::int64_t step = first_step_;
   try {
-    for (; step < plan_.last_step; ++step) advance(step);
+    for (; step < plan_.last_step; ++step) {
+      advance(step);
+      if (end_is_requested() && step + 1 < plan_.last_step) {
+        save(step + 1);
+        throw protocol::Interrupted(told_to_end);
+      }
+    }
   } catch (const protocol::Interrupted& interrupted) {
     progress_->end_line();
     throw protocol::Interrupted(fmt::format("{} in step {}\n{}", interrupted.what(), step + 1, what_is_saved()));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/protocol/nodes.hpp"
 #include "identification_master/group_memory.hpp"
 
 namespace tether {
@@ -34,9 +35,11 @@ std::size_t group_count(const GroupsWanted& wanted, const protocol::Session& ses
 std::vector<Partner*> launch_groups(std::size_t count, const std::filesystem::path& case_file,
                                     const std::filesystem::path& output, protocol::Session& session) {
   const protocol::Program program{"fsi_master", "fsi_master", {std::filesystem::absolute(case_file).string()}};
+  std::vector<protocol::Program> programs(count, program);
+  if (const std::vector<std::string> nodes = protocol::nodes_of_job(); !nodes.empty())
+    for (std::size_t k = 0; k < count; ++k) programs[k].node = nodes[k % nodes.size()];
   std::vector<Partner*> groups;
-  for (Partner& group : session.launch(std::vector<protocol::Program>(count, program), output.string()))
-    groups.push_back(&group);
+  for (Partner& group : session.launch(programs, output.string())) groups.push_back(&group);
   for (Partner* group : groups) group->hello();
   return groups;
 }

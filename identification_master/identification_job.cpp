@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "common/base/checked_file.hpp"
+#include "common/base/end_request.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
 #include "common/base/progress_line.hpp"
@@ -109,7 +110,9 @@ class Job {
         check_held(output_);
         filter_.advance();
         progress.show(filter_.state().step, news(filter_, parameters_));
-        if (filter_.state().step % given_.file.common().output.checkpoint_every == 0) save();
+        const bool ends = end_is_requested() && !filter_.is_done();
+        if (ends || filter_.state().step % given_.file.common().output.checkpoint_every == 0) save();
+        if (ends) throw protocol::Interrupted(told_to_end);
       }
     } catch (const protocol::Interrupted& interrupted) {
       progress.end_line();

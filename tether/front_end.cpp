@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <iostream>
 
+#include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
 #include "common/protocol/programs.hpp"
 #include "fluid/windkessels/outlets_case.hpp"
 #include "tether/schemas.hpp"
+#include "tether/submit.hpp"
 #include "tether/verbs.hpp"
 #include "vessel/ring/ring_case.hpp"
 #include "vessel/study/study_case.hpp"
@@ -99,6 +101,9 @@ std::string usage() {
   for (const auto& verb : verbs) text += fmt::format("  {:<13} {}\n", verb.name, verb.purpose);
   text += fmt::format("  {:<13} {}\n", "conform",
                       "check a fluid or solid program of one's own: tether conform PROGRAM [ARGUMENTS]");
+  text += fmt::format("  {:<13} {}\n", "submit", "give cases to Slurm: tether submit VERB CASE.yaml|FOLDER [options]");
+  text += fmt::format("  {:<13} {}\n", "status", "tell what became of such a job: tether status FOLDER");
+  text += fmt::format("  {:<13} {}\n", "results", "make one table of what its cases found: tether results FOLDER");
   text += fmt::format("  {:<13} {}\n", "schema", "print the JSON schema of a file of results: tether schema [FILE]");
   return text + "\ntether VERB --help lists the options of a verb.\n";
 }
@@ -121,6 +126,9 @@ int answered(int argc, char** argv) {
   if (word == "measure-noise" && argc > 3 && argv[2][0] != '-' && argv[3][0] != '-')
     return measure_noise_of_files(argc - 2, argv + 2);
   if (word == "schema") return print_schema(argc - 2, argv + 2);
+  if (word == "submit") return submit(argc - 2, argv + 2);
+  if (word == "status") return job_status(argc - 2, argv + 2);
+  if (word == "results") return job_results(argc - 2, argv + 2);
   const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.name == word; });
   if (verb != verbs.end()) return run_main(argc - 1, argv + 1, program_of(*verb));
   const bool asked = word == "--help" || word == "-h" || word == "help";
@@ -133,6 +141,7 @@ int answered(int argc, char** argv) {
 
 int front_end(int argc, char** argv) {
   end_when_interrupted();
+  const EndRequests requests;
   return told_to_the_end(answered(argc, argv));
 }
 

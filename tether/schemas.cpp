@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "batch/job.hpp"
 #include "common/base/error.hpp"
 #include "common/catalogue/effects_list.hpp"
 #include "common/io/record_file.hpp"
@@ -50,6 +51,7 @@ const std::vector<ResultSchema>& result_schemas() {
       {"outlets.json", schema<FittedOutlets>},
       {"ring.json", schema<TrackedRing>},
       {"rest.json", schema<RestState>},
+      {"job.json", schema<Job>},
   };
   return all;
 }

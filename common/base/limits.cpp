@@ -22,6 +22,10 @@ double setup_limit() {
   return seconds_from("TETHER_SETUP_LIMIT", 600);
 }
 
+double end_limit() {
+  return seconds_from("TETHER_END_LIMIT", 120);
+}
+
 double stopped_limit() {
   return seconds_from("TETHER_STOPPED_LIMIT", 60);
 }

@@ -9,6 +9,10 @@ double start_limit();
 /// From then until it has read its case and says hello: TETHER_SETUP_LIMIT, 600 if unset.
 double setup_limit();
 
+/// Between the wish that programs save their state and end, and the interruption of those that still work:
+/// TETHER_END_LIMIT, 120 if unset.
+double end_limit();
+
 /// While a process is stopped by a signal: TETHER_STOPPED_LIMIT, 60 if unset.
 double stopped_limit();
 

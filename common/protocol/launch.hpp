@@ -19,6 +19,7 @@ struct Program {
   std::vector<std::string> arguments;  ///< the case file, options
   int processes = 1;                   ///< of a parallel code; only its rank 0 talks
   std::string where = {};              ///< that the user named it, for messages: "case.yaml:4: coupling.programs.fluid"
+  std::string node = {};               ///< to run on; empty: the one of its master
 };
 
 /// The file to execute. Throws InputError if there is none or it may not be executed.

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <iostream>
 
+#include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/temporary_folder.hpp"
@@ -68,6 +69,17 @@ std::string way_on(const char* verb, const CommandLine& command) {
                      output.string());
 }
 
+/// Of a run of which no program said a word. Beyond the signals stand mpirun's own numbers.
+std::string how_it_failed(const ForegroundEnd& end, const std::string& master) {
+  if (end.exit_code >= 128 + NSIG)
+    return fmt::format("mpirun broke off ({}): a node of the job was lost, or the job was ended from outside",
+                       end.exit_code);
+  const std::string how =
+      fmt::format("{} {}", end.was_killed ? "mpirun" : master.c_str(), how_it_ended(end.exit_code));
+  if (end.exit_code == 128 + SIGKILL) return how + ": out of memory?";
+  return end.exit_code > 128 ? how : how + " and without a word: was mpirun interrupted?";
+}
+
 }  // namespace
 
 std::filesystem::path sibling(const std::string& name) {
@@ -97,16 +109,14 @@ int report_failure(const ForegroundEnd& end, const std::string& master, const ch
   if (end.handed_on != 0 && told != protocol::Told::interruption)
     std::cerr << "tether: interrupted\n";
   else if (told == protocol::Told::nothing && !end.was_still)
-    std::cerr << fmt::format("tether: {} {}{}\n", end.was_killed ? "mpirun" : master, how_it_ended(end.exit_code),
-                             end.exit_code == 128 + SIGKILL ? ": out of memory?"
-                             : end.exit_code > 128          ? ""
-                                                            : " and without a word: was mpirun interrupted?");
+    std::cerr << fmt::format("tether: {}\n", how_it_failed(end, master));
   if (end.exit_code == exit_input_wrong) return exit_input_wrong;
   std::cerr << way_on(verb, command);
   return exit_run_failed;
 }
 
 void run_to_end(const std::string& master, const char* verb, const CommandLine& command) {
+  if (end_is_requested()) throw run_error("{}", told_to_end);
   const ForegroundEnd end = run_in_foreground(parallel_run(master, command));
   if (end.exit_code != exit_done) throw ToldFailure(report_failure(end, master, verb, command));
   if (end.handed_on != 0) std::raise(end.handed_on);  // too late for the run, not for what follows

@@ -10,6 +10,7 @@
 #include "common/base/temporary_folder.hpp"
 #include "common/protocol/guard.hpp"
 #include "common/protocol/job.hpp"
+#include "common/protocol/nodes.hpp"
 #include "common/protocol/signals.hpp"
 #include "common/protocol/told.hpp"
 #include "common/protocol/watch.hpp"
@@ -91,11 +92,16 @@ void check_initialising(double seconds, const std::string& role, const Start& st
   if (seconds > start.limit + 2) end_job(exit_run_failed);
 }
 
-MPI_Info spawn_info() {
+MPI_Info spawn_info(const Program& program) {
   MPI_Info info = MPI_INFO_NULL;
   MPI_Info_create(&info);
   MPI_Info_set(info, "wdir", std::filesystem::current_path().c_str());
-  MPI_Info_set(info, "env", mark_of_children().c_str());
+  std::string environment = mark_of_children();
+  if (const std::string node = program.node.empty() ? own_node() : program.node; !node.empty()) {
+    MPI_Info_set(info, "host", node.c_str());
+    environment += fmt::format("\n{}={}", node_variable, node);
+  }
+  MPI_Info_set(info, "env", environment.c_str());
   return info;
 }
 
@@ -139,7 +145,7 @@ Spawned spawn(const Program& program, const std::string& master_role) {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const Guard guard(0.1, [&](double seconds) { check_spawning(seconds, file, name, master_role); });
-  MPI_Info info = spawn_info();
+  MPI_Info info = spawn_info(program);
   MPI_Comm children = MPI_COMM_NULL;
   const int code = MPI_Comm_spawn("/bin/sh", arguments.data(), program.processes, info, 0, MPI_COMM_SELF, &children,
                                   MPI_ERRCODES_IGNORE);

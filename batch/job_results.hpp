@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/job.hpp"
+
+namespace tether {
+
+/// One line for each case that is done: what its verb found, under headings with units.
+struct JobResults {
+  std::vector<std::string> columns;             ///< of all cases, in the order in which they come
+  std::vector<std::vector<std::string>> cells;  ///< per case; empty where a case does not say
+
+  std::string csv() const;   ///< RFC 4180
+  std::string text() const;  ///< for a person, in columns
+};
+
+/// From the records that the cases left in the job's folder. Throws InputError for one that is damaged.
+JobResults results_of(const Job& job, const std::filesystem::path& folder);
+
+}  // namespace tether

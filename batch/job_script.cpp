@@ -1,0 +1,95 @@
+#include "batch/job_script.hpp"
+
+#include <fmt/format.h>
+
+namespace tether {
+namespace {
+
+/// Seconds before the limit of time at which the programs are told to save their state and end: two minutes until they
+/// are interrupted (end_limit), one for Slurm, which looks at its clock once a minute, and one to end in.
+constexpr int seconds_to_end = 240;
+
+std::string option(const std::string& name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("#SBATCH --{}={}\n", name, value);
+}
+
+std::string header(const Job& job, const std::filesystem::path& folder) {
+  const JobResources& r = job.resources;
+  const bool is_array = job.cases.size() > 1;
+  const std::string title = is_array ? folder.filename().string() : job.cases.front().name;
+  std::string text = option("job-name", "tether-" + title) + option("nodes", std::to_string(r.nodes)) +
+                     option("ntasks-per-node", std::to_string(r.tasks_per_node)) + option("mem", r.memory) +
+                     option("time", r.time) + option("account", r.account) + option("partition", r.partition);
+  if (is_array) text += option("array", fmt::format("0-{}", job.cases.size() - 1));
+  text += option("output", (folder / job_files / (is_array ? "slurm-%A_%a.txt" : "slurm-%j.txt")).string());
+  text += option("signal", fmt::format("B:USR1@{}", seconds_to_end));
+  text += "#SBATCH --open-mode=append\n#SBATCH --requeue\n";
+  for (const std::string& more : r.more) text += fmt::format("#SBATCH --{}\n", more);
+  return text;
+}
+
+std::string list(const char* name, const std::vector<JobCase>& cases, std::string JobCase::*field) {
+  std::string text = fmt::format("{}=(\n", name);
+  for (const JobCase& one : cases) text += fmt::format("  {}\n", shell_quoted(one.*field));
+  return text + ")\n";
+}
+
+constexpr const char* body = R"(
+k=${SLURM_ARRAY_TASK_ID:-0}
+name=${names[$k]} output=$folder/${names[$k]}
+this_job=$SLURM_JOB_ID
+rm -f "$folder/job/ended/$name"
+
+# What programs leave of the state that they have come to.
+saved() {
+  find "$output" -newer "$1" \( -path '*/checkpoint/*' -o -name run.json -o -name steps.json -o -name summary.json \) | grep -q .
+}
+begun=$folder/job/ended/$name.begun
+touch "$begun"
+
+# One model stays on one node: the programs are told which there are.
+TETHER_NODES=$(scontrol show hostnames "$SLURM_JOB_NODELIST" | paste -sd,)
+export TETHER_NODES
+
+# The time is nearly over: the programs save what they have come to.
+told=
+trap 'told=yes; kill -USR1 "$program" 2>/dev/null' USR1
+"$tether" "$verb" "${cases[$k]}" --output "$output" $options $(go_on) >>"$folder/job/$name.log" 2>&1 &
+program=$!
+wait "$program"; code=$?
+while kill -0 "$program" 2>/dev/null; do wait "$program"; code=$?; done  # a signal ends `wait`, not the program
+if [ "$code" -ne 0 ]; then
+  if [ -n "$told" ] && ! saved "$begun"; then
+    echo "$name: out of time before anything was saved: it needs a longer --time"
+  elif [ -n "$told" ] || scontrol show job "$this_job" | grep -q ' PreemptTime=[0-9]'; then
+    echo "$name: out of time, or preempted: it goes on from what is saved when it is its turn again"
+    scontrol requeue "$this_job" && sleep 60
+  fi
+fi
+echo "$code" >"$folder/job/ended/$name"
+exit "$code"
+)";
+
+}  // namespace
+
+std::string shell_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string job_script(const Job& job, const std::filesystem::path& folder) {
+  const char* verb = word_of(job.verb);
+  std::string text = fmt::format("#!/bin/bash\n# Written by tether submit {}.\n", verb) + header(job, folder);
+  text +=
+      fmt::format("\ntether={} verb={} folder={}\n", shell_quoted(job.program), verb, shell_quoted(folder.string()));
+  text += fmt::format("options={}\n", makes_many_runs(job.verb)
+                                          ? shell_quoted(fmt::format("--processes {}", job.resources.processes))
+                                          : "");
+  text += list("names", job.cases, &JobCase::name) + list("cases", job.cases, &JobCase::case_file);
+  text += is_resumed(job.verb) ? "go_on() { [ -d \"$output/checkpoint\" ] && echo --resume; }\n"
+                               : "go_on() { :; }  # it finds by itself what was made\n";
+  return text + body;
+}
+
+}  // namespace tether

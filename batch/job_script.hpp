@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "batch/job.hpp"
+
+namespace tether {
+
+/// The script that sbatch gets, for people to read and change: what is asked for, then one case, or for each task of an
+/// array its own. Told to end (limit of time, preemption) it lets the programs save their state, and asks to be started
+/// again where it ends with more saved than it began with; a job that a person cancels stays so.
+std::string job_script(const Job& job, const std::filesystem::path& folder);
+
+/// For the shell: 'it'\''s'.
+std::string shell_quoted(const std::string& text);
+
+}  // namespace tether

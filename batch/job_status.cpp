@@ -1,0 +1,88 @@
+#include "batch/job_status.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// States of Slurm's in which a task has ended for good.
+bool has_ended(const slurm::Task& task) {
+  constexpr std::array states{"COMPLETED", "FAILED",    "CANCELLED",     "TIMEOUT",
+                              "NODE_FAIL", "BOOT_FAIL", "OUT_OF_MEMORY", "DEADLINE"};
+  return std::find(states.begin(), states.end(), task.state) != states.end();
+}
+
+bool runs(const slurm::Task& task) {
+  return task.state == "RUNNING" || task.state == "COMPLETING";
+}
+
+/// The last line of a log, which may be long, but how to go on: the job's script knows that.
+std::string last_said_in(const fs::path& file) {
+  constexpr std::streamoff enough = 4000;  // bytes
+  std::ifstream log(file, std::ios::binary);
+  log.seekg(0, std::ios::end);
+  log.seekg(std::max<std::streamoff>(0, log.tellg() - enough));
+  std::string last;
+  for (std::string line; std::getline(log, line);)
+    if (!line.empty() && !line.starts_with("To continue: ")) last = line;
+  return last;
+}
+
+std::optional<int> exit_code_in(const fs::path& file) {
+  int code = 0;
+  std::ifstream text(file);
+  if (!(text >> code)) return std::nullopt;
+  return code;
+}
+
+std::string joined(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : ": ") + second;
+}
+
+CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Task* task) {
+  const std::string said = last_said_in(files / (one.name + ".log"));
+  if (task != nullptr && runs(*task))
+    return {one.name, CaseState::running, joined(fmt::format("{} on {}", task->time, task->nodes), said)};
+  if (task != nullptr && !has_ended(*task)) return {one.name, CaseState::waiting, joined(task->reason, said)};
+  if (const auto code = exit_code_in(files / "ended" / one.name))
+    return {one.name, *code == 0 ? CaseState::done : CaseState::failed, *code == 0 ? "" : said};
+  return {one.name, CaseState::gone, joined(task == nullptr ? "" : task->state, said)};
+}
+
+}  // namespace
+
+std::vector<CaseStatus> status_of(const Job& job, const fs::path& folder,
+                                  const std::optional<std::vector<slurm::Task>>& tasks) {
+  std::vector<CaseStatus> all;
+  for (std::size_t k = 0; k < job.cases.size(); ++k) {
+    const JobCase& one = job.cases[k];
+    const slurm::Task* task = nullptr;
+    if (tasks)
+      for (const slurm::Task& other : *tasks)
+        if (other.index == static_cast<int>(k)) task = &other;
+    if (job.number.empty())
+      all.push_back({one.name, CaseState::unsubmitted, ""});
+    else
+      all.push_back(status_of(one, folder / job_files, task));
+  }
+  return all;
+}
+
+std::string text_of(const std::vector<CaseStatus>& cases) {
+  std::string counts, lines;
+  for (const auto& [state, word, meaning] : words_of<CaseState>) {
+    const auto count = std::count_if(cases.begin(), cases.end(), [s = state](const auto& c) { return c.state == s; });
+    if (count > 0) counts += fmt::format("{} {} {}", counts.empty() ? ":" : ",", count, word);
+  }
+  for (const CaseStatus& one : cases)
+    lines += fmt::format("  {:<24} {:<10} {}\n", one.name, word_of(one.state), one.note);
+  return fmt::format("{} case{}{}\n{}", cases.size(), cases.size() == 1 ? "" : "s", counts, lines);
+}
+
+}  // namespace tether

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/job.hpp"
+#include "batch/slurm.hpp"
+
+namespace tether {
+
+enum class CaseState { unsubmitted, waiting, running, done, failed, gone };
+
+template <>
+inline constexpr auto words_of<CaseState> = std::to_array<WordOf<CaseState>>({
+    {CaseState::unsubmitted, "not submitted", "a script was written only"},
+    {CaseState::waiting, "waiting", "for its turn, the first time or to go on"},
+    {CaseState::running, "running", "on a node"},
+    {CaseState::done, "done", "its results are there"},
+    {CaseState::failed, "failed", "its log says why"},
+    {CaseState::gone, "gone", "it left the scheduler before its end: cancelled, or its node was lost"},
+});
+
+struct CaseStatus {
+  std::string name;
+  CaseState state = CaseState::waiting;
+  std::string note;  ///< why it waits, where and how long it runs, the last line of its log
+};
+
+/// What became of each case of a job, from what the scheduler says (nothing: it cannot be asked) and the job's folder.
+std::vector<CaseStatus> status_of(const Job& job, const std::filesystem::path& folder,
+                                  const std::optional<std::vector<slurm::Task>>& tasks);
+
+/// "12 cases: 3 done, 4 running, 5 waiting", and a line for each.
+std::string text_of(const std::vector<CaseStatus>& cases);
+
+}  // namespace tether

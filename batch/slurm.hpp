@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The scheduler, by its own programs.
+namespace tether::slurm {
+
+/// Gives a script to sbatch; returns the job's number. Throws InputError with what sbatch says against it, RunError if
+/// there is none.
+std::string submit(const std::filesystem::path& script);
+
+/// What squeue says of a task of a job.
+struct Task {
+  int index = 0;       ///< in a job array; 0 of a job alone
+  std::string state;   ///< "PENDING", "RUNNING", ...
+  std::string reason;  ///< why it waits: "Resources"; empty: it does not
+  std::string time;    ///< that it has run since its last start
+  std::string nodes;   ///< on which it runs
+};
+
+/// The tasks of a job that wait or run; none that have ended. Nothing if squeue cannot be asked.
+std::optional<std::vector<Task>> tasks_of(const std::string& job);
+
+}  // namespace tether::slurm

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Where a job that has several nodes runs its programs: a model, a master with fluid and solid, stays on one.
+namespace tether::protocol {
+
+/// In the environment: the nodes of the job, "n1,n2", as its script says (tether submit); and the one of this process.
+inline constexpr const char* nodes_variable = "TETHER_NODES";
+inline constexpr const char* node_variable = "TETHER_NODE";
+
+/// The nodes of the job; nothing if there is one only, or nobody said.
+std::vector<std::string> nodes_of_job();
+
+/// Where the partners of this process are to run: on its own node; the first process is on the first. Empty: wherever
+/// MPI starts them.
+std::string own_node();
+
+}  // namespace tether::protocol

@@ -1,0 +1,154 @@
+"""Jobs of tether submit on a Slurm that runs on this machine: slurm_test.py TETHER CONFIGS."""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import slurm_cluster
+
+TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
+
+COARSE = """base: {tube}
+name: tube
+time: {{step: 4e-3}}
+mesh: {{swept: {{around: 12, along: 8}}}}
+output: {{checkpoint_every: 20}}
+"""
+TWIN = """base: tube.yaml
+name: lost_spring
+solid: {support: {regions: {spine: {stiffness: 1e5}}}}
+twin:
+  truth: tube.yaml
+  seed: 1
+  frames: 6
+  image: {voxel: [1 mm, 1 mm, 1.5 mm]}
+  noise: {deviation: 0.15 mm, correlation_length: 5 mm}
+  hidden: {effects: {visco_elastic: {where: spine, amplitude: 1e6, unit: g/(cm2 s2)}}}
+"""
+IDENTIFICATION = """base: case.yaml
+name: springs
+identification:
+  parameters:
+    spine: {of: [solid.support.regions.spine.stiffness]}
+    opposite: {of: [solid.support.regions.opposite.stiffness]}
+"""
+
+
+def content(folder):
+    return {name: (folder / name).read_bytes() for name in ("timeseries.csv", "lumen.motion")}
+
+
+class Jobs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="tether_slurm_"))
+        cls.cluster = slurm_cluster.Cluster(cls.folder / "slurm")
+        cls.addClassCleanup(shutil.rmtree, cls.folder, True)
+        cls.addClassCleanup(cls.cluster.stop)
+        (cls.folder / "tube.yaml").write_text(COARSE.format(tube=CONFIGS / "tube/case.yaml"))
+        cls.tether("simulate", "tube.yaml", "--output", "undisturbed", "--quiet")
+
+    @classmethod
+    def run_tether(cls, *words):
+        return subprocess.run([TETHER, *words], cwd=cls.folder, env=cls.cluster.environment, capture_output=True, text=True)
+
+    @classmethod
+    def tether(cls, *words):
+        done = cls.run_tether(*words)
+        if done.returncode != 0:
+            raise AssertionError(f"tether {' '.join(words)}: {done.returncode}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def submit(self, name, *words):
+        self.tether("submit", *words, "--output", name, "--time", "20", "--memory", "1G")
+        return json.loads((self.folder / name / "job/job.json").read_text())["number"]
+
+    def states(self, name):
+        lines = self.tether("status", name).splitlines()[1:]
+        return {line.split()[0]: line.split()[1] for line in lines}
+
+    def wait_for(self, name, state, seconds=120):
+        self.cluster.wait(lambda: set(self.states(name).values()) == {state}, seconds, f"{name} {state}")
+
+    def wait_for_state_of(self, folder):
+        self.cluster.wait(lambda: (self.folder / folder / "checkpoint").is_dir(), 60, f"a checkpoint in {folder}")
+
+    def test_an_array_has_one_table_of_results(self):
+        (self.folder / "walls.csv").write_text("name, solid.material.young [kPa]\n" + "".join(f"wall_{k}, {400 + 100 * k}\n" for k in range(6)))
+        self.submit("walls", "simulate", "tube.yaml", "--table", "walls.csv")
+        self.wait_for("walls", "done")
+        self.tether("results", "walls")
+        with open(self.folder / "walls/results.csv", encoding="utf-8") as table:
+            rows = list(csv.DictReader(table))
+        self.assertEqual([row["case"] for row in rows], [f"wall_{k}" for k in range(6)])
+        moved = [float(row["largest displacement [mm]"]) for row in rows]
+        self.assertEqual(moved, sorted(moved, reverse=True), "a stiffer wall moves less")
+        self.assertEqual(content(self.folder / "walls/wall_0"), content(self.folder / "undisturbed"), "400 kPa is the tube's own")
+
+    def test_at_its_limit_of_time_it_saves_and_goes_on_to_the_same_bits(self):
+        number = self.submit("limited", "simulate", "tube.yaml")
+        self.wait_for_state_of("limited/tube")
+        self.cluster.ask("scancel", "--signal=USR1", "--batch", number)
+        self.wait_for("limited", "done")
+        log = (self.folder / "limited/job/tube.log").read_text()
+        self.assertIn("told to save its state and end in step", log)
+        self.assertEqual(content(self.folder / "limited/tube"), content(self.folder / "undisturbed"))
+
+    def test_preempted_it_goes_on_from_its_latest_state_to_the_same_bits(self):
+        self.submit("preempted", "simulate", "tube.yaml")
+        self.wait_for_state_of("preempted/tube")
+        self.cluster.ask("sbatch", "--partition=urgent", "--nodes=3", "--exclusive", "--output=/dev/null", "--wrap=sleep 3")
+        self.cluster.wait(lambda: self.states("preempted") == {"tube": "waiting"}, 60, "preempted")
+        self.wait_for("preempted", "done")
+        self.assertEqual(content(self.folder / "preempted/tube"), content(self.folder / "undisturbed"))
+
+    def test_what_a_person_cancels_stays_so(self):
+        number = self.submit("cancelled", "simulate", "tube.yaml")
+        self.wait_for_state_of("cancelled/tube")
+        self.cluster.ask("scancel", number)
+        self.cluster.wait(lambda: self.states("cancelled") != {"tube": "running"}, 60, "cancelled")
+        self.assertIn(self.states("cancelled")["tube"], ("gone", "failed"))
+        self.assertNotIn("PENDING", self.cluster.ask("squeue", "--noheader", "--jobs", number, "--format=%T"))
+
+    def test_an_identification_has_its_models_on_three_nodes(self):
+        (self.folder / "twin.yaml").write_text(TWIN)
+        self.tether("twin", "twin.yaml", "--output", "twin", "--quiet")
+        (self.folder / "twin/springs.yaml").write_text(IDENTIFICATION)
+        self.submit("springs", "identify", "twin/springs.yaml", "--nodes", "3", "--processes", "3")
+        self.cluster.wait(lambda: nodes_of("fsi_master", self.folder / "twin/springs.yaml") == {"n0", "n1", "n2"}, 60, "a model on each node")
+        self.wait_for("springs", "done")
+        self.tether("identify", "twin/springs.yaml", "--processes", "3", "--output", "here", "--quiet")
+        self.assertEqual((self.folder / "springs/springs/estimate.csv").read_bytes(), (self.folder / "here/estimate.csv").read_bytes())
+
+    def test_what_is_wrong_is_told_before_it_waits(self):
+        refused = self.run_tether("submit", "simulate", "tube.yaml", "--output", "nowhere", "--time", "20", "--memory", "1G", "--partition", "moon")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("invalid partition specified: moon", refused.stderr)
+        (self.folder / "wrong.yaml").write_text("base: tube.yaml\nname: wrong\nsolid: {material: {young: -1}}\n")
+        refused = self.run_tether("submit", "simulate", "wrong.yaml", "--output", "wrong")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("solid.material.young", refused.stderr)
+
+
+def nodes_of(program, case_file):
+    """TETHER_NODE of the programs of that name that work on a case."""
+    nodes = set()
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (process / "cmdline").read_bytes().decode().split("\0")
+            variables = dict(line.split("=", 1) for line in (process / "environ").read_bytes().decode().split("\0") if "=" in line)
+        except (OSError, UnicodeDecodeError):
+            continue
+        if os.path.basename(words[0]) == program and str(case_file) in words and "TETHER_NODE" in variables:
+            nodes.add(variables["TETHER_NODE"])
+    return nodes
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "--verbose", *sys.argv[3:]])

@@ -1,0 +1,252 @@
+#include "tether/submit.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+#include "batch/job_cases.hpp"
+#include "batch/job_plan.hpp"
+#include "batch/job_results.hpp"
+#include "batch/job_script.hpp"
+#include "batch/job_status.hpp"
+#include "common/base/error.hpp"
+#include "common/base/process.hpp"
+#include "common/base/temporary_folder.hpp"
+#include "common/base/write_error.hpp"
+#include "common/config/case_tree.hpp"
+#include "common/config/output_folder.hpp"
+#include "common/io/record_file.hpp"
+#include "common/protocol/programs.hpp"
+#include "tether/verbs.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A few, beyond the first, which is longer.
+constexpr int steps_to_measure = 3;
+
+struct Typed {
+  std::string verb;
+  fs::path given, table, output;
+  JobResources resources;
+  int processes = 0, tasks_per_node = 0;
+  bool dry_run = false, overwrite = false;
+};
+
+/// Parses, acts, and turns what is thrown into messages and exit codes.
+int run_app(CLI::App& app, int argc, char** argv, const std::function<int()>& act) {
+  prepare_process();
+  std::vector<std::string> words(argv, argv + argc);
+  std::reverse(words.begin(), words.end());
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_input_wrong;
+  }
+  return guarded(app.get_name(), act);
+}
+
+std::vector<std::string> words_of_verbs() {
+  std::vector<std::string> words;
+  for (const auto& entry : words_of<JobVerb>) words.emplace_back(entry.word);
+  return words;
+}
+
+void add_options(CLI::App& app, Typed& typed) {
+  JobResources& r = typed.resources;
+  app.add_option("verb", typed.verb, "what to do with each case")
+      ->required()
+      ->type_name("VERB")
+      ->check(CLI::IsMember(words_of_verbs()));
+  app.add_option("case", typed.given, "a case file, or a folder: each NAME.yaml and NAME/case.yaml in it")
+      ->required()
+      ->type_name("CASE.yaml|FOLDER");
+  app.add_option("--table", typed.table,
+                 "of cases that build on CASE.yaml: a column `name`, and one for each field that differs")
+      ->type_name("TABLE.csv");
+  app.add_option("--output", typed.output, "folder for the results of all cases (default out/NAME_job)")
+      ->type_name("DIR");
+  app.add_option("--processes", typed.processes, "models of a case that run at once")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--nodes", r.nodes, "of each case (default 1)")->type_name("N")->check(CLI::PositiveNumber);
+  app.add_option("--tasks-per-node", typed.tasks_per_node, "processors of each (default: one for each model)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--memory", r.memory, "of each node, as Slurm writes it: 8G (default: measured by a few steps)");
+  app.add_option("--time", r.time, "limit, as Slurm writes it: 12:00:00 (default: measured by a few steps)");
+  app.add_option("--account", r.account, "to be charged");
+  app.add_option("--partition", r.partition, "of the cluster");
+  app.add_option("--sbatch", r.more, "a further option of sbatch, such as qos=high; may be repeated")
+      ->type_name("OPTION");
+  app.add_flag("--dry-run", typed.dry_run, "write the script, show it and the plan, submit nothing");
+  app.add_flag("--overwrite", typed.overwrite, "replace a job that is in the folder; results in it go on");
+}
+
+/// How many models of a case are worth running at once.
+int processes_of(const Typed& typed, JobVerb verb, int parameters) {
+  if (typed.processes > 0) return typed.processes;
+  if (!makes_many_runs(verb)) return 1;
+  constexpr int of_a_diagnosis = 8;  // its sensitivity runs are some dozens, those that confirm come in rounds of few
+  return verb == JobVerb::identify ? parameters + 1 : of_a_diagnosis;
+}
+
+int parameters_of(const fs::path& case_file) {
+  const YamlNode tree = read_case_tree(case_file);
+  const YamlNode* section = tree.find("identification");
+  const YamlNode* parameters = section == nullptr ? nullptr : section->find("parameters");
+  return parameters == nullptr ? 0 : static_cast<int>(parameters->entries.size());
+}
+
+/// A folder that ends with this object.
+class Scratch {
+ public:
+  Scratch() : path_((temporary_folder() / "tether_measured_XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr) throw write_error(path_);
+  }
+  ~Scratch() {
+    std::error_code none;
+    fs::remove_all(path_, none);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+MeasuredSteps measure(const JobCase& one) {
+  const Scratch scratch;
+  const ChildEnd end =
+      capture({{fs::read_symlink("/proc/self/exe").string(), "simulate", one.case_file, "--steps",
+                std::to_string(steps_to_measure), "--output", (scratch.path() / "run").string(), "--quiet"},
+               {{"TETHER_PICTURES", "0"}}});
+  if (end.exit_code != 0)
+    throw run_error("{}: {} steps, to measure what they take, failed:\n{}", one.case_file, steps_to_measure,
+                    end.errors);
+  const auto run = read_record<RunSummary>(scratch.path() / "run/summary.json");
+  return {run.steps, CaseFile(one.case_file).common().time.steps(), run.seconds_per_step,
+          run.peak_memory_mb.at("total")};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file);
+  if (!(out << text).flush()) throw write_error(file);
+}
+
+fs::path job_folder(const Typed& typed) {
+  if (!typed.output.empty()) return fs::absolute(typed.output).lexically_normal();
+  const fs::path whole = fs::absolute(typed.given).lexically_normal();
+  const fs::path named = whole.filename() == "case.yaml" ? whole.parent_path() : whole;
+  return fs::absolute(fs::path("out") / (named.stem().string() + "_job"));
+}
+
+Job read_job(const fs::path& folder) {
+  if (!fs::exists(folder / job_files / "job.json"))
+    throw input_error("{}: holds no job of tether submit", folder.string());
+  return read_record<Job>(folder / job_files / "job.json");
+}
+
+bool holds_submitted_job(const fs::path& folder) {
+  return fs::exists(folder / job_files / "job.json") && !read_job(folder).number.empty();
+}
+
+/// Makes job/ in the folder, which is no other job's.
+void claim_job(const fs::path& folder, bool overwrite) {
+  if (!overwrite && holds_submitted_job(folder))
+    throw input_error(
+        "{}: holds a job; tether status {} tells of it, --output makes another, --overwrite this one anew",
+        folder.string(), folder.string());
+  hold_output(folder);
+  fs::create_directories(folder / job_files / "ended");
+}
+
+/// What is wrong is told before it waits for its turn.
+void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
+  for (const JobCase& one : cases) {
+    CommandLine command;
+    command.case_file = one.case_file;
+    command.quiet = true;
+    validate(command);
+    if (verb == JobVerb::identify) check_identification(command);
+  }
+}
+
+Job job_of(const Typed& typed, const fs::path& folder) {
+  Job job{*from_word<JobVerb>(typed.verb), "", sibling("tether").string(), {}, {}, typed.resources};
+  job.cases = typed.table.empty() ? job_cases(typed.given)
+                                  : job_cases_of_table(typed.given, typed.table, folder / job_files / "cases");
+  check_cases(job.cases, job.verb);
+  return job;
+}
+
+int act(const Typed& typed) {
+  const fs::path folder = job_folder(typed);
+  claim_job(folder, typed.overwrite);
+  Job job = job_of(typed, folder);
+  const int parameters = parameters_of(job.cases.front().case_file);
+  JobResources& r = job.resources;
+  r.processes = processes_of(typed, job.verb, parameters);
+  r.tasks_per_node = typed.tasks_per_node > 0 ? typed.tasks_per_node : (r.processes + r.nodes - 1) / r.nodes;
+  std::optional<ExpectedTime> expected;
+  if (r.memory.empty() || r.time.empty()) {
+    job.measured = measure(job.cases.front());
+    expected = expected_time(job.verb, *job.measured, r.processes, parameters);
+    fill_from(*job.measured, *expected, r);
+  }
+  const fs::path script = folder / job_files / "script.sh";
+  write_text(script, job_script(job, folder));
+  if (!typed.dry_run) job.number = slurm::submit(script);
+  write_record(folder / job_files / "job.json", job);
+  std::cout << plan_text(job, expected);
+  if (typed.dry_run)
+    std::cout << fmt::format("In {}, not submitted:\n\n{}", script.string(), job_script(job, folder));
+  else
+    std::cout << fmt::format("Job {}, results in {}: tether status {}\n", job.number, folder.string(), folder.string());
+  return exit_done;
+}
+
+/// Of the verbs that look at a job.
+int with_job(const char* name, const char* purpose, int argc, char** argv,
+             const std::function<void(const Job&, const fs::path&)>& show) {
+  fs::path folder;
+  CLI::App app(purpose, std::string("tether ") + name);
+  app.add_option("folder", folder, "the job's folder, as tether submit told it")->required()->type_name("FOLDER");
+  return run_app(app, argc, argv, [&] {
+    show(read_job(folder), folder);
+    return exit_done;
+  });
+}
+
+}  // namespace
+
+int submit(int argc, char** argv) {
+  Typed typed;
+  CLI::App app("give a case, a folder of cases or a table of them to Slurm", "tether submit");
+  add_options(app, typed);
+  return run_app(app, argc, argv, [&] { return act(typed); });
+}
+
+int job_status(int argc, char** argv) {
+  return with_job(
+      "status", "what became of the cases of a job", argc, argv, [](const Job& job, const fs::path& folder) {
+        const auto tasks = job.number.empty() ? std::nullopt : slurm::tasks_of(job.number);
+        std::cout << fmt::format("job {}, {}, ", job.number.empty() ? "not submitted" : job.number, word_of(job.verb))
+                  << text_of(status_of(job, folder, tasks));
+      });
+}
+
+int job_results(int argc, char** argv) {
+  return with_job("results", "one table of what the cases of a job found", argc, argv,
+                  [](const Job& job, const fs::path& folder) {
+                    const JobResults results = results_of(job, folder);
+                    write_text(folder / "results.csv", results.csv());
+                    std::cout << results.text() << "In " << (folder / "results.csv").string() << "\n";
+                  });
+}
+
+}  // namespace tether
