@@ -74,8 +74,7 @@ std::string how_it_failed(const ForegroundEnd& end, const std::string& master) {
   if (end.exit_code >= 128 + NSIG)
     return fmt::format("mpirun broke off ({}): a node of the job was lost, or the job was ended from outside",
                        end.exit_code);
-  const std::string how =
-      fmt::format("{} {}", end.was_killed ? "mpirun" : master.c_str(), how_it_ended(end.exit_code));
+  const std::string how = fmt::format("{} {}", end.was_killed ? "mpirun" : master.c_str(), how_it_ended(end.exit_code));
   if (end.exit_code == 128 + SIGKILL) return how + ": out of memory?";
   return end.exit_code > 128 ? how : how + " and without a word: was mpirun interrupted?";
 }

@@ -158,6 +158,28 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
   }
 }
 
+/// As a scheduler does before it ends a job.
+TEST_F(Identify, ToldToEndItSavesItsStateAndGoesOnToTheSame) {
+  auto end = std::async(std::launch::async, [&] {
+    return tether("identify", case_file, "told", {"--processes", "2"});
+  });
+  while (process_of("observation_manager", case_file) == 0 &&
+         end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready)
+    continue;
+  const pid_t front_end = process_of("tether", case_file);
+  ASSERT_NE(front_end, 0);
+  kill(front_end, SIGUSR1);
+  const ChildEnd ended = end.get();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(
+      ended.errors.find("identification_master: told to save its state and end in step 2\nThe state after 1 steps"),
+      std::string::npos)
+      << ended.errors;
+  ASSERT_EQ(tether("identify", case_file, "told", {"--resume", "--processes", "2"}).exit_code, 0);
+  for (const char* name : {"estimate.csv", "identified.yaml"})
+    EXPECT_EQ(content_of(folder / "one" / name), content_of(folder / "told" / name)) << name;
+}
+
 /// From a checkpoint before the first frame that counts; neither with another step nor from other measurements.
 TEST_F(Identify, ContinuesOnlyFromTheSameCaseAndMeasurements) {
   const Edits at_frames{{"identification:\n", "identification:\n  observe: frames\n"},

@@ -1,0 +1,187 @@
+// Jobs without a scheduler: which cases, what is asked for, the script, what is said of them. With one: slurm_test.py.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "batch/job_cases.hpp"
+#include "batch/job_plan.hpp"
+#include "batch/job_results.hpp"
+#include "batch/job_script.hpp"
+#include "batch/job_status.hpp"
+#include "common/base/child_process.hpp"
+#include "common/base/error.hpp"
+#include "common/config/case_tree.hpp"
+#include "common/io/record_file.hpp"
+#include "identification_master/results/estimate.hpp"
+
+namespace tether {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Jobs : public ::testing::Test {
+ protected:
+  Jobs()
+      : folder_(fs::temp_directory_path() / "tether_tests" /
+                ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  fs::path write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  std::string refusal(const std::function<void()>& act) const {
+    try {
+      act();
+    } catch (const InputError& error) {
+      const std::string text = error.what(), here = folder_.string() + "/";
+      return text.starts_with(here) ? text.substr(here.size()) : text;
+    }
+    return "no error";
+  }
+  Job job(JobVerb verb, int cases) const {
+    Job job{verb, "12", "/opt/it's here/tether", {}, {}, {}};
+    for (int k = 0; k < cases; ++k)
+      job.cases.push_back({"case_" + std::to_string(k), (folder_ / "a case.yaml").string()});
+    return job;
+  }
+  const fs::path folder_;
+};
+
+std::vector<std::string> names_of(const std::vector<JobCase>& cases) {
+  std::vector<std::string> names;
+  for (const JobCase& one : cases) names.push_back(one.name);
+  return names;
+}
+
+TEST_F(Jobs, HaveTheCasesOfAFolderByName) {
+  write("patients/zoe.yaml", "");
+  write("patients/adam/case.yaml", "");
+  write("patients/adam/lumen.csv", "");
+  write("patients/notes.txt", "");
+  EXPECT_EQ(names_of(job_cases(folder_ / "patients")), (std::vector<std::string>{"adam", "zoe"}));
+  EXPECT_EQ(job_cases(folder_ / "patients/adam/case.yaml").front().name, "adam");
+  EXPECT_EQ(job_cases(folder_ / "patients/zoe.yaml").front().case_file, (folder_ / "patients/zoe.yaml").string());
+}
+
+TEST_F(Jobs, RefuseFoldersWithoutCasesAndNamesThatCannotBeFolders) {
+  write("none/notes.txt", "");
+  write("twice/adam.yaml", "");
+  write("twice/adam/case.yaml", "");
+  write("odd/a b$.yaml", "");
+  write("own/job.yaml", "");
+  const auto refused = [&](const char* name) { return refusal([&] { job_cases(folder_ / name); }); };
+  EXPECT_EQ(refused("none"), "none: holds no case: no NAME.yaml, and no NAME/case.yaml");
+  EXPECT_EQ(refused("absent"), "absent: no such file or folder");
+  EXPECT_EQ(refused("twice"), "twice: two cases have the name 'adam'");
+  EXPECT_NE(refused("odd").find("'a b$' is to be a folder of results"), std::string::npos) << refused("odd");
+  EXPECT_EQ(refused("own"), "own: no case may have the name 'job'");
+}
+
+TEST_F(Jobs, MakeACaseOfEachRowOfATable) {
+  const fs::path base = write("tube.yaml", "name: tube\nsolid: {material: {young: 4e6, poisson: 0.45}}\n");
+  const fs::path table =
+      write("walls.csv", "name, solid.material.young [kPa], time.end\nsoft, 200, \nstiff, 900, 0.5\n");
+  const auto cases = job_cases_of_table(base, table, folder_ / "cases");
+  ASSERT_EQ(names_of(cases), (std::vector<std::string>{"soft", "stiff"}));
+  const YamlNode soft = read_case_tree(cases[0].case_file), stiff = read_case_tree(cases[1].case_file);
+  EXPECT_EQ(soft.find("name")->text, "soft");
+  EXPECT_EQ(soft.find("solid")->find("material")->find("young")->text, "200 kPa");
+  EXPECT_EQ(soft.find("solid")->find("material")->find("poisson")->text, "0.45") << "of the base";
+  EXPECT_EQ(soft.find("time"), nullptr) << "an empty cell says nothing";
+  EXPECT_EQ(stiff.find("time")->find("end")->text, "0.5");
+  EXPECT_EQ(refusal([&] { job_cases_of_table(base, write("no_name.csv", "young\n1\n"), folder_ / "cases"); }),
+            "no_name.csv: has no column `name`, one for each case");
+}
+
+TEST_F(Jobs, AskForTwiceTheTimeThatAFewStepsFortell) {
+  const MeasuredSteps measured{3, 400, 0.5, 1000};
+  const ExpectedTime run = expected_time(JobVerb::simulate, measured, 1, 0);
+  EXPECT_DOUBLE_EQ(run.seconds, 200);
+  const ExpectedTime identification = expected_time(JobVerb::identify, measured, 4, 11);
+  EXPECT_DOUBLE_EQ(identification.seconds, 600) << "12 particles, 4 at once";
+  EXPECT_GT(expected_time(JobVerb::explain, measured, 4, 0).seconds, identification.seconds);
+  JobResources asked{2, 4, 2, "", "", "", "", {}};
+  fill_from(measured, identification, asked);
+  EXPECT_EQ(asked.memory, "2900M") << "half of 4 x 1000 MB and a quarter, and 400 MB for the rest";
+  EXPECT_EQ(asked.time, "0:30:00") << "2 x 10 min and 10 min";
+  JobResources given{1, 1, 1, "8G", "5", "", "", {}};
+  fill_from(measured, identification, given);
+  EXPECT_EQ(given.memory + " " + given.time, "8G 5");
+}
+
+/// What bash says of it; nothing if it is right.
+std::string complaint_of_bash(const fs::path& script) {
+  return capture({{"bash", "-n", script.string()}, {}}).errors;
+}
+
+TEST_F(Jobs, AreScriptsThatBashUnderstandsWhateverNamesHold) {
+  for (const auto& [verb, word, meaning] : words_of<JobVerb>)
+    for (const int cases : {1, 3}) {
+      Job one = job(verb, cases);
+      one.resources.more = {"qos=high"};
+      const std::string text = job_script(one, folder_ / "it's $HOME");
+      EXPECT_EQ(complaint_of_bash(write("script.sh", text)), "") << word;
+      EXPECT_EQ(text.find("#SBATCH --array=0-2") != std::string::npos, cases == 3);
+      EXPECT_NE(text.find("#SBATCH --qos=high\n"), std::string::npos);
+      EXPECT_EQ(text.find("echo --resume") != std::string::npos, is_resumed(verb));
+      EXPECT_EQ(text.find("options='--processes 1'") != std::string::npos, makes_many_runs(verb));
+    }
+  EXPECT_EQ(capture({{"bash", "-c", "printf %s " + shell_quoted("it's $HOME")}, {}}).output, "it's $HOME");
+}
+
+TEST_F(Jobs, TellWhatBecameOfEachCase) {
+  const Job five = job(JobVerb::simulate, 5);
+  write("job/case_0.log", "[##] step 2/9\nTo continue: tether simulate\n");
+  write("job/ended/case_2", "0\n");
+  write("job/ended/case_3", "1\n");
+  write("job/case_3.log", "fluid: out of memory\nTo continue: tether simulate\n");
+  write("job/ended/case_1", "1\n");  // of its first start
+  const std::vector<slurm::Task> tasks{{0, "RUNNING", "", "0:12", "n1"},
+                                       {1, "PENDING", "BeginTime", "0:00", ""},
+                                       {2, "COMPLETED", "", "0:20", "n1"},
+                                       {4, "CANCELLED", "", "0:01", "n1"}};
+  const std::vector<CaseStatus> all = status_of(five, folder_, tasks);
+  const std::vector<CaseState> states{CaseState::running, CaseState::waiting, CaseState::done, CaseState::failed,
+                                      CaseState::gone};
+  for (std::size_t k = 0; k < states.size(); ++k) EXPECT_EQ(all[k].state, states[k]) << k;
+  EXPECT_EQ(all[0].note, "0:12 on n1: [##] step 2/9");
+  EXPECT_EQ(all[1].note, "BeginTime");
+  EXPECT_EQ(all[3].note, "fluid: out of memory");
+  EXPECT_EQ(all[4].note, "CANCELLED");
+  EXPECT_EQ(text_of(all).substr(0, text_of(all).find('\n')), "5 cases: 1 waiting, 1 running, 1 done, 1 failed, 1 gone");
+  Job unsubmitted = five;
+  unsubmitted.number.clear();
+  EXPECT_EQ(status_of(unsubmitted, folder_, std::nullopt).front().state, CaseState::unsubmitted);
+}
+
+TEST_F(Jobs, HaveOneTableOfTheirResults) {
+  const Job three = job(JobVerb::identify, 3);
+  Estimate estimate;
+  estimate.parameters.resize(1);
+  estimate.parameters[0].name = "spine, upper \"half\"";
+  estimate.parameters[0].unit = "Pa/m";
+  estimate.parameters[0].estimate = {2e5, 1e5, 4e5, 0, 0};
+  fs::create_directories(folder_ / "case_0");
+  write_record(folder_ / "case_0/estimate.json", estimate);
+  estimate.parameters[0].estimate.value = 3e5;
+  fs::create_directories(folder_ / "case_2");
+  write_record(folder_ / "case_2/estimate.json", estimate);
+  const JobResults results = results_of(three, folder_);
+  EXPECT_EQ(results.csv(),
+            "case,\"spine, upper \"\"half\"\" [Pa/m]\",\"spine, upper \"\"half\"\", lower [Pa/m]\",\"spine, upper "
+            "\"\"half\"\", upper [Pa/m]\"\ncase_0,200000,100000,400000\ncase_1,,,\ncase_2,300000,100000,400000\n");
+}
+
+TEST_F(Jobs, AreReadBackAsTheyWereWritten) {
+  Job written = job(JobVerb::explain, 2);
+  written.measured = MeasuredSteps{3, 413, 0.05, 109};
+  written.resources = {2, 8, 4, "3G", "1:00:00", "lab", "long", {"qos=high"}};
+  write_record(folder_ / "job.json", written);
+  EXPECT_EQ(json_of(read_record<Job>(folder_ / "job.json")), json_of(written));
+}
+
+}  // namespace
+}  // namespace tether
