@@ -21,10 +21,15 @@ InterfaceMap map_of(const std::string& mapping, const CouplingCase& coupling, co
                              : InterfaceMap::nearest_triangle(fluid, solid, trust);
 }
 
+/// Whether a program of the case is Tether's own: a name without slash.
+bool is_own(const std::string& executable) {
+  return executable.find('/') == std::string::npos;
+}
+
 /// `field`: of coupling.programs and coupling.ranks.
 protocol::Program partner_program(const char* role, const std::string& field, const std::string& executable, int ranks,
                                   const CaseFile& file) {
-  if (ranks > 1 && executable.find('/') == std::string::npos)
+  if (ranks > 1 && is_own(executable))
     throw input_error("{}: {}: Tether's own {} runs in one process", file.where("coupling.ranks." + field), ranks,
                       executable);
   return {role,
@@ -54,6 +59,8 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
   solid_.emplace(processes[1]);
   mapping_ = mapping_of(master.coupling, of_fluid, interface_);
   fluid_.emplace(processes[0], map_of(mapping_, master.coupling, of_fluid, interface_));
+  lumen_ = is_own(master.coupling.programs.solid) ? ToldLumen{interface_.points}
+                                                  : ToldLumen{of_fluid.points, &fluid_->map()};
   fit_ = interface_fit(of_fluid, interface_, master.coupling.mapping_distance.value_or(trusted_distance * size_));
   if (fit_.looks_away())
     throw input_error(
@@ -94,6 +101,7 @@ Crew CoupledCodes::crew() {
           *solid_,
           *coupling_,
           interface_.points,
+          lumen_,
           processes_[0].hello().observables,
           processes_[1].hello().observables,
           observer_.get()};

@@ -47,6 +47,7 @@ class CoupledCodes {
   Crew crew();
   std::span<protocol::Partner> processes() const { return processes_; }
   const InterfaceSurface& interface() const { return interface_; }
+  const ToldLumen& lumen() const { return lumen_; }
   /// How the fluid's interface lies on it, and what got lost between them so far.
   InterfaceRecord interface_record() const;
   /// What a person should know of interfaces that do not match; none if they do.
@@ -64,6 +65,7 @@ class CoupledCodes {
   InterfaceFit fit_;
   std::string mapping_;  ///< that is used
   std::optional<MessageFluid> fluid_;
+  ToldLumen lumen_;
   std::optional<MessageSolid> solid_;
   std::unique_ptr<Coupling> coupling_;
   std::optional<MessageObservation> observation_;

@@ -109,8 +109,9 @@ protocol::Hello GroupServer::hello() const {
   return hello;
 }
 
+/// Of the code whose nodes results tell of.
 protocol::Interface GroupServer::operator()(const protocol::GetInterface& m) {
-  return codes_->processes()[1].ask(m);
+  return codes_->processes()[codes_->lumen().map == nullptr ? 1 : 0].ask(m);
 }
 
 std::array<protocol::SetParameters, 2> GroupServer::divided(const protocol::SetParameters& all) const {
@@ -154,11 +155,19 @@ protocol::Ready GroupServer::operator()(const protocol::SetState& m) {
   return {};
 }
 
+/// Ends with displacement and velocity of the lumen that results tell of: where that is not the solid's interface, as
+/// they follow from it.
 std::vector<double> GroupServer::packed(const Snapshot& snapshot) const {
   std::vector<double> all = snapshot.fluid;
   append(all, snapshot.solid);
   append(all, snapshot.displacement);
   append(all, snapshot.velocity);
+  if (codes_->lumen().map == nullptr) return all;
+  for (const std::vector<double>* at_solid : {&snapshot.displacement, &snapshot.velocity}) {
+    const VectorXd told =
+        codes_->lumen().of(Eigen::Map<const VectorXd>(at_solid->data(), static_cast<Eigen::Index>(at_solid->size())));
+    all.insert(all.end(), told.begin(), told.end());
+  }
   return all;
 }
 
@@ -171,7 +180,10 @@ void GroupServer::restore(const std::vector<double>& state, const std::vector<do
     std::copy_n(from, part->size(), part->begin());
     from += static_cast<std::ptrdiff_t>(part->size());
   }
-  if (from != state.end()) throw run_error("a state of {} numbers is too long for this vessel", state.size());
+  const std::ptrdiff_t told = codes_->lumen().map == nullptr ? 0 : 2 * codes_->lumen().points.size();
+  if (state.end() - from != told)
+    throw run_error("a state of {} numbers is too {} for this vessel", state.size(),
+                    state.end() - from < told ? "short" : "long");
   if (!memory.empty()) snapshot.coupling = memory;
   loop_->restore(snapshot);
 }
@@ -199,7 +211,8 @@ void GroupServer::observe(double time, protocol::Advanced& reply) {
     reply.velocities.assign(velocity.data(), velocity.data() + velocity.size());
   }
   if (codes_->measurements() == nullptr) return;
-  const VectorXd x = codes_->interface().points.reshaped() + loop_->displacement();
+  const ToldLumen& lumen = codes_->lumen();
+  const VectorXd x = lumen.points.reshaped() + lumen.of(loop_->displacement());
   protocol::Discrepancy seen = codes_->measurements()->ask(protocol::Observe{time, {x.begin(), x.end()}});
   reply.distances = std::move(seen.distances);
   reply.weights = std::move(seen.weights);

@@ -16,6 +16,7 @@ Innovation at_nodes(const protocol::Discrepancy& samples, Eigen::Index nodes);
 class MessageFluid : public FluidPartner {
  public:
   MessageFluid(protocol::Partner& partner, InterfaceMap map) : partner_(partner), map_(std::move(map)) {}
+  const InterfaceMap& map() const { return map_; }
   std::string name() const override;
   bool has_tangent() const override;
   bool has_state() const override;

@@ -27,7 +27,7 @@ Simulation::Simulation(RunPlan plan, Crew crew, int halvings)
       loop_(crew_.fluid, crew_.solid, crew_.coupling, crew_.interface.reshaped(), halvings),
       followed_(nearest_nodes(plan_.points, crew_.interface)),
       series_(plan_.output / "timeseries.csv", columns(), plan_.units),
-      motion_(plan_.output / "lumen.motion", crew_.interface) {
+      motion_(plan_.output / "lumen.motion", crew_.lumen.points) {
   if (crew_.observer != nullptr) loop_.observe(*crew_.observer);
   if (plan_.velocity_points.cols() > 0) velocity_.emplace(plan_.output / "blood.velocity", plan_.velocity_points);
 }
@@ -114,7 +114,7 @@ void Simulation::record(std::int64_t step, const StepRecord& record, double seco
 }
 
 void Simulation::record_fields(double time) {
-  motion_.append(time, displacement());
+  motion_.append(time, told_displacement());
   if (velocity_) velocity_->append(time, crew_.fluid.velocity_at(velocity_->points()).get());
 }
 
@@ -163,6 +163,10 @@ std::vector<double> Simulation::row(std::int64_t step, const StepRecord& record)
 
 Points Simulation::displacement() const {
   return Eigen::Map<const Points>(loop_.displacement().data(), 3, crew_.interface.cols());
+}
+
+Points Simulation::told_displacement() const {
+  return crew_.lumen.of(loop_.displacement()).reshaped(3, crew_.lumen.points.cols());
 }
 
 double Simulation::largest_displacement() const {

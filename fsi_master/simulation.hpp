@@ -11,6 +11,7 @@
 #include "fsi_master/initial_state.hpp"
 #include "fsi_master/progress.hpp"
 #include "fsi_master/time_series.hpp"
+#include "fsi_master/told_lumen.hpp"
 
 namespace tether {
 
@@ -47,6 +48,7 @@ struct Crew {
   SolidPartner& solid;
   Coupling& coupling;
   Points interface;  ///< reference positions of the master's interface nodes
+  ToldLumen lumen;   ///< of lumen.motion
   std::vector<protocol::ObservableInfo> fluid_observables, solid_observables;
   Observer* observer = nullptr;  ///< none: the run is not corrected
   /// What the processes have cost since they started, in the order of RunStatistics; nobody asks if it is not set.
@@ -90,6 +92,7 @@ class Simulation {
   std::string what_is_saved() const;
   Vec3 displacement_of(int node) const { return loop_.displacement().segment<3>(3 * node); }
   Points displacement() const;
+  Points told_displacement() const;
   double largest_displacement() const;
 
   RunPlan plan_;

@@ -10,7 +10,6 @@ import sys
 import numpy as np
 import tether
 import ufl
-import yaml
 from dolfinx import fem, mesh
 from dolfinx.fem import petsc
 from petsc4py import PETSc
@@ -100,8 +99,7 @@ class Wall:
     program = "dolfinx wall 1"
 
     def __init__(self, communicator):
-        with open(sys.argv[1]) as file:
-            case = yaml.safe_load(file)
+        case = tether.case(sys.argv[1])
         solid, swept = case["solid"], case["mesh"]["swept"]
         tube = Tube(swept["radius"], swept["wall_thickness"], swept["length"], **solid["mesh"])
         self.communicator = communicator

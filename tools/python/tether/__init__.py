@@ -6,9 +6,11 @@
     found.effects[0].name               # "visco_elastic"; a table: found.effects.frame() (pandas)
     found.distances("spine", 3)         # at the nodes of a region, at the source's fourth moment (numpy)
 
-Results are as docs/schema has them (tether.results). A code is coupled by tether.serve (tether.coupling).
+Results are as docs/schema has them (tether.results). A code is coupled by tether.serve (tether.coupling), and
+reads its case by tether.case.
 """
 
+from tether.case import case
 from tether.results import Result, load
 
 
@@ -19,4 +21,4 @@ def serve(role, make, communicator=None, together=False):
     return coupling.serve(role, make, communicator, together)
 
 
-__all__ = ["Result", "load", "serve"]
+__all__ = ["Result", "case", "load", "serve"]

@@ -1,0 +1,39 @@
+"""tether.case: a case merged with those it builds on, as Tether itself reads it."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/python"))
+import tether  # noqa: E402
+
+CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        self.addCleanup(self.scratch.cleanup)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return self.folder / name
+
+    def test_merges_entry_by_entry_over_several_bases(self):
+        (self.folder / "below").mkdir()
+        self.write("below/first.yaml", "name: first\nsolid: {density: 1.2, material: {young: 4e6, poisson: 0.45}}\nlist: [1, 2]\nobserver: {gain: 3}\n")
+        self.write("second.yaml", "base: below/first.yaml\nname: second\nsolid: {material: {young: 5e6}}\nobserver:\n")
+        case = tether.case(self.write("third.yaml", "base: second.yaml\nsolid: {density: 400 kPa}\nlist: [3]\n"))
+        self.assertEqual(case, {"name": "second", "solid": {"density": "400 kPa", "material": {"young": 5e6, "poisson": 0.45}}, "list": [3]})
+
+    def test_reads_a_case_that_builds_on_the_tube(self):
+        case = tether.case(CONFIGS / "hidden_effect/case.yaml")
+        self.assertEqual(case["mesh"]["swept"]["around"], 16, "its own")
+        self.assertEqual(case["mesh"]["swept"]["radius"], 2.0, "the tube's")
+        self.assertEqual(case["solid"]["support"]["regions"]["spine"], {"stiffness": 0, "damping": 2e3})
+
+
+if __name__ == "__main__":
+    unittest.main()
