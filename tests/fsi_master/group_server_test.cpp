@@ -110,5 +110,40 @@ TEST_F(Group, RefusesAStateOfAnotherLumen) {
             std::string::npos);
 }
 
+/// The nodes of a wall of somebody else's come in an order of its own: what is told, and observed, is the fluid's.
+TEST_F(Group, TellsOfTheFluidsNodesWhereTheWallIsAnothersCode) {
+  protocol::Interface& theirs = solid->surface;
+  const auto nodes = static_cast<std::int64_t>(theirs.points.size() / 3);
+  for (std::int64_t node = 0; node < nodes / 2; ++node)
+    std::swap_ranges(theirs.points.begin() + 3 * node, theirs.points.begin() + 3 * (node + 1),
+                     theirs.points.begin() + 3 * (nodes - 1 - node));
+  for (std::int64_t& node : theirs.triangles) node = nodes - 1 - node;
+  save(state_at(0.02, 0));
+  Checkpoint bent = state_at(0.02, 0);
+  for (std::size_t i = 0; i < bent.snapshot.displacement.size(); ++i)
+    bent.snapshot.displacement[i] = bent.snapshot.solid[i] = 1e-3 * theirs.points[i - i % 3 + 2];  // as far as along z
+  save(bent);
+  GroupServer told = group_of("initial_state: {from: run}\ncoupling: {programs: {solid: ./theirs}}\n");
+  EXPECT_EQ(told(protocol::GetInterface{}).points, fluid->surface.points);
+
+  const std::vector<double> state = told(protocol::GetState{}).values;
+  const std::size_t size = fluid->surface.points.size();
+  for (std::size_t i = 0; i < size; ++i)
+    EXPECT_DOUBLE_EQ(state[state.size() - 2 * size + i], 1e-3 * fluid->surface.points[i - i % 3 + 2]) << i;
+  told(protocol::SetState{state});
+  EXPECT_EQ(told(protocol::GetState{}).values, state);
+  const auto refusal = [&](std::size_t length) {
+    return message_of([&] { told(protocol::SetState{std::vector<double>(length)}); });
+  };
+  EXPECT_NE(refusal(state.size() - 1).find("too short"), std::string::npos);
+  EXPECT_NE(refusal(state.size() + 1).find("too long"), std::string::npos);
+
+  told(protocol::Simulate{{}, {}, 1, (folder / "whole").string(), ""});
+  const LumenMotion motion(folder / "whole/lumen.motion");
+  EXPECT_EQ(std::vector<double>(motion.imaged().data(), motion.imaged().data() + size), fluid->surface.points);
+  const Points moved = motion.at(0) - motion.imaged();
+  for (Eigen::Index k = 0; k < moved.cols(); ++k) EXPECT_NEAR(moved(0, k), 1e-3 * motion.imaged()(2, k), 1e-9);
+}
+
 }  // namespace
 }  // namespace tether
