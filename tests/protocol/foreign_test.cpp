@@ -38,6 +38,18 @@ void expect_tells_its_velocity(const std::string& program) {
   EXPECT_NE(job.output.find("PASS  tells its velocity inside, and none outside"), std::string::npos) << job.output;
 }
 
+/// The wall of docs/couple-your-code.md, with Tether's blood beside it.
+void expect_fits_our_blood() {
+  const std::string examples = std::string(TETHER_SOURCE) + "/docs/examples/";
+  const auto job = run_job({product_program("tether_conform"), "--dt", "2e-3", "--with", product_program("fluid"),
+                            examples + "ring_solid.py", examples + "ring_tube.yaml"},
+                           python_path);
+  EXPECT_EQ(job.exit_code, 0) << job.output << job.errors;
+  EXPECT_EQ(job.output.find("FAIL"), std::string::npos) << job.output;
+  EXPECT_NE(job.output.find("by mortar: 504 nodes of the fluid, 320 of the wall"), std::string::npos) << job.output;
+  EXPECT_NE(job.output.find("PASS  a state set again continues bit for bit"), std::string::npos) << job.output;
+}
+
 /// A library compiled with the thread sanitizer cannot be loaded by a program that is not.
 class ForeignPython : public ::testing::Test {
  protected:
@@ -52,6 +64,10 @@ TEST(Foreign, C_codes_give_the_numbers_of_ours) {
   const std::string ours = steps_of(couple("fake_fluid", "fake_solid"));
   EXPECT_EQ(steps_of(couple("fake_fluid", example("spring_solid"))), ours);
   EXPECT_EQ(steps_of(couple(example("linear_fluid"), "fake_solid")), ours);
+}
+
+TEST_F(ForeignPython, A_wall_of_sixty_lines_fits_our_blood) {
+  expect_fits_our_blood();
 }
 
 TEST_F(ForeignPython, Codes_give_the_numbers_of_ours) {
@@ -129,12 +145,12 @@ TEST_F(ForeignPython, Exceptions_are_reported_by_the_master) {
   environment["FAIL_IN"] = "set-up";
   const auto refused = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.errors, "fake_master: solid: ValueError: case.yaml:3: no such mesh\n");
+  EXPECT_EQ(refused.errors, "fake_master: solid: ValueError: case.yaml:3: no such mesh (failing_solid.py:17)\n");
   environment["FAIL_IN"] = "evaluate";
   const auto failed = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
   EXPECT_EQ(failed.exit_code, 1);
   EXPECT_EQ(failed.errors,
-            "fake_master: solid failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge\n");
+            "fake_master: solid failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge (failing_solid.py:23)\n");
   EXPECT_TRUE(failed.orphans.empty());
 }
 

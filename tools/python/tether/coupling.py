@@ -37,7 +37,9 @@ import ctypes
 import math
 import os
 import pathlib
+import sys
 import time
+import traceback
 
 import numpy
 
@@ -239,12 +241,19 @@ class _Together:
             result = call()
         except Exception as raised:
             error = raised
-        failed = [text for text in self.communicator.allgather(None if error is None else f"{type(error).__name__}: {error}") if text]
+        failed = [text for text in self.communicator.allgather(None if error is None else _in_words(error)) if text]
         if error is not None:
             raise error
         if failed:
             raise RuntimeError(failed[0])
         return result
+
+
+def _in_words(error):
+    """What an exception says, and where the program raised it, or called what did."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if frame.filename == sys.argv[0]] or frames
+    return f"{type(error).__name__}: {error} ({os.path.basename(own[-1].filename)}:{own[-1].lineno})"
 
 
 def _converse(library, partner, code, group):
@@ -254,7 +263,7 @@ def _converse(library, partner, code, group):
         try:
             arrays = [_doubles(values) for values in group.answer(code, *_call_of(request))]
         except Exception as error:
-            library.tether_fail(partner, f"{type(error).__name__}: {error}".encode())
+            library.tether_fail(partner, _in_words(error).encode())
             continue
         views = (_Array * len(arrays))(*[_Array(a.ctypes.data_as(_double), a.size) for a in arrays])
         if library.tether_reply(partner, views, len(arrays)) != 0:
@@ -290,7 +299,7 @@ def serve(role, make, communicator=None, together=False):
         code = group.make(make)
         introduction = _Introduction(code)
     except Exception as error:
-        library.tether_refuse(partner, f"{type(error).__name__}: {error}".encode())
+        library.tether_refuse(partner, _in_words(error).encode())
     else:
         library.tether_introduce(partner, ctypes.byref(introduction.description))
         _converse(library, partner, code, group)
