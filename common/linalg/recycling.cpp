@@ -68,8 +68,10 @@ void Recycling::learn() {
     X.col(j) = x_[latest];
     Y.col(j) = y_[latest] - x_[latest];
   }
-  X.rightCols(known) = Q_.cast<double>();
-  Y.rightCols(known) = D_.cast<double>();
+  if (known > 0) {
+    X.rightCols(known) = Q_.cast<double>();
+    Y.rightCols(known) = D_.cast<double>();
+  }
   x_.clear();
   y_.clear();
   const MatrixXd T = orthonormalizing(X.transpose() * X), V = T * leading(T.transpose() * (Y.transpose() * Y) * T);
@@ -102,6 +104,7 @@ std::vector<double> Recycling::packed() const {
   std::vector<double> values(2 + half);
   values[0] = static_cast<double>(Q_.rows());
   values[1] = static_cast<double>(Q_.cols());
+  if (half == 0) return values;
   std::memcpy(values.data() + 2, Q_.data(), half * sizeof(float));
   std::memcpy(reinterpret_cast<float*>(values.data() + 2) + half, D_.data(), half * sizeof(float));
   return values;

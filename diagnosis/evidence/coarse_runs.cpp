@@ -16,10 +16,14 @@ int halved(int elements, int least) {
   return half + half % 2;
 }
 
+/// Of the model's run, whose last step may end behind time.end: data may lie there.
+double duration(const TimeCase& time) {
+  return time.steps() * time.step;
+}
+
 /// As many steps as fit, none longer than twice the model's.
 double longer_step(const TimeCase& time) {
-  const double length = time.end - time.start;
-  return length / std::ceil(length / (2 * time.step) - 1e-6);
+  return duration(time) / std::ceil(duration(time) / (2 * time.step) - 1e-6);
 }
 
 }  // namespace
@@ -29,7 +33,9 @@ std::filesystem::path write_coarse(const std::filesystem::path& candidates, cons
   name.replace(0, std::string("candidates").size(), "coarse");
   const std::filesystem::path file = candidates.parent_path() / (name + ".yaml");
   const CommonCase& common = given.file.common();
-  std::vector<Overlay::Value> values{{"time.step", number_text(longer_step(common.time))}};
+  const double step = longer_step(common.time), end = common.time.start + duration(common.time);
+  std::vector<Overlay::Value> values{{"time.step", number_text(step)}};
+  if (end > common.time.end + 1e-6 * step) values.push_back({"time.end", number_text(end)});
   if (given.mesh.source == "swept") {
     values.push_back({"mesh.swept.around", std::to_string(halved(given.mesh.swept.around, least_around))});
     values.push_back({"mesh.swept.along", std::to_string(halved(given.mesh.swept.along, least_along))});

@@ -150,7 +150,8 @@ TEST_F(ForeignPython, Exceptions_are_reported_by_the_master) {
   const auto failed = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
   EXPECT_EQ(failed.exit_code, 1);
   EXPECT_EQ(failed.errors,
-            "fake_master: solid failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge (failing_solid.py:23)\n");
+            "fake_master: solid failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge "
+            "(failing_solid.py:23)\n");
   EXPECT_TRUE(failed.orphans.empty());
 }
 

@@ -1,0 +1,48 @@
+#include "diagnosis/evidence/coarse_runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/config/overlay.hpp"
+#include "tests/config/case_text.hpp"
+
+namespace tether {
+namespace {
+
+class CoarseCase : public ::testing::Test {
+ protected:
+  CoarseCase() { write_file("pressure.csv", "time [s],value [mmHg]\n0,80\n0.4,120\n0.8,80\n"); }
+  /// What the coarser case says otherwise, by field.
+  std::map<std::string, double> of(const std::string& time) const {
+    const auto path =
+        write_file("case.yaml", "name: tube\nunits: cgs\ntime: " + time +
+                                    "\nmesh: {source: swept, swept: {radius: 1, length: 4, wall_thickness: 0.2, "
+                                    "around: 32, along: 20, regions: "
+                                    "{wall: {}}}}\nobservations: {traces: {cuff: {observable: fluid.outlet.pressure, "
+                                    "quantity: pressure, curve: "
+                                    "{file: pressure.csv}, noise: {deviation: 1 mmHg, correlation_time: 0.02}}}}\n");
+    const auto candidates = write_file("candidates.yaml", "base: case.yaml\nname: tube_candidates\n");
+    std::map<std::string, double> values;
+    for (const Overlay::Value& value : values_of_overlay(write_coarse(candidates, DiagnosedCase(path))))
+      values[value.field] = std::stod(value.text);
+    return values;
+  }
+};
+
+TEST_F(CoarseCase, HasTwiceTheStepAndHalfTheElements) {
+  const auto values = of("{step: 2e-3, end: 0.8}");
+  EXPECT_DOUBLE_EQ(values.at("time.step"), 4e-3);
+  EXPECT_EQ(values.at("mesh.swept.around"), 16);
+  EXPECT_EQ(values.at("mesh.swept.along"), 10);
+  EXPECT_FALSE(values.contains("time.end"));
+}
+
+/// 207 steps of 4 ms end at 0.828 s, and a frame may lie there.
+TEST_F(CoarseCase, EndsWhereTheModelsLastStepDoes) {
+  const auto values = of("{step: 4e-3, end: 0.825}");
+  EXPECT_DOUBLE_EQ(values.at("time.end"), 0.828);
+  EXPECT_NEAR(std::remainder(0.828, values.at("time.step")), 0, 1e-12);
+  EXPECT_LE(values.at("time.step"), 8e-3);
+}
+
+}  // namespace
+}  // namespace tether
