@@ -11,6 +11,7 @@ namespace tether {
 
 /// In the job's folder, beside the cases' results: script, record, logs.
 inline constexpr const char* job_files = "job";
+inline constexpr const char* results_table = "results.csv";
 
 /// What a job does with each of its cases.
 enum class JobVerb { simulate, compare, identify, diagnose, explain };

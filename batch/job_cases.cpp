@@ -41,7 +41,8 @@ void check_names(const std::vector<JobCase>& cases, const std::string& place) {
   for (const JobCase& one : cases) {
     if (!is_file_name(one.name))
       throw input_error("{}: '{}' is to be a folder of results: its name {}", place, one.name, file_name_rule);
-    if (one.name == job_files) throw input_error("{}: no case may have the name '{}'", place, job_files);
+    if (one.name == job_files || one.name == results_table)
+      throw input_error("{}: no case may have the name '{}'", place, one.name);
     if (!names.insert(one.name).second) throw input_error("{}: two cases have the name '{}'", place, one.name);
   }
 }
@@ -58,6 +59,9 @@ std::vector<JobCase> job_cases(const fs::path& given) {
 
 std::vector<JobCase> job_cases_of_table(const fs::path& base, const fs::path& table, const fs::path& folder) {
   const CsvTable rows(table);
+  for (const std::string& column : rows.columns())
+    if (std::count(rows.columns().begin(), rows.columns().end(), column) > 1)
+      throw input_error("{}: has two columns `{}`", table.string(), column);
   if (!rows.has("name")) throw input_error("{}: has no column `name`, one for each case", table.string());
   const std::vector<std::string> names = rows.texts("name");
   std::vector<JobCase> cases;

@@ -4,12 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <regex>
+
+#include "batch/job_script.hpp"
+#include "common/base/error.hpp"
 
 namespace tether {
 namespace {
 
 /// Direct runs of the longest of 70 diagnoses (docs/diagnosis-validation.md: 66.2; half of them need at most 12.9).
 constexpr int longest_diagnosis = 66;
+/// [s]: in a time that is hardly longer than what is left for the end no work is done.
+constexpr int least_time = seconds_to_end + 120;
 /// [MB]: what tether, the master above the models, and the drawing of a picture take beside them.
 constexpr double beside_models = 400;
 
@@ -26,7 +33,40 @@ std::string of(const std::string& given) {
   return given.empty() ? "the cluster's default" : given;
 }
 
+/// Of "30", "30:00", "2:30:00", "1-12", "1-12:30", "1-12:30:00", as sbatch reads it [s]; nothing if it is none of them.
+std::optional<double> seconds_in(const std::string& time) {
+  static const std::regex form(R"((?:(\d+)-)?(\d+)(?::(\d+))?(?::(\d+))?)");
+  std::smatch part;
+  if (!std::regex_match(time, part, form)) return std::nullopt;
+  const auto number = [&](int k) { return part[k].matched ? std::stod(part[k].str()) : 0; };
+  if (part[1].matched) return 86400 * number(1) + 3600 * number(2) + 60 * number(3) + number(4);
+  if (part[4].matched) return 3600 * number(2) + 60 * number(3) + number(4);
+  return 60 * number(2) + number(3);
+}
+
+/// A word of sbatch's options, without what a script or sbatch would take for something else.
+void check_word(const char* option, const std::string& text) {
+  static const std::regex word(R"([A-Za-z0-9][A-Za-z0-9_.,:=+/@*\[\]-]*)");
+  if (!text.empty() && !std::regex_match(text, word))
+    throw input_error("{}: '{}': must be a word of letters, digits and _.,:=+/@*[]-, not - at its begin", option, text);
+}
+
 }  // namespace
+
+void check_resources(const JobResources& resources) {
+  check_word("--memory", resources.memory);
+  check_word("--account", resources.account);
+  check_word("--partition", resources.partition);
+  for (const std::string& more : resources.more) check_word("--sbatch", more);
+  if (resources.time.empty()) return;
+  const std::optional<double> seconds = seconds_in(resources.time);
+  if (!seconds)
+    throw input_error("--time: {}: must be a time as sbatch has it: 30 (minutes), 2:30:00, 1-12 (days-hours)",
+                      resources.time);
+  if (*seconds > 0 && *seconds < least_time)
+    throw input_error("--time: {}: must be at least {} minutes: {} before its end the programs save their state",
+                      resources.time, least_time / 60, seconds_to_end / 60);
+}
 
 ExpectedTime expected_time(JobVerb verb, const MeasuredSteps& measured, int processes, int parameters) {
   const double run = static_cast<double>(measured.of_case) * measured.seconds_per_step;

@@ -19,6 +19,10 @@ ExpectedTime expected_time(JobVerb verb, const MeasuredSteps& measured, int proc
 /// What the job asks for where the user said nothing: memory for all models and a quarter more, twice the time.
 void fill_from(const MeasuredSteps& measured, const ExpectedTime& expected, JobResources& resources);
 
+/// Throws InputError for what cannot stand in a script, and for a time that leaves none to work in before the programs
+/// are told to end.
+void check_resources(const JobResources& resources);
+
 /// For a person: what is asked for, and why.
 std::string plan_text(const Job& job, const std::optional<ExpectedTime>& expected);
 

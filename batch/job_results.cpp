@@ -127,11 +127,12 @@ std::string JobResults::text() const {
   return text;
 }
 
-JobResults results_of(const Job& job, const fs::path& folder) {
-  JobResults table{{"case"}, {}};
+JobResults results_of(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {
+  JobResults table{{"case", "state"}, {}};
   std::vector<Row> rows;
-  for (const JobCase& one : job.cases) {
-    rows.push_back(row_of(job.verb, folder / one.name));
+  for (std::size_t k = 0; k < job.cases.size(); ++k) {
+    const bool is_done = states[k].state == CaseState::done;
+    rows.push_back(is_done ? row_of(job.verb, folder / job.cases[k].name) : Row());
     for (const auto& [heading, cell] : rows.back())
       if (std::find(table.columns.begin(), table.columns.end(), heading) == table.columns.end())
         table.columns.push_back(heading);
@@ -139,6 +140,7 @@ JobResults results_of(const Job& job, const fs::path& folder) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     std::vector<std::string> cells(table.columns.size());
     cells[0] = job.cases[k].name;
+    cells[1] = word_of(states[k].state);
     for (const auto& [heading, cell] : rows[k])
       cells[static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), heading) -
                                      table.columns.begin())] = cell;

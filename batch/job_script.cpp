@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "common/base/error.hpp"
+
 namespace tether {
 namespace {
-
-/// Seconds before the limit of time at which the programs are told to save their state and end: two minutes until they
-/// are interrupted (end_limit), one for Slurm, which looks at its clock once a minute, and one to end in.
-constexpr int seconds_to_end = 240;
 
 std::string option(const std::string& name, const std::string& value) {
   return value.empty() ? "" : fmt::format("#SBATCH --{}={}\n", name, value);
@@ -37,33 +35,40 @@ std::string list(const char* name, const std::vector<JobCase>& cases, std::strin
 constexpr const char* body = R"(
 k=${SLURM_ARRAY_TASK_ID:-0}
 name=${names[$k]} output=$folder/${names[$k]}
-this_job=$SLURM_JOB_ID
+this_job=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$k}  # without the task it would be the whole array
+this_job=${this_job:-$SLURM_JOB_ID}
+begun=$folder/job/ended/$name.begun
+resume=$(go_on)
 rm -f "$folder/job/ended/$name"
+touch "$begun"
+echo "${SLURM_ARRAY_JOB_ID:-$SLURM_JOB_ID}" >"$folder/job/number"  # for tether status
 
 # What programs leave of the state that they have come to.
 saved() {
-  find "$output" -newer "$1" \( -path '*/checkpoint/*' -o -name run.json -o -name steps.json -o -name summary.json \) | grep -q .
+  find "$output" -newer "$begun" \( -path '*/checkpoint/*' -o -name run.json -o -name steps.json -o -name summary.json \) | grep -q .
 }
-begun=$folder/job/ended/$name.begun
-touch "$begun"
 
-# One model stays on one node: the programs are told which there are.
+# One model stays on one node: the programs are told which there are. A diagnosis calls mpirun twice, whose steps share the job.
 TETHER_NODES=$(scontrol show hostnames "$SLURM_JOB_NODELIST" | paste -sd,)
-export TETHER_NODES
+export TETHER_NODES SLURM_OVERLAP=1
 
 # The time is nearly over: the programs save what they have come to.
 told=
 trap 'told=yes; kill -USR1 "$program" 2>/dev/null' USR1
-"$tether" "$verb" "${cases[$k]}" --output "$output" $options $(go_on) >>"$folder/job/$name.log" 2>&1 &
+"$tether" "$verb" "${cases[$k]}" --output "$output" $options $resume >>"$folder/job/$name.log" 2>&1 &
 program=$!
 wait "$program"; code=$?
 while kill -0 "$program" 2>/dev/null; do wait "$program"; code=$?; done  # a signal ends `wait`, not the program
 if [ "$code" -ne 0 ]; then
-  if [ -n "$told" ] && ! saved "$begun"; then
+  if [ -n "$told" ] && ! saved; then
     echo "$name: out of time before anything was saved: it needs a longer --time"
   elif [ -n "$told" ] || scontrol show job "$this_job" | grep -q ' PreemptTime=[0-9]'; then
-    echo "$name: out of time, or preempted: it goes on from what is saved when it is its turn again"
-    scontrol requeue "$this_job" && sleep 60
+    echo "$name: out of time, or preempted"
+    if scontrol requeue "$this_job"; then
+      sleep 60  # until Slurm ends this script
+    else
+      echo "$name: sbatch $folder/job/script.sh goes on from what is saved"
+    fi
   fi
 fi
 echo "$code" >"$folder/job/ended/$name"
@@ -79,6 +84,11 @@ std::string shell_quoted(const std::string& text) {
 }
 
 std::string job_script(const Job& job, const std::filesystem::path& folder) {
+  if (folder.string().find_first_of(" \t\n\"'\\%$`") != std::string::npos)
+    throw input_error(
+        "{}: sbatch takes no folder with spaces, quotes, \\, %, $ or ` in its path; choose another by "
+        "--output",
+        folder.string());
   const char* verb = word_of(job.verb);
   std::string text = fmt::format("#!/bin/bash\n# Written by tether submit {}.\n", verb) + header(job, folder);
   text +=
@@ -87,7 +97,7 @@ std::string job_script(const Job& job, const std::filesystem::path& folder) {
                                           ? shell_quoted(fmt::format("--processes {}", job.resources.processes))
                                           : "");
   text += list("names", job.cases, &JobCase::name) + list("cases", job.cases, &JobCase::case_file);
-  text += is_resumed(job.verb) ? "go_on() { [ -d \"$output/checkpoint\" ] && echo --resume; }\n"
+  text += is_resumed(job.verb) ? "go_on() { [ -e \"$begun\" ] && [ -d \"$output/checkpoint\" ] && echo --resume; }\n"
                                : "go_on() { :; }  # it finds by itself what was made\n";
   return text + body;
 }

@@ -11,18 +11,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// States of Slurm's in which a task has ended for good.
-bool has_ended(const slurm::Task& task) {
-  constexpr std::array states{"COMPLETED", "FAILED",    "CANCELLED",     "TIMEOUT",
-                              "NODE_FAIL", "BOOT_FAIL", "OUT_OF_MEMORY", "DEADLINE"};
-  return std::find(states.begin(), states.end(), task.state) != states.end();
-}
-
 bool runs(const slurm::Task& task) {
   return task.state == "RUNNING" || task.state == "COMPLETING";
 }
 
-/// The last line of a log, which may be long, but how to go on: the job's script knows that.
+/// Whether a line only tells how to go on, which the job's script knows.
+bool is_about_going_on(const std::string& line) {
+  constexpr std::array beginnings{"To continue: ", "The state after ", "No state is saved"};
+  return std::any_of(beginnings.begin(), beginnings.end(), [&](const char* text) { return line.starts_with(text); });
+}
+
+/// The last line of a log, which may be long, that tells what happens.
 std::string last_said_in(const fs::path& file) {
   constexpr std::streamoff enough = 4000;  // bytes
   std::ifstream log(file, std::ios::binary);
@@ -30,7 +29,7 @@ std::string last_said_in(const fs::path& file) {
   log.seekg(std::max<std::streamoff>(0, log.tellg() - enough));
   std::string last;
   for (std::string line; std::getline(log, line);)
-    if (!line.empty() && !line.starts_with("To continue: ")) last = line;
+    if (!line.empty() && !is_about_going_on(line)) last = line;
   return last;
 }
 
@@ -45,13 +44,14 @@ std::string joined(const std::string& first, const std::string& second) {
   return first + (first.empty() || second.empty() ? "" : ": ") + second;
 }
 
-CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Task* task) {
+CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Task* task, bool answers) {
   const std::string said = last_said_in(files / (one.name + ".log"));
   if (task != nullptr && runs(*task))
     return {one.name, CaseState::running, joined(fmt::format("{} on {}", task->time, task->nodes), said)};
-  if (task != nullptr && !has_ended(*task)) return {one.name, CaseState::waiting, joined(task->reason, said)};
+  if (task != nullptr && !has_ended(*task)) return {one.name, CaseState::waiting, task->reason};
   if (const auto code = exit_code_in(files / "ended" / one.name))
     return {one.name, *code == 0 ? CaseState::done : CaseState::failed, *code == 0 ? "" : said};
+  if (!answers) return {one.name, CaseState::unknown, said};
   return {one.name, CaseState::gone, joined(task == nullptr ? "" : task->state, said)};
 }
 
@@ -69,7 +69,7 @@ std::vector<CaseStatus> status_of(const Job& job, const fs::path& folder,
     if (job.number.empty())
       all.push_back({one.name, CaseState::unsubmitted, ""});
     else
-      all.push_back(status_of(one, folder / job_files, task));
+      all.push_back(status_of(one, folder / job_files, task, tasks.has_value()));
   }
   return all;
 }

@@ -10,7 +10,7 @@
 
 namespace tether {
 
-enum class CaseState { unsubmitted, waiting, running, done, failed, gone };
+enum class CaseState { unsubmitted, waiting, running, done, failed, gone, unknown };
 
 template <>
 inline constexpr auto words_of<CaseState> = std::to_array<WordOf<CaseState>>({
@@ -20,6 +20,7 @@ inline constexpr auto words_of<CaseState> = std::to_array<WordOf<CaseState>>({
     {CaseState::done, "done", "its results are there"},
     {CaseState::failed, "failed", "its log says why"},
     {CaseState::gone, "gone", "it left the scheduler before its end: cancelled, or its node was lost"},
+    {CaseState::unknown, "unknown", "it has not ended, and the scheduler does not answer"},
 });
 
 struct CaseStatus {

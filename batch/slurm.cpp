@@ -11,7 +11,15 @@
 namespace tether::slurm {
 namespace {
 
-/// All lines but the programs' names before them: "sbatch: error: ...".
+/// Nothing if there is no such program.
+std::optional<ChildEnd> asked(const Command& command) {
+  try {
+    return capture(command);
+  } catch (const RunError&) {
+    return std::nullopt;
+  }
+}
+
 std::string said(const ChildEnd& end) {
   return end.errors.empty() ? how_it_ended(end.exit_code) : end.errors.substr(0, end.errors.find_last_not_of('\n') + 1);
 }
@@ -36,20 +44,30 @@ Task read_task(const std::string& line) {
 }  // namespace
 
 std::string submit(const std::filesystem::path& script) {
-  const ChildEnd end = capture({{"sbatch", "--parsable", script.string()}, {}});
-  if (end.exit_code != 0) throw input_error("{}: {}", script.string(), said(end));
-  const std::string number = end.output.substr(0, end.output.find_first_of(";\n"));
-  if (number.empty()) throw run_error("{}: sbatch gave it no number: {}", script.string(), end.output);
+  const std::optional<ChildEnd> end = asked({{"sbatch", "--parsable", script.string()}, {}});
+  if (!end)
+    throw input_error("there is no sbatch: is this a machine of a Slurm cluster? --dry-run only writes {}",
+                      script.string());
+  if (end->exit_code != 0) throw input_error("{}: {}", script.string(), said(*end));
+  const std::string number = end->output.substr(0, end->output.find_first_of(";\n"));
+  if (number.empty()) throw run_error("{}: sbatch gave it no number: {}", script.string(), end->output);
   return number;
 }
 
+bool has_ended(const Task& task) {
+  constexpr std::array states{"COMPLETED", "FAILED",    "CANCELLED",     "TIMEOUT",
+                              "NODE_FAIL", "BOOT_FAIL", "OUT_OF_MEMORY", "DEADLINE"};
+  return std::find(states.begin(), states.end(), task.state) != states.end();
+}
+
 std::optional<std::vector<Task>> tasks_of(const std::string& job) {
-  const ChildEnd end =
-      capture({{"squeue", "--noheader", "--array", "--jobs=" + job, "--states=all", "--format=%K|%T|%r|%M|%N"}, {}});
+  const std::optional<ChildEnd> end =
+      asked({{"squeue", "--noheader", "--array", "--jobs=" + job, "--states=all", "--format=%K|%T|%r|%M|%N"}, {}});
+  if (!end) return std::nullopt;
   // One that ended long ago is an error to squeue.
-  if (end.exit_code != 0 && end.errors.find("Invalid job id") == std::string::npos) return std::nullopt;
+  if (end->exit_code != 0 && end->errors.find("Invalid job id") == std::string::npos) return std::nullopt;
   std::vector<Task> tasks;
-  std::istringstream lines(end.output);
+  std::istringstream lines(end->output);
   for (std::string line; std::getline(lines, line);)
     if (!line.empty()) tasks.push_back(read_task(line));
   return tasks;

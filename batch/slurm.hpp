@@ -8,8 +8,8 @@
 /// The scheduler, by its own programs.
 namespace tether::slurm {
 
-/// Gives a script to sbatch; returns the job's number. Throws InputError with what sbatch says against it, RunError if
-/// there is none.
+/// Gives a script to sbatch; returns the job's number. Throws InputError with what sbatch says against it, or
+/// if there is none.
 std::string submit(const std::filesystem::path& script);
 
 /// What squeue says of a task of a job.
@@ -21,7 +21,10 @@ struct Task {
   std::string nodes;   ///< on which it runs
 };
 
-/// The tasks of a job that wait or run; none that have ended. Nothing if squeue cannot be asked.
+/// Whether it will run no more.
+bool has_ended(const Task& task);
+
+/// The tasks of a job that squeue still knows, also of those that have ended. Nothing if it cannot be asked.
 std::optional<std::vector<Task>> tasks_of(const std::string& job);
 
 }  // namespace tether::slurm

@@ -18,6 +18,7 @@
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
+#include "diagnosis/evidence/diagnosed_case.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -71,11 +72,11 @@ void add_options(CLI::App& app, Typed& typed) {
       ->type_name("DIR");
   app.add_option("--processes", typed.processes, "models of a case that run at once")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--nodes", r.nodes, "of each case (default 1)")->type_name("N")->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--nodes", r.nodes, "of each case (default 1)")->type_name("N")->check(CLI::Range(1, 100000));
   app.add_option("--tasks-per-node", typed.tasks_per_node, "processors of each (default: one for each model)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 100000));
   app.add_option("--memory", r.memory, "of each node, as Slurm writes it: 8G (default: measured by a few steps)");
   app.add_option("--time", r.time, "limit, as Slurm writes it: 12:00:00 (default: measured by a few steps)");
   app.add_option("--account", r.account, "to be charged");
@@ -83,7 +84,8 @@ void add_options(CLI::App& app, Typed& typed) {
   app.add_option("--sbatch", r.more, "a further option of sbatch, such as qos=high; may be repeated")
       ->type_name("OPTION");
   app.add_flag("--dry-run", typed.dry_run, "write the script, show it and the plan, submit nothing");
-  app.add_flag("--overwrite", typed.overwrite, "replace a job that is in the folder; results in it go on");
+  app.add_flag("--overwrite", typed.overwrite,
+               "replace an ended job that is in the folder; runs start anew, diagnoses keep their runs");
 }
 
 /// How many models of a case are worth running at once.
@@ -138,55 +140,88 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!(out << text).flush()) throw write_error(file);
 }
 
+/// Absolute, and without what does not name anything at its end.
+fs::path whole(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
 fs::path job_folder(const Typed& typed) {
-  if (!typed.output.empty()) return fs::absolute(typed.output).lexically_normal();
-  const fs::path whole = fs::absolute(typed.given).lexically_normal();
-  const fs::path named = whole.filename() == "case.yaml" ? whole.parent_path() : whole;
-  return fs::absolute(fs::path("out") / (named.stem().string() + "_job"));
+  if (!typed.output.empty()) return whole(typed.output);
+  const fs::path given = whole(typed.given);
+  const bool is_named_by_folder = given.filename() == "case.yaml" || fs::is_directory(given);
+  const fs::path named = given.filename() == "case.yaml" ? given.parent_path() : given;
+  return fs::absolute(fs::path("out") / ((is_named_by_folder ? named.filename() : named.stem()).string() + "_job"));
 }
 
 Job read_job(const fs::path& folder) {
   if (!fs::exists(folder / job_files / "job.json"))
     throw input_error("{}: holds no job of tether submit", folder.string());
-  return read_record<Job>(folder / job_files / "job.json");
+  auto job = read_record<Job>(folder / job_files / "job.json");
+  std::ifstream(folder / job_files / "number") >> job.number;  // by the script, whoever submitted it
+  return job;
 }
 
-bool holds_submitted_job(const fs::path& folder) {
-  return fs::exists(folder / job_files / "job.json") && !read_job(folder).number.empty();
-}
-
-/// Makes job/ in the folder, which is no other job's.
-void claim_job(const fs::path& folder, bool overwrite) {
-  if (!overwrite && holds_submitted_job(folder))
+/// Throws InputError if there is a job in the folder that is not to be replaced, or cannot be.
+void check_replaced(const fs::path& folder, bool overwrite) {
+  if (!fs::exists(folder / job_files / "job.json")) return;
+  const Job job = read_job(folder);
+  if (job.number.empty()) return;
+  if (!overwrite)
     throw input_error(
-        "{}: holds a job; tether status {} tells of it, --output makes another, --overwrite this one anew",
-        folder.string(), folder.string());
+        "{0}: holds a job; tether status {0} tells of it, --output makes another, --overwrite replaces it",
+        folder.string());
+  const auto tasks = slurm::tasks_of(job.number);
+  if (!tasks) throw input_error("{}: whether its job {} still runs Slurm does not say", folder.string(), job.number);
+  if (!std::all_of(tasks->begin(), tasks->end(), slurm::has_ended))
+    throw input_error("{}: its job {} still waits or runs: scancel {} ends it", folder.string(), job.number,
+                      job.number);
+}
+
+/// Makes job/ in the folder anew.
+void claim_job(const fs::path& folder) {
   hold_output(folder);
+  fs::remove_all(folder / job_files);
+  fs::remove(folder / results_table);
   fs::create_directories(folder / job_files / "ended");
 }
 
-/// What is wrong is told before it waits for its turn.
+void check_case_for(JobVerb verb, const fs::path& case_file) {
+  CommandLine command;
+  command.case_file = case_file;
+  command.quiet = true;
+  validate(command);
+  if (verb == JobVerb::identify) check_identification(command);
+  if (verb == JobVerb::diagnose || verb == JobVerb::explain) DiagnosedCase{case_file};
+  if (verb == JobVerb::compare && !CaseFile(case_file).has("observations"))
+    throw input_error("{}: observations: names nothing that was measured", case_file.string());
+}
+
+/// What is wrong is told before it waits for its turn, of all cases at once.
 void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
-  for (const JobCase& one : cases) {
-    CommandLine command;
-    command.case_file = one.case_file;
-    command.quiet = true;
-    validate(command);
-    if (verb == JobVerb::identify) check_identification(command);
-  }
+  std::string wrong;
+  for (const JobCase& one : cases) try {
+      check_case_for(verb, one.case_file);
+    } catch (const InputError& error) {
+      wrong += (wrong.empty() ? "" : "\n") + std::string(error.what());
+    }
+  if (!wrong.empty()) throw InputError(wrong);
 }
 
 Job job_of(const Typed& typed, const fs::path& folder) {
   Job job{*from_word<JobVerb>(typed.verb), "", sibling("tether").string(), {}, {}, typed.resources};
   job.cases = typed.table.empty() ? job_cases(typed.given)
                                   : job_cases_of_table(typed.given, typed.table, folder / job_files / "cases");
-  check_cases(job.cases, job.verb);
+  if (!typed.table.empty()) check_cases(job.cases, job.verb);
   return job;
 }
 
 int act(const Typed& typed) {
   const fs::path folder = job_folder(typed);
-  claim_job(folder, typed.overwrite);
+  check_resources(typed.resources);
+  check_replaced(folder, typed.overwrite);
+  if (typed.table.empty()) check_cases(job_cases(typed.given), *from_word<JobVerb>(typed.verb));
+  claim_job(folder);
   Job job = job_of(typed, folder);
   const int parameters = parameters_of(job.cases.front().case_file);
   JobResources& r = job.resources;
@@ -212,14 +247,30 @@ int act(const Typed& typed) {
 
 /// Of the verbs that look at a job.
 int with_job(const char* name, const char* purpose, int argc, char** argv,
-             const std::function<void(const Job&, const fs::path&)>& show) {
-  fs::path folder;
+             const std::function<void(const Job&, const fs::path&, const std::vector<CaseStatus>&)>& show) {
+  fs::path given;
   CLI::App app(purpose, std::string("tether ") + name);
-  app.add_option("folder", folder, "the job's folder, as tether submit told it")->required()->type_name("FOLDER");
+  app.add_option("folder", given, "the job's folder, as tether submit told it")->required()->type_name("FOLDER");
   return run_app(app, argc, argv, [&] {
-    show(read_job(folder), folder);
+    const fs::path folder = whole(given);
+    const Job job = read_job(folder);
+    const auto tasks = job.number.empty() ? std::nullopt : slurm::tasks_of(job.number);
+    if (!job.number.empty() && !tasks)
+      std::cerr << "Slurm does not answer: what follows is by the job's folder alone\n";
+    show(job, folder, status_of(job, folder, tasks));
     return exit_done;
   });
+}
+
+void show_status(const Job& job, const fs::path&, const std::vector<CaseStatus>& states) {
+  std::cout << fmt::format("job {}, {}, ", job.number.empty() ? "not submitted" : job.number, word_of(job.verb))
+            << text_of(states);
+}
+
+void show_results(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {
+  const JobResults results = results_of(job, folder, states);
+  write_text(folder / results_table, results.csv());
+  std::cout << results.text() << "In " << (folder / results_table).string() << "\n";
 }
 
 }  // namespace
@@ -232,21 +283,11 @@ int submit(int argc, char** argv) {
 }
 
 int job_status(int argc, char** argv) {
-  return with_job(
-      "status", "what became of the cases of a job", argc, argv, [](const Job& job, const fs::path& folder) {
-        const auto tasks = job.number.empty() ? std::nullopt : slurm::tasks_of(job.number);
-        std::cout << fmt::format("job {}, {}, ", job.number.empty() ? "not submitted" : job.number, word_of(job.verb))
-                  << text_of(status_of(job, folder, tasks));
-      });
+  return with_job("status", "what became of the cases of a job", argc, argv, show_status);
 }
 
 int job_results(int argc, char** argv) {
-  return with_job("results", "one table of what the cases of a job found", argc, argv,
-                  [](const Job& job, const fs::path& folder) {
-                    const JobResults results = results_of(job, folder);
-                    write_text(folder / "results.csv", results.csv());
-                    std::cout << results.text() << "In " << (folder / "results.csv").string() << "\n";
-                  });
+  return with_job("results", "one table of what the cases of a job found", argc, argv, show_results);
 }
 
 }  // namespace tether

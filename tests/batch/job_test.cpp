@@ -78,6 +78,8 @@ TEST_F(Jobs, RefuseFoldersWithoutCasesAndNamesThatCannotBeFolders) {
   EXPECT_EQ(refused("twice"), "twice: two cases have the name 'adam'");
   EXPECT_NE(refused("odd").find("'a b$' is to be a folder of results"), std::string::npos) << refused("odd");
   EXPECT_EQ(refused("own"), "own: no case may have the name 'job'");
+  write("table/results.csv.yaml", "");
+  EXPECT_EQ(refused("table"), "table: no case may have the name 'results.csv'");
 }
 
 TEST_F(Jobs, MakeACaseOfEachRowOfATable) {
@@ -92,6 +94,8 @@ TEST_F(Jobs, MakeACaseOfEachRowOfATable) {
   EXPECT_EQ(soft.find("solid")->find("material")->find("poisson")->text, "0.45") << "of the base";
   EXPECT_EQ(soft.find("time"), nullptr) << "an empty cell says nothing";
   EXPECT_EQ(stiff.find("time")->find("end")->text, "0.5");
+  EXPECT_EQ(refusal([&] { job_cases_of_table(base, write("twice.csv", "name,a,a\nx,,1\n"), folder_ / "cases"); }),
+            "twice.csv: has two columns `a`");
   EXPECT_EQ(refusal([&] { job_cases_of_table(base, write("no_name.csv", "young\n1\n"), folder_ / "cases"); }),
             "no_name.csv: has no column `name`, one for each case");
 }
@@ -122,7 +126,7 @@ TEST_F(Jobs, AreScriptsThatBashUnderstandsWhateverNamesHold) {
     for (const int cases : {1, 3}) {
       Job one = job(verb, cases);
       one.resources.more = {"qos=high"};
-      const std::string text = job_script(one, folder_ / "it's $HOME");
+      const std::string text = job_script(one, folder_);
       EXPECT_EQ(complaint_of_bash(write("script.sh", text)), "") << word;
       EXPECT_EQ(text.find("#SBATCH --array=0-2") != std::string::npos, cases == 3);
       EXPECT_NE(text.find("#SBATCH --qos=high\n"), std::string::npos);
@@ -132,12 +136,38 @@ TEST_F(Jobs, AreScriptsThatBashUnderstandsWhateverNamesHold) {
   EXPECT_EQ(capture({{"bash", "-c", "printf %s " + shell_quoted("it's $HOME")}, {}}).output, "it's $HOME");
 }
 
+TEST_F(Jobs, RefuseWhatSbatchWouldTakeForSomethingElse) {
+  for (const char* name : {"it's", "a b", "50%j", "a\\b", "$HOME"})
+    EXPECT_NE(refusal([&] { job_script(job(JobVerb::simulate, 1), folder_ / name); }).find("sbatch takes no folder"),
+              std::string::npos)
+        << name;
+  const auto refused = [&](const JobResources& r) { return refusal([&] { check_resources(r); }); };
+  JobResources good{1, 1, 1, "8G", "2:30:00", "lab_1", "long", {"qos=high"}};
+  EXPECT_EQ(refused(good), "no error");
+  for (const char* time : {"30", "30:00", "1-12", "1-12:30:00", "0"}) {
+    good.time = time;
+    EXPECT_EQ(refused(good), "no error") << time;
+  }
+  for (const char* time : {"5", "5:59", "0:05:00", "-5", "soon", "20\nrm x"}) {
+    JobResources r;
+    r.time = time;
+    EXPECT_NE(refused(r).find("--time"), std::string::npos) << time;
+  }
+  JobResources r;
+  r.memory = "1G\n#SBATCH --time=1";
+  EXPECT_NE(refused(r).find("--memory"), std::string::npos);
+  r = {}, r.account = "my lab";
+  EXPECT_NE(refused(r).find("--account"), std::string::npos);
+  r = {}, r.more = {"--qos=high"};
+  EXPECT_NE(refused(r).find("--sbatch"), std::string::npos) << "without dashes";
+}
+
 TEST_F(Jobs, TellWhatBecameOfEachCase) {
   const Job five = job(JobVerb::simulate, 5);
   write("job/case_0.log", "[##] step 2/9\nTo continue: tether simulate\n");
   write("job/ended/case_2", "0\n");
   write("job/ended/case_3", "1\n");
-  write("job/case_3.log", "fluid: out of memory\nTo continue: tether simulate\n");
+  write("job/case_3.log", "fluid: out of memory\nThe state after 3 steps is in here\nTo continue: tether simulate\n");
   write("job/ended/case_1", "1\n");  // of its first start
   const std::vector<slurm::Task> tasks{{0, "RUNNING", "", "0:12", "n1"},
                                        {1, "PENDING", "BeginTime", "0:00", ""},
@@ -151,6 +181,9 @@ TEST_F(Jobs, TellWhatBecameOfEachCase) {
   EXPECT_EQ(all[1].note, "BeginTime");
   EXPECT_EQ(all[3].note, "fluid: out of memory");
   EXPECT_EQ(all[4].note, "CANCELLED");
+  const std::vector<CaseStatus> unasked = status_of(five, folder_, std::nullopt);
+  EXPECT_EQ(unasked[0].state, CaseState::unknown);
+  EXPECT_EQ(unasked[2].state, CaseState::done) << "as its folder says";
   EXPECT_EQ(text_of(all).substr(0, text_of(all).find('\n')), "5 cases: 1 waiting, 1 running, 1 done, 1 failed, 1 gone");
   Job unsubmitted = five;
   unsubmitted.number.clear();
@@ -169,10 +202,16 @@ TEST_F(Jobs, HaveOneTableOfTheirResults) {
   estimate.parameters[0].estimate.value = 3e5;
   fs::create_directories(folder_ / "case_2");
   write_record(folder_ / "case_2/estimate.json", estimate);
-  const JobResults results = results_of(three, folder_);
-  EXPECT_EQ(results.csv(),
-            "case,\"spine, upper \"\"half\"\" [Pa/m]\",\"spine, upper \"\"half\"\", lower [Pa/m]\",\"spine, upper "
-            "\"\"half\"\", upper [Pa/m]\"\ncase_0,200000,100000,400000\ncase_1,,,\ncase_2,300000,100000,400000\n");
+  fs::copy(folder_ / "case_2", folder_ / "case_1");
+  const std::vector<CaseStatus> states{{"case_0", CaseState::done, ""},
+                                       {"case_1", CaseState::running, ""},  // what is there is of a job before
+                                       {"case_2", CaseState::done, ""}};
+  const JobResults results = results_of(three, folder_, states);
+  EXPECT_EQ(
+      results.csv(),
+      "case,state,\"spine, upper \"\"half\"\" [Pa/m]\",\"spine, upper \"\"half\"\", lower [Pa/m]\",\"spine, upper "
+      "\"\"half\"\", upper [Pa/m]\"\ncase_0,done,200000,100000,400000\ncase_1,running,,,\n"
+      "case_2,done,300000,100000,400000\n");
 }
 
 TEST_F(Jobs, AreReadBackAsTheyWereWritten) {

@@ -65,6 +65,11 @@ class Jobs(unittest.TestCase):
             raise AssertionError(f"tether {' '.join(words)}: {done.returncode}\n{done.stdout}{done.stderr}")
         return done.stdout
 
+    def make_twin(self):
+        if not (self.folder / "twin/case.yaml").exists():
+            (self.folder / "twin.yaml").write_text(TWIN)
+            self.tether("twin", "twin.yaml", "--output", "twin", "--quiet")
+
     def submit(self, name, *words):
         self.tether("submit", *words, "--output", name, "--time", "20", "--memory", "1G")
         return json.loads((self.folder / name / "job/job.json").read_text())["number"]
@@ -100,6 +105,19 @@ class Jobs(unittest.TestCase):
         self.assertIn("told to save its state and end in step", log)
         self.assertEqual(content(self.folder / "limited/tube"), content(self.folder / "undisturbed"))
 
+    def test_a_task_at_its_limit_leaves_the_others_of_its_array_alone(self):
+        """The last task of an array has the array's own number."""
+        (self.folder / "pair.csv").write_text("name, solid.material.young [kPa]\none, 400\ntwo, 400\n")
+        number = self.submit("pair", "simulate", "tube.yaml", "--table", "pair.csv")
+        self.wait_for_state_of("pair/two")
+        self.cluster.ask("scancel", "--signal=USR1", "--batch", f"{number}_1")
+        self.wait_for("pair", "done")
+        restarts = {k: self.cluster.ask("scontrol", "show", "job", f"{number}_{k}") for k in (0, 1)}
+        self.assertIn("Restarts=0", restarts[0])
+        self.assertIn("Restarts=1", restarts[1])
+        for name in ("one", "two"):
+            self.assertEqual(content(self.folder / "pair" / name), content(self.folder / "undisturbed"), name)
+
     def test_preempted_it_goes_on_from_its_latest_state_to_the_same_bits(self):
         self.submit("preempted", "simulate", "tube.yaml")
         self.wait_for_state_of("preempted/tube")
@@ -107,6 +125,43 @@ class Jobs(unittest.TestCase):
         self.cluster.wait(lambda: self.states("preempted") == {"tube": "waiting"}, 60, "preempted")
         self.wait_for("preempted", "done")
         self.assertEqual(content(self.folder / "preempted/tube"), content(self.folder / "undisturbed"))
+
+    def test_a_diagnosis_which_calls_mpirun_twice_comes_to_its_end(self):
+        self.make_twin()
+        (self.folder / "twin/lack.yaml").write_text("base: case.yaml\nname: lack\ndiagnosis: {candidates: [visco_elastic]}\n")
+        self.submit("lack", "diagnose", "twin/lack.yaml", "--processes", "2")
+        self.wait_for("lack", "done", 300)
+        self.tether("results", "lack")
+        with open(self.folder / "lack/results.csv", encoding="utf-8") as table:
+            row = next(csv.DictReader(table))
+        self.assertEqual(row["verdict"], json.loads((self.folder / "lack/lack/diagnosis.json").read_text())["verdict"])
+
+    def test_a_job_that_runs_is_not_replaced(self):
+        number = self.submit("kept", "simulate", "tube.yaml")
+        for more in ([], ["--overwrite"], ["--overwrite", "--dry-run"]):
+            refused = self.run_tether("submit", "simulate", "tube.yaml", "--output", "kept", "--time", "20", "--memory", "1G", *more)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("holds a job" if not more else f"its job {number} still waits or runs", refused.stderr)
+        self.wait_for("kept", "done")
+        self.tether("submit", "simulate", "tube.yaml", "--output", "kept", "--time", "20", "--memory", "1G", "--overwrite", "--sbatch", "hold")
+        self.assertEqual(self.states("kept"), {"tube": "waiting"}, "what the job before left is not this one's")
+        self.tether("results", "kept")
+        self.assertEqual((self.folder / "kept/results.csv").read_text(), "case,state\ntube,waiting\n")
+
+    def test_one_that_a_person_gives_to_sbatch_is_told_of(self):
+        self.tether("submit", "simulate", "tube.yaml", "--output", "by_hand", "--time", "20", "--memory", "1G", "--dry-run")
+        self.assertIn("not submitted", self.tether("status", "by_hand"))
+        self.cluster.ask("sbatch", str(self.folder / "by_hand/job/script.sh"))
+        self.wait_for("by_hand", "done")
+
+    def test_where_slurm_does_not_answer_that_is_told(self):
+        self.submit("silent", "simulate", "tube.yaml")
+        self.wait_for("silent", "done")
+        for broken in ({"SLURM_CONF": "/nonexistent"}, {"PATH": "/nonexistent"}):
+            told = subprocess.run([TETHER, "status", "silent"], cwd=self.folder, env=self.cluster.environment | broken, capture_output=True, text=True)
+            self.assertEqual(told.returncode, 0)
+            self.assertIn("Slurm does not answer", told.stderr)
+            self.assertIn("done", told.stdout)
 
     def test_what_a_person_cancels_stays_so(self):
         number = self.submit("cancelled", "simulate", "tube.yaml")
@@ -117,8 +172,7 @@ class Jobs(unittest.TestCase):
         self.assertNotIn("PENDING", self.cluster.ask("squeue", "--noheader", "--jobs", number, "--format=%T"))
 
     def test_an_identification_has_its_models_on_three_nodes(self):
-        (self.folder / "twin.yaml").write_text(TWIN)
-        self.tether("twin", "twin.yaml", "--output", "twin", "--quiet")
+        self.make_twin()
         (self.folder / "twin/springs.yaml").write_text(IDENTIFICATION)
         self.submit("springs", "identify", "twin/springs.yaml", "--nodes", "3", "--processes", "3")
         self.cluster.wait(lambda: nodes_of("fsi_master", self.folder / "twin/springs.yaml") == {"n0", "n1", "n2"}, 60, "a model on each node")
