@@ -1,5 +1,9 @@
 #include "fsi_master/coupled_codes.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 #include "common/base/error.hpp"
 
 namespace tether {
@@ -39,6 +43,23 @@ protocol::Program partner_program(const char* role, const std::string& field, co
           file.where("coupling.programs." + field)};
 }
 
+/// Throws InputError if the case says of a number that a code of somebody else's announces another value than the code:
+/// it does not read that place, and what is identified would be lost there.
+void check_is_read(protocol::Partner& partner, const std::string& executable, const CaseFile& file) {
+  if (is_own(executable)) return;
+  for (const protocol::ParameterInfo& info : partner.hello().parameters) {
+    const std::string field = partner.role() + "." + info.name, text = file.given(field);
+    char* end = nullptr;
+    const double said = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') continue;  // nothing, or with a unit, which only the code can read
+    if (std::abs(said - info.value) > 1e-6 * std::max(std::abs(said), std::abs(info.value)))
+      throw input_error(
+          "{}: {}: {}: {} announces {} as {}: it must read its numbers where the case has them "
+          "(docs/couple-your-code.md)",
+          file.where(field), field, text, partner.hello().program, info.name, info.value);
+  }
+}
+
 /// Throws InputError if a code has no state observer.
 std::unique_ptr<Observer> make_observer(const ObserverCase& observer, ObservationPartner& data, FluidPartner& fluid,
                                         SolidPartner& solid, const Points& interface) {
@@ -55,6 +76,8 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
       interface_(ask_interface(processes[1])),
       size_(diagonal(interface_.points)),
       units_(master.file.units()) {
+  check_is_read(processes[0], master.coupling.programs.fluid, master.file);
+  check_is_read(processes[1], master.coupling.programs.solid, master.file);
   const InterfaceSurface of_fluid = ask_interface(processes[0]);
   solid_.emplace(processes[1]);
   mapping_ = mapping_of(master.coupling, of_fluid, interface_);

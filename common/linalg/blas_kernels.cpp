@@ -41,13 +41,16 @@ void choose_kernels() {
 
 /// OpenBLAS takes a buffer at its first use, which it keeps; before release 0.3.30 it asks for it without end where
 /// there is no memory (OpenBLAS, issue 5289).
-void take_buffer() {
+void check_memory() {
   constexpr std::size_t buffer = std::size_t{136} << 20;  // bytes; 128 MiB and what malloc adds
   void* memory = std::malloc(buffer);
   if (memory == nullptr)
     throw run_error("no memory is left for a buffer of OpenBLAS ({} MiB of address space): is there a limit on it?",
                     buffer >> 20);
   std::free(memory);
+}
+
+void take_buffer() {
   const int size = 1;
   int info = 0;
   double matrix = 1;
@@ -57,7 +60,7 @@ void take_buffer() {
 }  // namespace
 
 void prepare_blas() {
-  [[maybe_unused]] static const bool prepared = (choose_kernels(), take_buffer(), true);
+  [[maybe_unused]] static const bool prepared = (check_memory(), choose_kernels(), take_buffer(), true);
 }
 
 std::string blas_kernels() {

@@ -14,12 +14,12 @@ class RingSolid:
         case = tether.case(sys.argv[1])
         tube, wall = case["mesh"]["swept"], case["solid"]
         self.make_interface(tube["radius"], tube["length"], **wall["mesh"])
-        hoop = wall["material"]["young"] * tube["wall_thickness"] / tube["radius"] ** 2  # pressure per radial displacement
-        self.values = {"hoop": hoop, "tissue": wall["tissue"]["stiffness"], "damping": wall["tissue"]["damping"]}
-        unit = "g/(cm2 s2)"
-        self.parameters = [dict(name="hoop", value=hoop, unit=unit, transform="log2", lower=0),
-                           dict(name="tissue", value=self.values["tissue"], unit=unit, transform="log2", lower=0, absent=0, scale=1e6)]
-        self.mass = wall["density"] * tube["wall_thickness"]
+        self.hoop = tube["wall_thickness"] / tube["radius"] ** 2  # times Young's modulus: pressure per radial displacement
+        self.values = {"material.young": wall["material"]["young"], "tissue.stiffness": wall["tissue"]["stiffness"]}
+        units = {"material.young": "g/(cm s2)", "tissue.stiffness": "g/(cm2 s2)"}
+        self.parameters = [dict(name=name, value=value, unit=units[name], transform="log2", lower=0) for name, value in self.values.items()]
+        self.parameters[1].update(absent=0, scale=1e6)
+        self.damping, self.mass = wall["tissue"]["damping"], wall["density"] * tube["wall_thickness"]
         self.y, self.u = np.zeros_like(self.points), np.zeros_like(self.points)
         self.state_size = 2 * self.points.size
 
@@ -39,9 +39,9 @@ class RingSolid:
 
     def begin_step(self, step, time, dt, predicted):
         """Of each node a 3 x 3 matrix: mass/dt + damping + dt (springs), times its area."""
-        self.dt, v = dt, self.values
-        self.springs = v["tissue"] * np.eye(3) + v["hoop"] * self.radial
-        self.matrix = self.area[:, None, None] * ((self.mass / dt + v["damping"]) * np.eye(3) + dt * self.springs)
+        self.dt = dt
+        self.springs = self.values["tissue.stiffness"] * np.eye(3) + self.values["material.young"] * self.hoop * self.radial
+        self.matrix = self.area[:, None, None] * ((self.mass / dt + self.damping) * np.eye(3) + dt * self.springs)
 
     def evaluate(self, load):
         at_start = self.mass / self.dt * self.u - np.einsum("nij,nj->ni", self.springs, self.y)

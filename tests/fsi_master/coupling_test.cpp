@@ -184,8 +184,9 @@ TEST(Coupling, NumbersThatAreNotFiniteEndTheLoopAndNameTheNode) {
 
 TEST(Convergence, NamesANodeUnlessAllAreLost) {
   const StepStart start{0, 0, dt, VectorXd::Zero(12), VectorXd::Zero(12)};
+  const CouplingOptions options;
   const auto worst = [&](const VectorXd& residual) {
-    Convergence convergence({}, start);
+    Convergence convergence(options, start);
     convergence.reached(VectorXd::Ones(12), residual);
     return std::move(convergence).result({}).worst_node;
   };

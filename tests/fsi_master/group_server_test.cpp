@@ -110,6 +110,17 @@ TEST_F(Group, RefusesAStateOfAnotherLumen) {
             std::string::npos);
 }
 
+/// What an identification writes into a case must not be lost on a code that does not read it there.
+TEST_F(Group, RefusesANumberOfTheCaseThatAnothersCodeDoesNotRead) {
+  const std::string theirs = "coupling: {programs: {solid: ./theirs}}\n";
+  EXPECT_NE(message_of([&] {
+              group_of(theirs + "solid: {stiffness: 60}\n");
+            }).find("solid.stiffness: 60: fake solid 1 announces stiffness as 50"),
+            std::string::npos);
+  for (const char* fine : {"solid: {stiffness: 50}\n", "solid: {stiffness: 60 N/m}\n", "solid: {other: 60}\n"})
+    EXPECT_NO_THROW(group_of(theirs + fine)) << fine;
+}
+
 /// The nodes of a wall of somebody else's come in an order of its own: what is told, and observed, is the fluid's.
 TEST_F(Group, TellsOfTheFluidsNodesWhereTheWallIsAnothersCode) {
   protocol::Interface& theirs = solid->surface;

@@ -50,9 +50,9 @@ TEST(Blas, UsesWhatTheProcessorOffers) {
 #endif
 }
 
-/// Where there is no memory for its buffer OpenBLAS would ask for it without end. In a process of its own: one that has
-/// the buffer keeps it.
-TEST(Blas, IsRefusedWhereItsBufferDoesNotFit) {
+/// Where there is no memory for its buffer OpenBLAS would ask for it without end. In a process of its own, which runs
+/// suites of this name before others: one that has the buffer keeps it.
+TEST(BlasDeathTest, IsRefusedWhereItsBufferDoesNotFit) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer takes more address space than can be limited";
 #endif

@@ -12,6 +12,8 @@ std::vector<Check> Examiner::run() {
       {"its interface fits the other code's", &Examiner::fit},
       {"a step can be evaluated", &Examiner::evaluate},
       {"the same evaluation again gives the same", &Examiner::repeat},
+      {"velocity is the mean over the step", &Examiner::mean_velocity},
+      {"moves with its load", &Examiner::yielding},
       {"a rejected step leaves no trace", &Examiner::reject},
       {"an accepted step reports its observables", &Examiner::accept},
       {"tangent is the derivative of the evaluation", &Examiner::tangent},

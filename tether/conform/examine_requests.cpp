@@ -2,6 +2,7 @@
 #include <chrono>
 #include <thread>
 
+#include "common/base/transform.hpp"
 #include "common/protocol/watch.hpp"
 #include "tether/conform/examiner.hpp"
 
@@ -53,6 +54,7 @@ std::string Examiner::parameters() {
   const auto& announced = partner_.hello().parameters;
   SetParameters own;
   for (const auto& p : announced) {
+    static_cast<void>(transform_named(p.transform));
     partner_.ask(SetParameters{{p.name}, {p.value}});
     own.names.push_back(p.name), own.values.push_back(p.value);
   }

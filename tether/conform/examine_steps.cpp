@@ -24,6 +24,34 @@ std::string Examiner::repeat() {
   return fmt::format("relative difference {:.2g}", change);
 }
 
+/// Of two loads in one step displacements differ by dt times what velocities do, whatever the state before it.
+std::string Examiner::mean_velocity() {
+  if (partner_.role() != "solid") throw Skipped("of a solid");
+  const Numbers one = begin_and_evaluate(1), other = drive_->evaluate(-0.5);
+  end(false);
+  const Numbers changes = combined(1, one, -1, other);
+  const auto half = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+  const Numbers moved(changes.begin(), half), velocity(half, changes.end());
+  const double error = difference(combined(dt_, velocity, 0, velocity), moved);
+  require(
+      error <= mean_velocity_tolerance,
+      "displacements of two loads differ by {:.2g} from dt times their velocities: the velocity must be (y1 - y0)/dt",
+      error);
+  return fmt::format("relative difference {:.2g}", error);
+}
+
+/// A load does work on the motion that it makes.
+std::string Examiner::yielding() {
+  if (partner_.role() != "solid") throw Skipped("of a solid");
+  const Numbers pushed = begin_and_evaluate(1), free = drive_->evaluate(0);
+  end(false);
+  const Numbers changes = combined(1, pushed, -1, free);
+  const Numbers moved(changes.begin(), changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2));
+  require(dot(drive_->excitation(1), moved) > 0,
+          "a load moves it the other way: a load is the force of the fluid on it");
+  return "";
+}
+
 std::string Examiner::reject() {
   const Numbers first = begin_and_evaluate(1);
   drive_->evaluate(-1);

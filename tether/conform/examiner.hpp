@@ -10,10 +10,11 @@
 
 namespace tether::protocol {
 
-inline constexpr double repeat_tolerance = 1e-8;    // the same evaluation twice, or after a rejected step
-inline constexpr double tangent_tolerance = 1e-3;   // against central differences
-inline constexpr double balance_tolerance = 1e-10;  // of sums over both sides of an interface: round-off
-inline constexpr double symmetry_tolerance = 1e-8;  // of the solid's operators
+inline constexpr double repeat_tolerance = 1e-8;         // the same evaluation twice, or after a rejected step
+inline constexpr double tangent_tolerance = 1e-3;        // against central differences
+inline constexpr double mean_velocity_tolerance = 1e-6;  // as of the operators: a state is known to round-off
+inline constexpr double balance_tolerance = 1e-10;       // of sums over both sides of an interface: round-off
+inline constexpr double symmetry_tolerance = 1e-8;       // of the solid's operators
 
 /// Thrown by a check that found something wrong, or has nothing to look at.
 struct Broken : RunError {
@@ -51,6 +52,8 @@ class Examiner {
   std::string fit();
   std::string evaluate();
   std::string repeat();
+  std::string mean_velocity();
+  std::string yielding();
   std::string reject();
   std::string accept();
   std::string tangent();
