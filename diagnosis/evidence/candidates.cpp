@@ -114,12 +114,6 @@ EffectsList listed_by(const std::string& program, const CaseFile& file) {
   return record_of<EffectsList>(end.output, program + " --list-effects");
 }
 
-/// Whether a code of the case is Tether's own: a name without slash. One of somebody else's has no catalogue; the
-/// numbers that it announces are candidates.
-bool is_own(const std::string& code, const CaseFile& file) {
-  return file.given("coupling.programs." + code).find('/') == std::string::npos;
-}
-
 /// Types of effects and parts of the wall. Numbers, which have a dot, are known when the model has announced them.
 void check_names(const CaseFile& file, const EffectsList& catalogue, const DiagnosisCase& diagnosis) {
   std::set<std::string> types, parts;
@@ -151,9 +145,13 @@ std::vector<std::string> not_recorded(const CaseFile& from, const Observations& 
 
 }  // namespace
 
+bool has_catalogue(const std::string& code, const CaseFile& file) {
+  return file.given("coupling.programs." + code).find('/') == std::string::npos;
+}
+
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis) {
-  EffectsList list = is_own("solid", file) ? listed_by("solid", file) : EffectsList{};
-  if (is_own("fluid", file))
+  EffectsList list = has_catalogue("solid", file) ? listed_by("solid", file) : EffectsList{};
+  if (has_catalogue("fluid", file))
     for (PossibleEffect& law : listed_by("fluid", file).possible) list.possible.push_back(std::move(law));
   check_names(file, list, diagnosis);
   const std::string length = file.units().symbol(dimension::length);

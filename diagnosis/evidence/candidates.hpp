@@ -26,6 +26,10 @@ struct PlacedEffect {
   bool is_tried = false;              ///< on one of several patches that are compared
 };
 
+/// Whether a code of the case is Tether's own: a program named without slash. One of somebody else's has no catalogue
+/// and takes no effects; the numbers that it announces are candidates.
+bool has_catalogue(const std::string& code, const CaseFile& file);
+
 /// What the programs say could be missing, and what the case has; restricted as the case wants it. Throws
 /// InputError with the program's message.
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis);

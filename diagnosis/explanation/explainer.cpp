@@ -91,7 +91,7 @@ class Explainer {
     identify_own();
     while (diagnose_best())
       if (add_model() ? is_settled() : !refuse()) break;
-    if (verdict_of(path_) == Verdict::not_in_catalogue) seek_force();
+    if (verdict_of(path_) == Verdict::not_in_catalogue && has_catalogue("solid", given_.file)) seek_force();
     path_.odd_frames = odd_frames(*evidence_, problem_, residuals_.back(), wrong_frames());
     path_.steps = steps_.all();
     return std::move(path_);
