@@ -293,7 +293,7 @@ class Findings {
 /// Our own programs check their sections of the case; of a foreign one only the file is looked for. Throws InputError.
 void validate_by(const protocol::Program& partner) {
   const std::string executable = protocol::find_executable(partner);
-  if (fs::path(partner.executable).has_parent_path()) return;
+  if (!protocol::is_own(partner.executable)) return;
   const ChildEnd end = capture({{executable, partner.arguments.front(), "--validate", "--quiet"}, {}});
   if (end.exit_code == exit_input_wrong) throw InputError(end.errors);
   if (end.exit_code != exit_done)

@@ -25,15 +25,10 @@ InterfaceMap map_of(const std::string& mapping, const CouplingCase& coupling, co
                              : InterfaceMap::nearest_triangle(fluid, solid, trust);
 }
 
-/// Whether a program of the case is Tether's own: a name without slash.
-bool is_own(const std::string& executable) {
-  return executable.find('/') == std::string::npos;
-}
-
 /// `field`: of coupling.programs and coupling.ranks.
 protocol::Program partner_program(const char* role, const std::string& field, const std::string& executable, int ranks,
                                   const CaseFile& file) {
-  if (ranks > 1 && is_own(executable))
+  if (ranks > 1 && protocol::is_own(executable))
     throw input_error("{}: {}: Tether's own {} runs in one process", file.where("coupling.ranks." + field), ranks,
                       executable);
   return {role,
@@ -46,7 +41,7 @@ protocol::Program partner_program(const char* role, const std::string& field, co
 /// Throws InputError if the case says of a number that a code of somebody else's announces another value than the code:
 /// it does not read that place, and what is identified would be lost there.
 void check_is_read(protocol::Partner& partner, const std::string& executable, const CaseFile& file) {
-  if (is_own(executable)) return;
+  if (protocol::is_own(executable)) return;
   for (const protocol::ParameterInfo& info : partner.hello().parameters) {
     const std::string field = partner.role() + "." + info.name, text = file.given(field);
     char* end = nullptr;
@@ -82,8 +77,8 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
   solid_.emplace(processes[1]);
   mapping_ = mapping_of(master.coupling, of_fluid, interface_);
   fluid_.emplace(processes[0], map_of(mapping_, master.coupling, of_fluid, interface_));
-  lumen_ = is_own(master.coupling.programs.solid) ? ToldLumen{interface_.points}
-                                                  : ToldLumen{of_fluid.points, &fluid_->map()};
+  lumen_ = protocol::is_own(master.coupling.programs.solid) ? ToldLumen{interface_.points}
+                                                            : ToldLumen{of_fluid.points, &fluid_->map()};
   fit_ = interface_fit(of_fluid, interface_, master.coupling.mapping_distance.value_or(trusted_distance * size_));
   if (fit_.looks_away())
     throw input_error(

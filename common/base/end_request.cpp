@@ -19,7 +19,7 @@ unsigned limit = 0;
 
 /// Calls nothing but what a signal's handler may.
 void note(int) {
-  const int made = open(file, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int made = open(file, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (made >= 0) close(made);
   alarm(limit);
 }

@@ -140,12 +140,12 @@ std::string find_executable(const Program& program) {
   namespace fs = std::filesystem;
   const fs::path given(program.executable);
   const fs::path path =
-      given.has_parent_path() ? fs::absolute(given) : fs::read_symlink("/proc/self/exe").parent_path() / given;
+      is_own(program.executable) ? fs::read_symlink("/proc/self/exe").parent_path() / given : fs::absolute(given);
   const std::string whose = program.role.empty() ? "the program" : "program of the " + program.role;
   const std::string where = program.where.empty() ? whose : program.where;
   if (!fs::exists(path))
     throw input_error("{}: {} does not exist{}", where, path.string(),
-                      given.has_parent_path() ? "" : fmt::format(" (a file of your own: ./{})", given.string()));
+                      is_own(program.executable) ? fmt::format(" (a file of your own: ./{})", given.string()) : "");
   if (!fs::is_regular_file(path) || access(path.c_str(), X_OK) != 0)
     throw input_error("{}: {} cannot be executed", where, path.string());
   return path.string();

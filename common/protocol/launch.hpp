@@ -22,6 +22,11 @@ struct Program {
   std::string node = {};               ///< to run on; empty: the one of its master
 };
 
+/// Whether a program that a case names is Tether's own: without slash.
+inline bool is_own(const std::string& executable) {
+  return executable.find('/') == std::string::npos;
+}
+
 /// The file to execute. Throws InputError if there is none or it may not be executed.
 std::string find_executable(const Program& program);
 

@@ -9,6 +9,7 @@
 #include "common/config/overlay.hpp"
 #include "common/config/rules.hpp"
 #include "common/io/record_file.hpp"
+#include "common/protocol/launch.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
 
@@ -146,7 +147,7 @@ std::vector<std::string> not_recorded(const CaseFile& from, const Observations& 
 }  // namespace
 
 bool has_catalogue(const std::string& code, const CaseFile& file) {
-  return file.given("coupling.programs." + code).find('/') == std::string::npos;
+  return protocol::is_own(file.given("coupling.programs." + code));
 }
 
 std::vector<PlacedEffect> catalogue_of(const CaseFile& file, const DiagnosisCase& diagnosis) {

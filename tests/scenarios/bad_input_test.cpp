@@ -203,7 +203,7 @@ const Mistake mistakes[] = {
      "case.yaml:18: fluid.inlets.inlet.flow.file: inflw.csv: no such file or folder: inflw.csv (comma-separated table "
      "whose first line names the columns)"},
     {"NoSuchProgram", In::the_case, "solid:\n", "coupling: {programs: {solid: my_solver}}\nsolid:\n",
-     "case.yaml:21: coupling.programs.solid: my_solver does not exist"},
+     "case.yaml:21: coupling.programs.solid: my_solver does not exist (a file of your own: ./my_solver)"},
     {"OuterWallWithoutRegion", In::the_case, ", rest: {}", "",
      "mesh.regions: no region holds the outer wall at angle 20.0 degrees, position 0.06: end the list with a region "
      "without limits"},
