@@ -26,7 +26,7 @@ void CouplingCase::declare(Fields& f) {
   f.integer("halvings", halvings, {0, 10}, "times that a step which fails may be halved");
   f.choice(
       "mapping", mapping,
-      {{"automatic", "match if the interface meshes agree node for node, else mortar"},
+      {{"automatic", "match if the interface meshes agree node for node and triangle for triangle, else mortar"},
        {"match", "they must agree node for node"},
        {"mortar",
         "the fluid's motion is that of the wall in the mean around each node; the load comes back as the traction "

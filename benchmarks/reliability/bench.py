@@ -5,6 +5,7 @@ import signal
 import time
 
 from circumstances import circumstances
+from hosts import hosts_faults
 from jobs import Job, TETHER, clean, differences
 
 STOPPED_LIMIT = 5  # [s], for what takes a minute otherwise
@@ -178,3 +179,4 @@ def faults(bench):
             error = ERRORS[k % len(ERRORS)]
             yield f"{verb}/write/{program}/{call} {part or 'folder'} {n}/{error}", lambda a=(verb, program, call, part, n, error): bench.unwritable(*a)
     yield from circumstances(bench)
+    yield from hosts_faults(bench)

@@ -56,7 +56,8 @@ class Job:
 
     count = 0
 
-    def __init__(self, verb, case, output, options=(), fault=None, name=None, **more):
+    def __init__(self, verb, case, output, options=(), fault=None, name=None, on=None, **more):
+        """`on`: the host, of a group that tests/hosts makes, on which it is called; otherwise this one."""
         Job.count += 1
         self.output, self.mark = output, f"reliability-{os.getpid()}-{Job.count}"
         self.flag = output.parent / f"{output.name}.flag"
@@ -64,8 +65,12 @@ class Job:
         if fault:
             more |= {"LD_PRELOAD": str(PRELOAD), "TETHER_FAULT_ROOT": str(output), "TETHER_FAULT": fault, "TETHER_FAULT_FLAG": str(self.flag)}
         self.errors = open(output.parent / f"{name or output.name}.err", "w+")
-        self.process = subprocess.Popen([TETHER, verb, case, "--output", output, "--quiet", *options], stdout=subprocess.DEVNULL, stderr=self.errors,
-                                        stdin=subprocess.DEVNULL, start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), env=environment(TETHER_TEST_JOB=self.mark, **more))
+        words, variables = [TETHER, verb, case, "--output", output, "--quiet", *options], environment(TETHER_TEST_JOB=self.mark, **more)
+        pipes = {"stdout": subprocess.DEVNULL, "stderr": self.errors, "stdin": subprocess.DEVNULL}
+        if on:
+            self.process = on.group.start(on, words, output.parent, variables, **pipes)
+        else:
+            self.process = subprocess.Popen(words, start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL), env=variables, **pipes)
 
     def processes(self):
         """Of each that lives: its number and the name of its program."""

@@ -18,7 +18,7 @@ def faults_of(key, result):
     """What is wrong with an outcome."""
     _, kind, program, _, fault = parts_of(key)
     wrong, code, message = [], result["code"], result["message"]
-    itself = kind == "signal" and program == "tether" and fault == "KILL"  # it can tell nothing
+    itself = (kind == "signal" and program == "tether" and fault == "KILL") or fault == "the first host is lost"  # it can tell nothing
     if code is None:
         wrong.append("does not end")
     elif code not in ((0, 1, 2) if fault == "EACCES" or kind == "damage" else (0, 1)) and not itself:  # 2: what the person may not do, or has to decide
@@ -123,7 +123,11 @@ def write_page(known, folder):
             *table(known, "damage", "job | file | damage", ("verb", "phase", "fault")), "", "## Other circumstances", "",
             "*No more memory*: a process may not have a megabyte more (`RLIMIT_AS`). The clock jumps in all processes, two seconds after their start. The disk is a tmpfs that is made larger afterwards; one that vanishes is a mount that is taken away and given back. "
             "Of a second job: what it is told.", "",
-            *table(known, "other", "job | program | phase | what happens", ("verb", "program", "phase", "fault")), "", *of_chaos(folder), *of_haul(folder)]
+            *table(known, "other", "job | program | phase | what happens", ("verb", "program", "phase", "fault")), "",
+            "## Several hosts", "",
+            "An identification with a model on each of two hosts, which are namespaces of one machine with an sshd each (`tests/hosts`): processes, network, shared memory and temporary files of their own. "
+            "*Lost*: without power; *cut off*: without a network. Open MPI is told by `tether` that a host of which nothing is heard for 30 s is gone. After that the same command goes on, on one machine.", "",
+            *table(known, "hosts", "job | what happens", ("verb", "fault")), "", *of_chaos(folder), *of_haul(folder)]
     (ROOT / "docs/reliability.md").write_text("\n".join(text))
     for key, what in wrong.items():
         print("not green:", key, "; ".join(what))

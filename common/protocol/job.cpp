@@ -96,7 +96,7 @@ Pids launchers() {
 }  // namespace
 
 std::string mark_of_children() {
-  return fmt::format("TETHER_MASTER={} {}", host_name(), process_id());
+  return fmt::format("{}={} {}", master_variable, host_name(), process_id());
 }
 
 Pids marked_children() {
@@ -105,7 +105,7 @@ Pids marked_children() {
 }
 
 Peer marking_master() {
-  const char* text = std::getenv("TETHER_MASTER");
+  const char* text = std::getenv(master_variable);
   const std::string mark = text ? text : "";
   const auto space = mark.rfind(' ');
   if (space == std::string::npos) return {"the master"};

@@ -10,6 +10,8 @@
 /// variable TETHER_MASTER="HOST PID" of its master from its first instruction.
 namespace tether::protocol {
 
+inline constexpr const char* master_variable = "TETHER_MASTER";
+
 /// "TETHER_MASTER=HOST PID" of this process, for the environment of what it spawns.
 std::string mark_of_children();
 

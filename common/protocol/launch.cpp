@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <list>
+#include <thread>
 
 #include "common/base/limits.hpp"
 #include "common/base/process.hpp"
@@ -76,6 +78,19 @@ int rank_in(MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   return rank;
+}
+
+/// Ends a program that was started in several processes (coupling.ranks), each of which would answer the master alone.
+void refuse_company(const std::string& role, int rank) {
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (size == 1) return;
+  if (rank == 0)
+    give_up(role, fmt::format("{} processes (coupling.ranks), each of which would answer alone: let them serve "
+                              "together (Python: together=True; C: a communicator for tether_connect)",
+                              size));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  end_job(exit_run_failed);
 }
 
 /// Everybody's role by world rank.
@@ -161,6 +176,7 @@ Session::Session(const std::string& role, int communicator) : parts_(std::make_u
   const bool spawned = parts.parent != MPI_COMM_NULL;
   if (spawned) parts.watch.follow(marking_master());
   parts.rank = rank_in(MPI_COMM_WORLD);
+  if (spawned && communicator == no_communicator) refuse_company(role, parts.rank);
   parts.own = chosen(communicator, own_processes(spawned));
   parts.is_leader = rank_in(parts.own) == 0;
   if (!spawned) parts.roles = gather_roles(parts.is_leader ? role : "");

@@ -1,8 +1,13 @@
 #include "common/protocol/mpi_channel.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "common/protocol/bell.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/messages.hpp"
+#include "common/protocol/nodes.hpp"
+#include "common/protocol/signals.hpp"
 
 namespace tether::protocol {
 
@@ -12,6 +17,28 @@ namespace {
 constexpr double master_waits = 10, partner_waits = 20;
 /// MPI sees what lies in a socket at the second probe. Not many more: on a busy machine each gives the core away.
 constexpr int rounds_of_progress = 4;
+
+/// While it lives nothing is said: this process has told why it fails, and Open MPI logs that its servers go away while
+/// leave is taken.
+class Silence {
+ public:
+  explicit Silence(bool is_on) : errors_(is_on ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3) : -1) {
+    const int nothing = errors_ >= 0 ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
+    if (nothing < 0) return;
+    dup2(nothing, STDERR_FILENO);
+    ::close(nothing);
+  }
+  ~Silence() {
+    if (errors_ < 0) return;
+    dup2(errors_, STDERR_FILENO);
+    ::close(errors_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int errors_;
+};
 }  // namespace
 
 MpiChannel::MpiChannel(To to, Peer peer, MPI_Comm communicator, Watch& watch)
@@ -71,12 +98,15 @@ Packet MpiChannel::take(MPI_Message message, const MPI_Status& status) {
 void MpiChannel::close(int exit_code) {
   flush();
   watch_.release(peer());
-  // Nobody to take leave of, or nobody who would see to it: MPI would complain.
-  if (launcher_is_gone() || (to_ == To::master && is_dead(peer()))) end_job(exit_code);
+  // Nobody to take leave of, or nobody who would see to it: MPI would complain. Over several nodes mpirun interrupts
+  // where one is lost.
+  const bool may_be_lost = exit_code != exit_done && interrupted() && !own_node().empty();
+  if (launcher_is_gone() || may_be_lost || (to_ == To::master && is_dead(peer()))) end_job(exit_code);
   const double limit = to_ == To::partner ? master_waits : partner_waits;
   const Guard deadline(0.5, [exit_code, limit](double seconds) {
     if (seconds > limit) end_job(exit_code);
   });
+  const Silence silence(exit_code != exit_done);
   if (MPI_Comm_disconnect(&communicator_) != MPI_SUCCESS) end_job(exit_code);  // the launcher has just gone
 }
 

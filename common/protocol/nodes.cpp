@@ -1,9 +1,53 @@
 #include "common/protocol/nodes.hpp"
 
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <list>
 #include <sstream>
 
 namespace tether::protocol {
+
+namespace {
+
+/// A connection that is being made, and whether it is known already how that ends.
+class Call {
+ public:
+  explicit Call(const std::string& node) {
+    addrinfo hints{}, *found = nullptr;
+    hints.ai_socktype = SOCK_STREAM;
+    if (getaddrinfo(node.c_str(), "22", &hints, &found) != 0) return;
+    descriptor_ = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (descriptor_ >= 0) error_ = connect(descriptor_, found->ai_addr, found->ai_addrlen) == 0 ? 0 : errno;
+    freeaddrinfo(found);
+  }
+  ~Call() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  void wait(int milliseconds) {
+    if (error_ != EINPROGRESS) return;
+    pollfd ready{descriptor_, POLLOUT, 0};
+    if (poll(&ready, 1, milliseconds) <= 0) return;
+    socklen_t size = sizeof error_;
+    getsockopt(descriptor_, SOL_SOCKET, SO_ERROR, &error_, &size);
+  }
+  bool is_answered() const { return error_ == 0 || error_ == ECONNREFUSED; }
+
+ private:
+  int descriptor_ = -1, error_ = EHOSTUNREACH;
+};
+
+}  // namespace
 
 std::vector<std::string> nodes_of_job() {
   const char* text = std::getenv(nodes_variable);
@@ -20,6 +64,27 @@ std::string own_node() {
   if (nodes.empty()) return {};
   const char* own = std::getenv(node_variable);
   return own == nullptr ? nodes.front() : own;
+}
+
+bool is_on_first_node() {
+  const std::vector<std::string> nodes = nodes_of_job();
+  return nodes.empty() || own_node() == nodes.front();
+}
+
+std::vector<std::string> silent_nodes(const std::vector<std::string>& nodes, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  std::list<Call> calls;  // all at once: they wait together
+  for (const std::string& node : nodes) calls.emplace_back(node);
+  std::vector<std::string> silent;
+  auto node = nodes.begin();
+  for (Call& call : calls) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    call.wait(static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    if (!call.is_answered()) silent.push_back(*node);
+    ++node;
+  }
+  return silent;
 }
 
 }  // namespace tether::protocol

@@ -17,4 +17,11 @@ std::vector<std::string> nodes_of_job();
 /// MPI starts them.
 std::string own_node();
 
+/// Whether the job's first master sees this process: also if there is one node only.
+bool is_on_first_node();
+
+/// Those of the nodes that do not answer: a host that runs takes a connection to its ssh, or refuses it; one that is
+/// lost does neither within the time [s].
+std::vector<std::string> silent_nodes(const std::vector<std::string>& nodes, double seconds);
+
 }  // namespace tether::protocol

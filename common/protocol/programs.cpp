@@ -4,15 +4,19 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 
 #include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/base/process.hpp"
 #include "common/base/temporary_folder.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
+#include "common/protocol/nodes.hpp"
 #include "common/protocol/told.hpp"
 
 namespace tether {
@@ -37,6 +41,24 @@ void add_terminal(std::vector<std::pair<std::string, std::string>>& environment)
     environment.emplace_back("COLUMNS", std::to_string(size.ws_col));
 }
 
+/// Whether Open MPI knows by itself which nodes there are: from a scheduler, or from a file of the user's.
+bool are_nodes_given() {
+  constexpr std::array by = {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "JOB_ID", "OMPI_MCA_orte_default_hostfile"};
+  return std::any_of(by.begin(), by.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+/// The nodes, which mpirun reaches by ssh where no scheduler gave them; and that one of which nothing is heard for half
+/// a minute is lost: Open MPI would wait for eight. The user's own settings stand.
+void add_nodes(Command& run) {
+  const std::vector<std::string> nodes = protocol::nodes_of_job();
+  if (nodes.empty()) return;
+  if (!are_nodes_given()) run.words.insert(run.words.begin() + 1, {"--host", fmt::to_string(fmt::join(nodes, ","))});
+  for (const auto& [name, seconds] :
+       {std::pair{"OMPI_MCA_oob_tcp_keepalive_time", "10"}, std::pair{"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
+        std::pair{"OMPI_MCA_oob_tcp_keepalive_probes", "4"}})
+    if (std::getenv(name) == nullptr) run.environment.emplace_back(name, seconds);
+}
+
 /// The file by which a run's programs let this process know that they said why they failed; gone with this process.
 class NoteOfFailure {
  public:
@@ -48,7 +70,7 @@ class NoteOfFailure {
   protocol::Told take() { return protocol::take_note(path_); }
 
  private:
-  std::filesystem::path path_ = temporary_folder() / fmt::format("tether_told_{}", getpid());
+  std::filesystem::path path_ = temporary_folder() / fmt::format("tether_told_{}_{}", host_name(), getpid());
 };
 
 NoteOfFailure& note_of_failure() {
@@ -67,6 +89,12 @@ std::string way_on(const char* verb, const CommandLine& command) {
   if (!is_saved("checkpoint") && !is_saved("checkpoint.previous")) return {};
   return fmt::format("To continue: tether {} {} --output {} --resume\n", verb, command.case_file.string(),
                      output.string());
+}
+
+/// The nodes of the job that do not answer any more, "h1, h2"; nothing if all do.
+std::string lost_nodes() {
+  constexpr double patience = 5;  // [s]
+  return fmt::to_string(fmt::join(protocol::silent_nodes(protocol::nodes_of_job(), patience), ", "));
 }
 
 /// Of a run of which no program said a word. Beyond the signals stand mpirun's own numbers.
@@ -92,10 +120,12 @@ Command parallel_run(const std::string& master, const CommandLine& command) {
                "1", sibling(master).string(), command.case_file.string()},
               {}};
   add_options(run.words, command);
+  add_nodes(run);
   add_terminal(run.environment);
   note_of_failure().take();
   run.environment.emplace_back(protocol::told_variable, note_of_failure().path());
   run.environment.emplace_back(holder_variable, holder_name());
+  run.environment.emplace_back("EVENT_NOEPOLL", "1");  // Open MPI's libevent warns of descriptors closed too early
   if (geteuid() == 0) {
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     run.environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
@@ -107,6 +137,8 @@ int report_failure(const ForegroundEnd& end, const std::string& master, const ch
   const protocol::Told told = note_of_failure().take();
   if (end.handed_on != 0 && told != protocol::Told::interruption)
     std::cerr << "tether: interrupted\n";
+  else if (const std::string lost = end.handed_on == 0 ? lost_nodes() : ""; !lost.empty())
+    std::cerr << fmt::format("tether: mpirun ended the run: no answer any more from {}\n", lost);
   else if (told == protocol::Told::nothing && !end.was_still)
     std::cerr << fmt::format("tether: {}\n", how_it_failed(end, master));
   if (end.exit_code == exit_input_wrong) return exit_input_wrong;

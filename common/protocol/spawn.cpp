@@ -1,5 +1,7 @@
 #include "common/protocol/spawn.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -19,14 +21,16 @@ namespace tether::protocol {
 
 namespace {
 
-/// What a shell, which then becomes the program, does first: it leaves its pid, so that the death of a program that
-/// never reaches MPI_Init can be noticed. `$0`: the file, `$@`: the program and its arguments.
-constexpr const char* starter = "echo $$ >>\"$0\"; exec \"$@\"";
+/// What a shell, which then becomes the program, does first: it leaves its pid and host, so that the death of a program
+/// that never reaches MPI_Init can be noticed. `$0`: the file, `$@`: the program and its arguments.
+constexpr const char* starter = "echo $$ $(uname -n) >>\"$0\"; exec \"$@\"";
 
-/// The file for that pid, removed with this object.
+/// The file for that, removed with this object. Its folder may be one that several hosts share.
 class PidFile {
  public:
-  PidFile() : path_(temporary_folder() / fmt::format("tether-{}-{}", process_id(), ++count_)) { remove(); }
+  PidFile() : path_(temporary_folder() / fmt::format("tether-{}-{}-{}", host_name(), process_id(), ++count_)) {
+    remove();
+  }
   ~PidFile() { remove(); }
   PidFile(const PidFile&) = delete;
   PidFile& operator=(const PidFile&) = delete;
@@ -38,8 +42,9 @@ class PidFile {
   /// 0 before it is written, and for ever if the process is on another host.
   std::int64_t pid() const {
     std::int64_t pid = 0;
-    std::ifstream(path_) >> pid;
-    return pid;
+    std::string host;
+    std::ifstream(path_) >> pid >> host;
+    return host == host_name() ? pid : 0;
   }
 
  private:
@@ -92,16 +97,24 @@ void check_initialising(double seconds, const std::string& role, const Start& st
   if (seconds > start.limit + 2) end_job(exit_run_failed);
 }
 
-MPI_Info spawn_info(const Program& program) {
+/// "env NAME=VALUE ...": the variables of Tether's own for a program on another node, where nobody set them, and which
+/// node that is. Not in MPI_Info: its values end after 255 characters.
+std::vector<std::string> told_on(const std::string& node) {
+  std::vector<std::string> words{"env"};
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry, name = text.substr(0, text.find('='));
+    if (name.starts_with("TETHER_") && name != master_variable && name != node_variable) words.emplace_back(text);
+  }
+  words.push_back(fmt::format("{}={}", node_variable, node));
+  return words;
+}
+
+MPI_Info spawn_info(const std::string& node) {
   MPI_Info info = MPI_INFO_NULL;
   MPI_Info_create(&info);
   MPI_Info_set(info, "wdir", std::filesystem::current_path().c_str());
-  std::string environment = mark_of_children();
-  if (const std::string node = program.node.empty() ? own_node() : program.node; !node.empty()) {
-    MPI_Info_set(info, "host", node.c_str());
-    environment += fmt::format("\n{}={}", node_variable, node);
-  }
-  MPI_Info_set(info, "env", environment.c_str());
+  MPI_Info_set(info, "env", mark_of_children().c_str());
+  if (!node.empty()) MPI_Info_set(info, "host", node.c_str());
   return info;
 }
 
@@ -138,14 +151,18 @@ bool initialise_mpi(const std::string& role) {
 Spawned spawn(const Program& program, const std::string& master_role) {
   const std::string executable = find_executable(program);
   const std::string name = program.role.empty() ? executable : fmt::format("{} ({})", program.role, executable);
+  const std::string node = program.node.empty() ? own_node() : program.node;
   const PidFile file;
-  std::vector<std::string> words{"-c", starter, file.path(), executable};
+  std::vector<std::string> words{"-c", starter, file.path()};
+  if (!node.empty())
+    for (std::string& word : told_on(node)) words.push_back(std::move(word));
+  words.push_back(executable);
   words.insert(words.end(), program.arguments.begin(), program.arguments.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const Guard guard(0.1, [&](double seconds) { check_spawning(seconds, file, name, master_role); });
-  MPI_Info info = spawn_info(program);
+  MPI_Info info = spawn_info(node);
   MPI_Comm children = MPI_COMM_NULL;
   const int code = MPI_Comm_spawn("/bin/sh", arguments.data(), program.processes, info, 0, MPI_COMM_SELF, &children,
                                   MPI_ERRCODES_IGNORE);

@@ -14,6 +14,7 @@
 #include "common/base/process.hpp"
 #include "common/protocol/bell.hpp"
 #include "common/protocol/job.hpp"
+#include "common/protocol/nodes.hpp"
 #include "common/protocol/signals.hpp"
 #include "common/protocol/told.hpp"
 
@@ -48,6 +49,13 @@ bool comes_at_once(const std::function<bool()>& done) {
   for (const auto start = Clock::now(); Clock::now() - start < spin_time; std::this_thread::yield())
     if (done()) return true;
   return false;
+}
+
+/// Says what became of the master, and stays until the others that follow it have seen it too, so that one tells.
+void tell_and_stay(const RunError& what) {
+  say(what.what());
+  note_told(Told::failure);
+  std::this_thread::sleep_for(std::chrono::duration<double>(2 * follow_after));
 }
 
 }  // namespace
@@ -118,14 +126,16 @@ void Watch::tell_if_all_are_idle() {
 void Watch::follow(const Peer& master) {
   guard_ = std::make_unique<Guard>(follow_every, [master, alive = 0.0, still = Stillness()](double seconds) mutable {
     if (!is_dead(master)) alive = seconds;
-    if (seconds - alive > follow_after) end_job(exit_run_failed);
+    if (seconds - alive > follow_after) {
+      if (!is_on_first_node() && is_first_to_tell_of(master))  // its own master does not see it
+        tell_and_stay(PeerDied(master));
+      end_job(exit_run_failed);
+    }
     still.look(master);
     if (still.stopped() < stopped_limit()) return;
-    if (is_first_to_tell_of(master)) {
-      say(PeerStopped(master, stopped_limit()).what());
-      note_told(Told::failure);
-    }
+    const bool is_first = is_first_to_tell_of(master);
     kill(static_cast<pid_t>(master.pid), SIGKILL);  // else it wakes when the job ends, and calls its partners dead
+    if (is_first) tell_and_stay(PeerStopped(master, stopped_limit()));
     end_job(exit_run_failed);
   });
 }

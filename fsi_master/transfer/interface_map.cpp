@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "common/base/error.hpp"
 
@@ -59,6 +60,27 @@ std::string lonely(const char* from_name, const Points& from, const char* to_nam
       count, from.cols(), from_name, to_name, tolerance, farthest, from(0, worst), from(1, worst), from(2, worst));
 }
 
+/// Of each fluid node the wall's, for nodes without a mismatch. Throws InputError if two have the same.
+std::vector<int> wall_nodes(const Points& fluid, const Points& solid, double tolerance) {
+  const NodeGrid grid(solid, tolerance);
+  std::vector<int> nodes, fluid_of(static_cast<std::size_t>(solid.cols()), -1);
+  for (int a = 0; a < fluid.cols(); ++a) {
+    nodes.push_back(grid.nearest(fluid.col(a)));
+    int& taken = fluid_of[static_cast<std::size_t>(nodes.back())];
+    if (taken >= 0)
+      throw input_error("unmatched interface: fluid nodes {} and {} are both nearest to wall node {}", taken, a,
+                        nodes.back());
+    taken = a;
+  }
+  return nodes;
+}
+
+/// Whichever way they are written.
+std::set<Triangle> sorted(std::vector<Triangle> triangles) {
+  for (Triangle& triangle : triangles) std::sort(triangle.begin(), triangle.end());
+  return {triangles.begin(), triangles.end()};
+}
+
 /// What is wrong with a matching of the nodes; empty if nothing is.
 std::string mismatch(const Points& fluid, const Points& solid, double tolerance) {
   std::string problem = lonely("fluid", fluid, "wall", solid, tolerance);
@@ -77,24 +99,23 @@ InterfaceMap::InterfaceMap(Points fluid, Points solid, const Rows& rows, std::ve
 }
 
 bool InterfaceMap::matches(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance) {
-  return fluid.points.cols() == solid.points.cols() && mismatch(fluid.points, solid.points, tolerance).empty();
+  if (fluid.points.cols() != solid.points.cols() || !mismatch(fluid.points, solid.points, tolerance).empty())
+    return false;
+  if (fluid.triangles.empty() || solid.triangles.empty()) return true;
+  const std::vector<int> nodes = wall_nodes(fluid.points, solid.points, tolerance);
+  std::vector<Triangle> triangles = fluid.triangles;
+  for (Triangle& triangle : triangles)
+    for (auto& node : triangle) node = nodes[static_cast<std::size_t>(node)];
+  return sorted(triangles) == sorted(solid.triangles);
 }
 
 InterfaceMap InterfaceMap::match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance) {
   const std::string problem = mismatch(fluid.points, solid.points, tolerance);
   if (!problem.empty()) throw input_error("unmatched interface: {}", problem);
-  const NodeGrid grid(solid.points, tolerance);
-  std::vector<int> partner_of(static_cast<std::size_t>(solid.points.cols()), -1);
+  const std::vector<int> nodes = wall_nodes(fluid.points, solid.points, tolerance);
   std::vector<Eigen::Triplet<double>> entries;
-  for (int a = 0; a < fluid.points.cols(); ++a) {
-    const int node = grid.nearest(fluid.points.col(a));
-    int& partner = partner_of[static_cast<std::size_t>(node)];
-    if (partner >= 0)
-      throw input_error("unmatched interface: fluid nodes {} and {} are both nearest to wall node {}", partner, a,
-                        node);
-    partner = a;
-    for (int i = 0; i < 3; ++i) entries.emplace_back(3 * a + i, 3 * node + i, 1.0);
-  }
+  for (int i = 0; i < fluid.points.size(); ++i)
+    entries.emplace_back(i, 3 * nodes[static_cast<std::size_t>(i / 3)] + i % 3, 1.0);
   Rows rows(fluid.points.size(), solid.points.size());
   rows.setFromTriplets(entries.begin(), entries.end());
   InterfaceMap map(fluid.points, solid.points, rows, {}, {});

@@ -22,7 +22,8 @@ class InterfaceMap {
   /// Node for node. Throws InputError that counts the fluid nodes without a wall node within `tolerance` (and wall
   /// nodes without a fluid node) and locates the farthest.
   static InterfaceMap match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance);
-  /// Whether each node has one of the other surface within `tolerance`.
+  /// Whether each node has one of the other surface within `tolerance`, and the same nodes form triangles: nodal loads
+  /// of one triangulation are not those of another, and a wall that takes them for its own ripples from node to node.
   static bool matches(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance);
   /// Each fluid node follows the closest place of the solid's triangles (C.10). Throws InputError if that is farther
   /// than `trust` for some node, or looks the other way.

@@ -51,6 +51,30 @@ TEST(InterfaceMap, MatchSaysHowManyNodesAreAloneAndWhere) {
                InputError);  // each fluid node has its partner, not each wall node
 }
 
+/// The same nodes, the quadrilaterals between them cut along the other diagonal.
+InterfaceSurface cut_otherwise(InterfaceSurface surface) {
+  for (std::size_t i = 0; i + 1 < surface.triangles.size(); i += 2) {
+    const Triangle one = surface.triangles[i], other = surface.triangles[i + 1];
+    EXPECT_EQ(one[0], other[0]);
+    EXPECT_EQ(one[2], other[1]);
+    surface.triangles[i] = {one[0], one[1], other[2]};
+    surface.triangles[i + 1] = {one[1], one[2], other[2]};
+  }
+  return surface;
+}
+
+TEST(InterfaceMap, NodesThatMatchInOtherTrianglesDoNot) {
+  const InterfaceSurface solid = tube(12, 5);
+  InterfaceSurface turned = solid;
+  for (Triangle& triangle : turned.triangles) std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+  std::reverse(turned.triangles.begin(), turned.triangles.end());
+  EXPECT_TRUE(InterfaceMap::matches(solid, solid, 1e-6));
+  EXPECT_TRUE(InterfaceMap::matches(turned, solid, 1e-6));  // the same, written otherwise
+  EXPECT_TRUE(InterfaceMap::matches({solid.points, {}}, solid, 1e-6));
+  EXPECT_FALSE(InterfaceMap::matches(cut_otherwise(solid), solid, 1e-6));
+  EXPECT_FALSE(InterfaceMap::matches(tube(6, 5), solid, 1e-6));
+}
+
 /// Both maps of surfaces that differ in their nodes, in their facets and by a gap.
 std::vector<InterfaceMap> maps_of(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust = 0.3) {
   std::vector<InterfaceMap> maps;

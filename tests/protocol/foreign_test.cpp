@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "tests/io/temporary_folder.hpp"
 #include "tests/protocol/run_job.hpp"
 
 /// Codes in C and Python take the place of ours: the examples of docs/protocol.md, as they stand there.
@@ -127,6 +130,24 @@ TEST_F(ForeignPython, All_processes_of_a_code_answer_together) {
   const auto job = run_job(words, python_path);
   EXPECT_EQ(job.exit_code, 0) << job.errors;
   EXPECT_EQ(steps_of(job), steps_of(couple("fake_fluid", "fake_solid")));
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+/// Each would send the master an answer of its own.
+TEST_F(ForeignPython, Several_processes_that_do_not_serve_together_are_told) {
+  const TemporaryFolder folder;
+  const std::string examples = std::string(TETHER_SOURCE) + "/docs/examples/";
+  const std::string file = (folder.path() / "case.yaml").string();
+  std::ofstream(file) << "base: " << examples
+                      << "ring_tube.yaml\ncoupling: {ranks: {solid: 2}, programs: {solid: " << examples
+                      << "ring_solid.py}}\n";
+  const auto job =
+      run_job({product_program("tether"), "simulate", file, "--output", (folder.path() / "out").string()}, python_path);
+  EXPECT_EQ(job.exit_code, 1) << job.output;
+  EXPECT_NE(job.errors.find("solid: 2 processes (coupling.ranks), each of which would answer alone: let them serve "
+                            "together (Python: together=True; C: a communicator for tether_connect)\n"),
+            std::string::npos)
+      << job.errors;
   EXPECT_TRUE(job.orphans.empty());
 }
 

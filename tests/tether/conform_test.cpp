@@ -115,6 +115,15 @@ struct HalfWay : fakes::FakeFluid {
   }
 };
 
+/// Accepts known names, and goes on as before.
+struct Deaf : fakes::FakeFluid {
+  using FakeFluid::operator();
+  Ready operator()(const SetParameters& m) {
+    Deaf other = *this;
+    return static_cast<FakeFluid&>(other)(m);
+  }
+};
+
 struct WithoutVelocity : fakes::FakeFluid {
   using FakeFluid::operator();
   Velocity operator()(const GetVelocity&) { throw run_error("cannot interpolate"); }
@@ -145,6 +154,10 @@ TEST(Conform, Finds_an_asymmetric_preconditioner) {
 
 TEST(Conform, Finds_that_unknown_parameters_are_swallowed) {
   EXPECT_EQ(faults_of<ToFluid>("fluid", Credulous{}), Names{"parameters can be set, unknown ones are refused"});
+}
+
+TEST(Conform, Finds_that_parameters_do_nothing) {
+  EXPECT_EQ(faults_of<ToFluid>("fluid", Deaf{}), Names{"parameters can be set, unknown ones are refused"});
 }
 
 TEST(Conform, Finds_that_known_parameters_are_set_beside_an_unknown_one) {

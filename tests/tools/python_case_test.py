@@ -28,6 +28,14 @@ class Case(unittest.TestCase):
         case = tether.case(self.write("third.yaml", "base: second.yaml\nsolid: {density: 400 kPa}\nlist: [3]\n"))
         self.assertEqual(case, {"name": "second", "solid": {"density": "400 kPa", "material": {"young": 5e6, "poisson": 0.45}}, "list": [3]})
 
+    def test_a_file_is_where_the_case_that_names_it_says(self):
+        (self.folder / "below").mkdir()
+        self.write("below/first.yaml", "fluid: {inlet: {file: flow.csv, scale: 2}, tables: [{file: ../a.csv}, {file: /b.csv}]}\n")
+        case = tether.case(self.write("second.yaml", "base: below/first.yaml\nsolid: {file: wall.msh}\n"))
+        self.assertEqual(case["fluid"], {"inlet": {"file": f"{self.folder}/below/flow.csv", "scale": 2},
+                                         "tables": [{"file": f"{self.folder}/below/../a.csv"}, {"file": "/b.csv"}]})
+        self.assertEqual(case["solid"]["file"], f"{self.folder}/wall.msh")
+
     def test_reads_a_case_that_builds_on_the_tube(self):
         case = tether.case(CONFIGS / "hidden_effect/case.yaml")
         self.assertEqual(case["mesh"]["swept"]["around"], 16, "its own")

@@ -1,4 +1,5 @@
 /// States, parameters, mistakes and the end.
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -66,6 +67,16 @@ std::string Examiner::parameters() {
       mixed->names.push_back(p.name), mixed->values.push_back(other_value(p));
   after.names.emplace_back(unknown_name), after.values.push_back(1.0);
   const Numbers first = tried_response();
+  const auto felt = std::count_if(announced.begin(), announced.end(), [&](const ParameterInfo& p) {
+    partner_.ask(SetParameters{{p.name}, {other_value(p)}});
+    const double change = difference(first, tried_response());
+    partner_.ask(SetParameters{{p.name}, {p.value}});
+    return change > 0;
+  });
+  require(felt > 0, "none of the {} changes what a step answers: are they set?", announced.size());
+  const double kept = difference(first, tried_response());
+  require(kept <= repeat_tolerance, "set again to what they were they answer otherwise: relative difference {:.2g}",
+          kept);
   for (const SetParameters* mixed : {&before, &after}) {
     expect_failure(*mixed, "an unknown name among known ones");
     const double change = difference(first, tried_response());
@@ -73,7 +84,7 @@ std::string Examiner::parameters() {
     require(change <= repeat_tolerance,
             "refused together with an unknown name, and yet set: relative difference {:.2g}", change);
   }
-  return fmt::format("{}", announced.size());
+  return fmt::format("{}, {} of which change what a step answers", announced.size(), felt);
 }
 
 std::string Examiner::wrong_sizes() {

@@ -1,0 +1,165 @@
+"""An identification over several hosts, and one of them lost: hosts_test.py TETHER CONFIGS. Where hosts cannot be made, exit code 77."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import host_group
+
+TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
+OURS = {"tether", "mpirun", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
+NOTICED = 60  # [s]: half a minute without a word, and what programs then have to say to each other
+
+MODEL = """base: {tube}
+name: tube
+time: {{step: 4e-3, end: 0.4}}
+mesh: {{swept: {{around: 12, along: 8}}}}
+"""
+TWIN = """base: tube.yaml
+name: lost_spring
+solid: {support: {regions: {spine: {stiffness: 1e5}}}}
+twin:
+  truth: tube.yaml
+  seed: 1
+  frames: 6
+  image: {voxel: [1 mm, 1 mm, 1.5 mm]}
+  noise: {deviation: 0.15 mm, correlation_length: 5 mm}
+  hidden: {effects: {visco_elastic: {where: spine, amplitude: 1e6, unit: g/(cm2 s2)}}}
+"""
+IDENTIFICATION = """base: case.yaml
+name: springs
+output: {checkpoint_every: 5}
+identification:
+  parameters:
+    spine: {of: [solid.support.regions.spine.stiffness]}
+    opposite: {of: [solid.support.regions.opposite.stiffness]}
+"""
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+
+def estimates(folder):
+    return (folder / "estimate.csv").read_bytes()
+
+
+class Hosts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="tether_hosts_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, True)
+        cls.group = host_group.HostGroup(cls.folder / "hosts", 3)
+        cls.addClassCleanup(cls.group.stop)
+        (cls.folder / "tube.yaml").write_text(MODEL.format(tube=CONFIGS / "tube/case.yaml"))
+        (cls.folder / "twin.yaml").write_text(TWIN)
+        cls.tether("twin", "twin.yaml", "--output", "twin", "--quiet")
+        (cls.folder / "twin/springs.yaml").write_text(IDENTIFICATION)
+        cls.tether("identify", "twin/springs.yaml", "--processes", "3", "--output", "here", "--quiet")
+
+    def setUp(self):
+        self.group.mend()
+
+    @classmethod
+    def tether(cls, *words):
+        subprocess.run([TETHER, *words], cwd=cls.folder, env=os.environ | AS_ROOT, check=True, capture_output=True)
+
+    def identify(self, name, *words, nodes="h0,h1,h2", **more):
+        line = [TETHER, "identify", "twin/springs.yaml", "--processes", "3", "--output", name, "--quiet", *words]
+        return self.group.start(self.group.hosts[0], line, self.folder, AS_ROOT | {"TETHER_NODES": nodes} | more,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def ours(self, host):
+        return sorted(OURS & host.processes().keys())
+
+    def wait_for_state(self, run, name):
+        """Until something is saved. A run that ends before has said why."""
+        saved = self.folder / name / "checkpoint/identification.bin"
+        self.group.wait(lambda: saved.exists() or run.poll() is not None, 60, "a saved state")
+        self.assertIsNone(run.poll(), run.poll() and run.stderr.read())
+
+    def assert_told(self, run, host, name):
+        told = run.communicate(timeout=NOTICED)[1]
+        self.assertEqual(run.returncode, 1, told)
+        self.assertIn(f"tether: mpirun ended the run: no answer any more from {host}\n", told)
+        self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --resume\n", told)
+        self.assertLessEqual(len(told.splitlines()), 4, told)
+
+    def assert_nothing_left(self, seconds, *hosts):
+        self.group.wait(lambda: not any(map(self.ours, hosts)), seconds, "the end of all processes")
+
+    def assert_goes_on(self, name, nodes):
+        run = self.identify(name, "--resume", nodes=nodes)
+        self.assertEqual(run.communicate(timeout=120)[1], "")
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(estimates(self.folder / name), estimates(self.folder / "here"))
+
+    def test_each_model_is_on_a_host_of_its_own_and_the_estimate_is_that_of_one_host(self):
+        run = self.identify("over")
+        self.group.wait(lambda: all("solid" in self.ours(host) and "fsi_master" in self.ours(host) for host in self.group.hosts), 60,
+                        "a model on each host")
+        self.assertEqual((run.communicate(timeout=120)[1], run.returncode), ("", 0))
+        self.assertEqual(estimates(self.folder / "over"), estimates(self.folder / "here"))
+
+    def test_a_host_that_is_lost_is_named_and_the_others_go_on_to_the_same_bits(self):
+        first, second, third = self.group.hosts
+        run = self.identify("lost")
+        self.wait_for_state(run, "lost")
+        second.lose()
+        self.assert_told(run, "h1", "lost")
+        self.assert_nothing_left(10, first, third)
+        self.assert_goes_on("lost", "h0,h2")
+
+    def test_a_host_that_is_cut_off_ends_its_processes(self):
+        run = self.identify("cut")
+        self.wait_for_state(run, "cut")
+        cut = self.group.hosts[2]
+        cut.cut()
+        self.assert_told(run, "h2", "cut")
+        self.assert_nothing_left(NOTICED, *self.group.hosts)
+        self.group.mend()
+        self.assert_goes_on("cut", "h0,h1,h2")
+
+    def test_if_the_first_host_is_lost_nothing_stays_on_the_others(self):
+        first, *others = self.group.hosts
+        run = self.identify("first")
+        self.wait_for_state(run, "first")
+        first.lose()
+        run.wait(10)
+        run.stderr.close()
+        self.assert_nothing_left(NOTICED, *others)
+        self.group.mend()
+        self.assert_goes_on("first", "h0,h1,h2")
+
+    def test_a_process_that_dies_on_another_host_is_told(self):
+        for program, told_as in (("fsi_master", "the master"), ("fluid", "fluid")):
+            with self.subTest(program):
+                name = f"died_{program}"
+                run = self.identify(name)
+                self.wait_for_state(run, name)
+                os.kill(self.group.hosts[1].processes()[program][0], signal.SIGKILL)
+                told = run.communicate(timeout=40)[1]
+                self.assertEqual(run.returncode, 1, told)
+                self.assertRegex(told, rf"{told_as} \(pid \d+ on h1\) died while .*")
+                self.assert_nothing_left(10, *self.group.hosts)
+
+    def test_a_process_that_is_stopped_on_another_host_is_told(self):
+        run = self.identify("stopped", TETHER_STOPPED_LIMIT="5")
+        self.wait_for_state(run, "stopped")
+        os.kill(self.group.hosts[1].processes()["fsi_master"][0], signal.SIGSTOP)
+        began = time.monotonic()
+        told = run.communicate(timeout=40)[1]
+        self.assertLess(time.monotonic() - began, 20)
+        self.assertEqual(run.returncode, 1, told)
+        self.assertRegex(told, r"\(pid \d+ on h1\) was stopped while .*, and still is 5 s later")
+        self.assert_nothing_left(10, *self.group.hosts)
+
+
+if __name__ == "__main__":
+    if not host_group.can_be_made():
+        print("no rights to make hosts: namespaces, a bridge")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -1,0 +1,39 @@
+#include "common/protocol/nodes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace tether::protocol {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Nodes, OneThatRunsAnswersWhetherItHasSshOrNot) {
+  EXPECT_EQ(silent_nodes({"127.0.0.1", "localhost"}, 5), Names());
+}
+
+/// One that is there and silent: tests/hosts.
+TEST(Nodes, OneThatIsNowhereIsNamed) {
+  const char* nowhere = "no-such-host.invalid";  // RFC 2606
+  EXPECT_EQ(silent_nodes({"127.0.0.1", nowhere}, 5), Names{nowhere});
+}
+
+TEST(Nodes, AJobHasSeveralOrNoneThatMatters) {
+  setenv(nodes_variable, "n1,,n2", 1);
+  EXPECT_EQ(nodes_of_job(), (Names{"n1", "n2"}));
+  EXPECT_EQ(own_node(), "n1");
+  EXPECT_TRUE(is_on_first_node());
+  setenv(node_variable, "n2", 1);
+  EXPECT_EQ(own_node(), "n2");
+  EXPECT_FALSE(is_on_first_node());
+  setenv(nodes_variable, "n1", 1);
+  EXPECT_EQ(nodes_of_job(), Names());
+  EXPECT_EQ(own_node(), "");
+  EXPECT_TRUE(is_on_first_node());
+  unsetenv(nodes_variable);
+  unsetenv(node_variable);
+}
+
+}  // namespace
+}  // namespace tether::protocol
