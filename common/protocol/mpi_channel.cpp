@@ -18,7 +18,7 @@ constexpr double master_waits = 10, partner_waits = 20;
 /// MPI sees what lies in a socket at the second probe. Not many more: on a busy machine each gives the core away.
 constexpr int rounds_of_progress = 4;
 
-/// While it lives nothing is said: this process has told why it fails, and Open MPI logs that its servers go away while
+/// While it lives nothing is said: if a job fails, it has been told why, and Open MPI logs that its servers go away while
 /// leave is taken.
 class Silence {
  public:
@@ -106,7 +106,7 @@ void MpiChannel::close(int exit_code) {
   const Guard deadline(0.5, [exit_code, limit](double seconds) {
     if (seconds > limit) end_job(exit_code);
   });
-  const Silence silence(exit_code != exit_done);
+  const Silence silence(exit_code != exit_done || !own_node().empty());
   if (MPI_Comm_disconnect(&communicator_) != MPI_SUCCESS) end_job(exit_code);  // the launcher has just gone
 }
 

@@ -9,7 +9,7 @@ import time
 
 CONFIGURATION = """
 ClusterName=test
-SlurmctldHost={host}(127.0.0.1)
+SlurmctldHost={host}({address})
 SlurmctldPort={port}
 SlurmUser={user}
 SlurmdUser={user}
@@ -48,6 +48,10 @@ def free_ports(count):
     return ports
 
 
+def user_name():
+    return subprocess.run(["id", "-un"], capture_output=True, text=True, check=True).stdout.strip()
+
+
 class Cluster:
     """Nodes n0, n1, ... of four processors each; partition `urgent` preempts jobs of `work`."""
 
@@ -63,18 +67,25 @@ class Cluster:
 
     def _configure(self):
         host, ports = socket.gethostname(), free_ports(len(self.names) + 1)
-        user = subprocess.run(["id", "-un"], capture_output=True, text=True, check=True).stdout.strip()
-        text = CONFIGURATION.format(host=host, user=user, port=ports[0], folder=self.folder)
+        text = CONFIGURATION.format(host=host, address="127.0.0.1", user=user_name(), port=ports[0], folder=self.folder)
         lines = [f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=4 RealMemory=8000"
                  for name, port in zip(self.names, ports[1:])]
-        (self.folder / "slurm.conf").write_text("\n".join(lines) + text)
+        self._write("\n".join(lines) + text)
+
+    def _write(self, configuration):
+        (self.folder / "slurm.conf").write_text(configuration)
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(1024))
         key.chmod(0o400)
 
-    def _run(self, *words):
+    def _run(self, *words, on=None):
+        """`on`: the node, of a cluster whose nodes are hosts."""
         with open(self.folder / f"{pathlib.Path(words[0]).name}.err", "a", encoding="utf-8") as log:
-            self.processes.append(subprocess.Popen(words, env=self.environment, stdout=log, stderr=log, start_new_session=True))
+            self.processes.append(self._process(words, on, stdout=log, stderr=log))
+
+    def _process(self, words, on, **pipes):
+        del on
+        return subprocess.Popen(words, env=self.environment, start_new_session=True, **pipes)
 
     def _start(self):
         at = self.folder
@@ -83,12 +94,19 @@ class Cluster:
         self.wait(lambda: (at / "munge.socket").exists(), 20, "munged")
         self._run("/usr/sbin/slurmctld", "-D")
         for name in self.names:
-            self._run("/usr/sbin/slurmd", "-D", "-N", name)
-        self.wait(lambda: self.ask("sinfo", "--noheader", "--states=idle", "--partition=work", "--format=%D").strip() == str(len(self.names)),
-                  60, "idle nodes")
+            self._run("/usr/sbin/slurmd", "-D", "-N", name, on=name)
+        self.wait(self._all_idle, 60, "idle nodes")
+
+    def _all_idle(self):
+        return self.ask("sinfo", "--noheader", "--states=idle", "--partition=work", "--format=%D").strip() == str(len(self.names))
+
+    def call(self, *words):
+        process = self._process(words, None, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        output, errors = process.communicate()
+        return subprocess.CompletedProcess(words, process.returncode, output, errors)
 
     def ask(self, *words):
-        return subprocess.run(words, env=self.environment, capture_output=True, text=True).stdout
+        return self.call(*words).stdout
 
     def wait(self, is_so, seconds, what):
         end = time.monotonic() + seconds

@@ -33,6 +33,7 @@ HOST = """set -e
 hostname {name}
 mount --make-rprivate /
 mount -t tmpfs tmpfs /dev/shm
+mount -t tmpfs tmpfs {folder}/local
 mount --bind {folder}/hosts /etc/hosts
 mkdir -p /run/sshd
 until ip addr show dev eth0 2>/dev/null | grep -q {address}; do sleep 0.05; done
@@ -115,7 +116,7 @@ class HostGroup:
 
     def __init__(self, folder, count):
         self.folder = pathlib.Path(folder)
-        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / "local").mkdir(parents=True, exist_ok=True)  # its content is each host's own
         self.bridge = f"th{os.getpid() % 10**6}"
         self.network = f"10.{77 + os.getpid() % 100}.{os.getpid() // 100 % 250}"
         self.hosts, names = [], [f"h{i}" for i in range(count)]

@@ -10,42 +10,12 @@ import tempfile
 import time
 import unittest
 
+import cases
 import host_group
 
 TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
 OURS = {"tether", "mpirun", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
 NOTICED = 60  # [s]: half a minute without a word, and what programs then have to say to each other
-
-MODEL = """base: {tube}
-name: tube
-time: {{step: 4e-3, end: 0.4}}
-mesh: {{swept: {{around: 12, along: 8}}}}
-"""
-TWIN = """base: tube.yaml
-name: lost_spring
-solid: {support: {regions: {spine: {stiffness: 1e5}}}}
-twin:
-  truth: tube.yaml
-  seed: 1
-  frames: 6
-  image: {voxel: [1 mm, 1 mm, 1.5 mm]}
-  noise: {deviation: 0.15 mm, correlation_length: 5 mm}
-  hidden: {effects: {visco_elastic: {where: spine, amplitude: 1e6, unit: g/(cm2 s2)}}}
-"""
-IDENTIFICATION = """base: case.yaml
-name: springs
-output: {checkpoint_every: 5}
-identification:
-  parameters:
-    spine: {of: [solid.support.regions.spine.stiffness]}
-    opposite: {of: [solid.support.regions.opposite.stiffness]}
-"""
-AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-
-
-def estimates(folder):
-    return (folder / "estimate.csv").read_bytes()
-
 
 class Hosts(unittest.TestCase):
     @classmethod
@@ -54,10 +24,7 @@ class Hosts(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder, True)
         cls.group = host_group.HostGroup(cls.folder / "hosts", 3)
         cls.addClassCleanup(cls.group.stop)
-        (cls.folder / "tube.yaml").write_text(MODEL.format(tube=CONFIGS / "tube/case.yaml"))
-        (cls.folder / "twin.yaml").write_text(TWIN)
-        cls.tether("twin", "twin.yaml", "--output", "twin", "--quiet")
-        (cls.folder / "twin/springs.yaml").write_text(IDENTIFICATION)
+        cases.write(cls.folder, CONFIGS, TETHER)
         cls.tether("identify", "twin/springs.yaml", "--processes", "3", "--output", "here", "--quiet")
 
     def setUp(self):
@@ -65,11 +32,11 @@ class Hosts(unittest.TestCase):
 
     @classmethod
     def tether(cls, *words):
-        subprocess.run([TETHER, *words], cwd=cls.folder, env=os.environ | AS_ROOT, check=True, capture_output=True)
+        subprocess.run([TETHER, *words], cwd=cls.folder, env=os.environ | cases.AS_ROOT, check=True, capture_output=True)
 
     def identify(self, name, *words, nodes="h0,h1,h2", **more):
         line = [TETHER, "identify", "twin/springs.yaml", "--processes", "3", "--output", name, "--quiet", *words]
-        return self.group.start(self.group.hosts[0], line, self.folder, AS_ROOT | {"TETHER_NODES": nodes} | more,
+        return self.group.start(self.group.hosts[0], line, self.folder, cases.AS_ROOT | {"TETHER_NODES": nodes} | more,
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def ours(self, host):
@@ -86,7 +53,8 @@ class Hosts(unittest.TestCase):
         self.assertEqual(run.returncode, 1, told)
         self.assertIn(f"tether: mpirun ended the run: no answer any more from {host}\n", told)
         self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --resume\n", told)
-        self.assertLessEqual(len(told.splitlines()), 4, told)
+        ours = [line for line in told.splitlines() if not line.startswith("[")]  # not what mpirun's own servers log of each other
+        self.assertLessEqual(len(ours), 4, told)
 
     def assert_nothing_left(self, seconds, *hosts):
         self.group.wait(lambda: not any(map(self.ours, hosts)), seconds, "the end of all processes")
@@ -95,14 +63,14 @@ class Hosts(unittest.TestCase):
         run = self.identify(name, "--resume", nodes=nodes)
         self.assertEqual(run.communicate(timeout=120)[1], "")
         self.assertEqual(run.returncode, 0)
-        self.assertEqual(estimates(self.folder / name), estimates(self.folder / "here"))
+        self.assertEqual(cases.estimates(self.folder / name), cases.estimates(self.folder / "here"))
 
     def test_each_model_is_on_a_host_of_its_own_and_the_estimate_is_that_of_one_host(self):
         run = self.identify("over")
         self.group.wait(lambda: all("solid" in self.ours(host) and "fsi_master" in self.ours(host) for host in self.group.hosts), 60,
                         "a model on each host")
         self.assertEqual((run.communicate(timeout=120)[1], run.returncode), ("", 0))
-        self.assertEqual(estimates(self.folder / "over"), estimates(self.folder / "here"))
+        self.assertEqual(cases.estimates(self.folder / "over"), cases.estimates(self.folder / "here"))
 
     def test_a_host_that_is_lost_is_named_and_the_others_go_on_to_the_same_bits(self):
         first, second, third = self.group.hosts
