@@ -18,8 +18,8 @@ constexpr double master_waits = 10, partner_waits = 20;
 /// MPI sees what lies in a socket at the second probe. Not many more: on a busy machine each gives the core away.
 constexpr int rounds_of_progress = 4;
 
-/// While it lives nothing is said: if a job fails, it has been told why, and Open MPI logs that its servers go away while
-/// leave is taken.
+/// While it lives nothing is said: if a job fails, it has been told why, and Open MPI logs that its servers go away
+/// while leave is taken.
 class Silence {
  public:
   explicit Silence(bool is_on) : errors_(is_on ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3) : -1) {

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <list>
 #include <sstream>
 
@@ -51,10 +52,10 @@ class Call {
 
 std::vector<std::string> nodes_of_job() {
   const char* text = std::getenv(nodes_variable);
-  std::istringstream list(text == nullptr ? "" : text);
-  std::vector<std::string> nodes;
-  for (std::string node; std::getline(list, node, ',');)
-    if (!node.empty()) nodes.push_back(node);
+  std::string given = text == nullptr ? "" : text;
+  std::replace(given.begin(), given.end(), ',', ' ');
+  std::istringstream list(given);
+  std::vector<std::string> nodes{std::istream_iterator<std::string>(list), {}};
   if (nodes.size() == 1) nodes.clear();
   return nodes;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A solid that fails in its set-up or in its first evaluation, as the environment variable FAIL_IN says."""
+"""A solid that fails in its set-up, in its first evaluation or in what it says, as the environment variable FAIL_IN says."""
 
 import os
 import sys
@@ -15,11 +15,17 @@ class FailingSolid:
     def __init__(self):
         if os.environ["FAIL_IN"] == "set-up":
             raise ValueError("case.yaml:3: no such mesh")
+        if os.environ["FAIL_IN"] == "parameters":
+            self.parameters = [{"name": "stiffness"}]
 
     def begin_step(self, step, time, dt, predicted):
         pass
 
     def evaluate(self, load):
+        if os.environ["FAIL_IN"] == "shape":
+            return load[:, :2], load
+        if os.environ["FAIL_IN"] == "count":
+            return load
         raise RuntimeError("did not converge")
 
     def end_step(self, accepted):

@@ -160,20 +160,32 @@ TEST(Foreign, The_conformance_check_reports_a_death) {
   EXPECT_TRUE(job.orphans.empty());
 }
 
-TEST_F(ForeignPython, Exceptions_are_reported_by_the_master) {
-  const std::string solid = std::string(TETHER_SOURCE) + "/tests/fakes/failing_solid.py";
+/// What is said of a solid that fails in that way, and its exit code.
+void expect_failure(const std::string& in, int exit_code, const std::string& said) {
   Environment environment = python_path;
-  environment["FAIL_IN"] = "set-up";
-  const auto refused = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.errors, "fake_master: solid: ValueError: case.yaml:3: no such mesh (failing_solid.py:17)\n");
-  environment["FAIL_IN"] = "evaluate";
-  const auto failed = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
-  EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_EQ(failed.errors,
-            "fake_master: solid failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge "
-            "(failing_solid.py:23)\n");
-  EXPECT_TRUE(failed.orphans.empty());
+  environment["FAIL_IN"] = in;
+  const std::string solid = std::string(TETHER_SOURCE) + "/tests/fakes/failing_solid.py";
+  const auto job = run_job({test_program("fake_master"), "fake_fluid", solid, "3"}, environment);
+  EXPECT_EQ(job.exit_code, exit_code);
+  EXPECT_EQ(job.errors, "fake_master: solid" + said + "\n");
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+TEST_F(ForeignPython, Exceptions_are_reported_by_the_master) {
+  expect_failure("set-up", 2, ": ValueError: case.yaml:3: no such mesh (failing_solid.py:17)");
+  expect_failure(
+      "evaluate", 1,
+      " failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge (failing_solid.py:29)");
+}
+
+TEST_F(ForeignPython, What_is_not_as_it_should_be_is_told_with_what_is_due) {
+  expect_failure("parameters", 2, ": ValueError: parameters: {'name': 'stiffness'}: needs a name and a value");
+  expect_failure("shape", 1,
+                 " failed while computing step 0 (SolidEvaluate): ValueError: evaluate returned an array of shape (18, "
+                 "2) and an array of shape (18, 3): 2 of shape (18, 3) are due");
+  expect_failure("count", 1,
+                 " failed while computing step 0 (SolidEvaluate): ValueError: evaluate returned an array of shape (18, "
+                 "3): 2 of shape (18, 3) are due");
 }
 
 }  // namespace

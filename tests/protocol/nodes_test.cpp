@@ -20,7 +20,7 @@ TEST(Nodes, OneThatIsNowhereIsNamed) {
 }
 
 TEST(Nodes, AJobHasSeveralOrNoneThatMatters) {
-  setenv(nodes_variable, "n1,,n2", 1);
+  setenv(nodes_variable, "n1,, n2", 1);
   EXPECT_EQ(nodes_of_job(), (Names{"n1", "n2"}));
   EXPECT_EQ(own_node(), "n1");
   EXPECT_TRUE(is_on_first_node());

@@ -114,6 +114,8 @@ def _vectors(array):
 
 
 def _parameter(entry):
+    if "name" not in entry or "value" not in entry:
+        raise ValueError(f"parameters: {entry}: needs a name and a value")
     text = [str(entry.get(key, "")).encode() for key in ("name", "meaning", "unit")]
     numbers = [entry["value"], entry.get("absent", math.nan), entry.get("lower", -math.inf),
                entry.get("upper", math.inf), entry.get("prior_deviation", math.nan),
@@ -178,6 +180,20 @@ def _answer(code, method, arguments):
     if method in ("set_parameters", "set_state", "begin_step", "write"):
         return []
     return [[] if result is None else result] if method == "end_step" else _several(result)
+
+
+_VECTORS_DUE = {9: 1, 10: 1, 11: 2, 12: 2}  # arrays [nodes, 3] in the reply to a request
+
+
+def _checked(kind, answer, nodes):
+    """The reply's arrays; ValueError that says what came instead of those that are due."""
+    due = _VECTORS_DUE.get(kind)
+    if due is None:
+        return answer
+    shapes = ["nothing" if one is None else f"an array of shape {numpy.shape(one)}" for one in answer]
+    if len(answer) != due or any(one is None or numpy.size(one) != 3 * nodes for one in answer):
+        raise ValueError(f"{_METHODS[kind]} returned {' and '.join(shapes)}: {due} of shape ({nodes}, 3) are due")
+    return answer
 
 
 class _Alone:
@@ -250,18 +266,19 @@ class _Together:
 
 
 def _in_words(error):
-    """What an exception says, and where the program raised it, or called what did."""
-    frames = traceback.extract_tb(error.__traceback__)
+    """What an exception says, and where the program raised it, or called what did; of one of this library, no place."""
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename != __file__]
     own = [frame for frame in frames if frame.filename == sys.argv[0]] or frames
-    return f"{type(error).__name__}: {error} ({os.path.basename(own[-1].filename)}:{own[-1].lineno})"
+    place = f" ({os.path.basename(own[-1].filename)}:{own[-1].lineno})" if own else ""
+    return f"{type(error).__name__}: {error}{place}"
 
 
-def _converse(library, partner, code, group):
+def _converse(library, partner, code, group, nodes):
     """Answers requests until the job is over."""
     request = _Request()
     while library.tether_next(partner, ctypes.byref(request)) == 1:
         try:
-            arrays = [_doubles(values) for values in group.answer(code, *_call_of(request))]
+            arrays = [_doubles(values) for values in _checked(request.kind, group.answer(code, *_call_of(request)), nodes)]
         except Exception as error:
             library.tether_fail(partner, _in_words(error).encode())
             continue
@@ -302,6 +319,6 @@ def serve(role, make, communicator=None, together=False):
         library.tether_refuse(partner, _in_words(error).encode())
     else:
         library.tether_introduce(partner, ctypes.byref(introduction.description))
-        _converse(library, partner, code, group)
+        _converse(library, partner, code, group, len(introduction.points) // 3)
     group.end()
     return library.tether_end(partner)
