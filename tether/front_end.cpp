@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "common/base/built_from.hpp"
 #include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
@@ -112,6 +113,12 @@ std::string usage() {
 
 namespace {
 
+/// "tether 0.1.0 (a1b2c3d)": of the project, and of the commit that it was built from.
+std::string version() {
+  const std::string commit = built_from;
+  return fmt::format("tether {}{}", TETHER_VERSION, commit.empty() ? "" : " (" + commit + ")");
+}
+
 /// The exit code, if all that was told could be written.
 int told_to_the_end(int exit_code) {
   std::cout.flush();
@@ -129,6 +136,10 @@ int answered(int argc, char** argv) {
   if (word == "submit") return submit(argc - 2, argv + 2);
   if (word == "status") return job_status(argc - 2, argv + 2);
   if (word == "results") return job_results(argc - 2, argv + 2);
+  if (word == "--version") {
+    std::cout << version() << '\n';
+    return exit_done;
+  }
   const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.name == word; });
   if (verb != verbs.end()) return run_main(argc - 1, argv + 1, program_of(*verb));
   const bool asked = word == "--help" || word == "-h" || word == "help";

@@ -13,7 +13,8 @@ COARSE = """base: {base}
 name: {name}
 time: {{step: 4e-3}}
 mesh: {{swept: {{around: 16, along: 12}}}}
-solid: {{support: {{regions: {{spine: {{stiffness: {spring}}}}}}}}}
+solid:
+  support: {{regions: {{spine: {{stiffness: {spring}}}}}}}
 """
 TWIN = """base: ours.yaml
 name: twin
@@ -86,7 +87,7 @@ class BesideOurs(unittest.TestCase):
             self.assertEqual((self.folder / "parts" / name).read_bytes(), (self.folder / "whole" / name).read_bytes(), name)
 
     def assert_identifies_the_spring(self, case, more=""):
-        """Of data of ours, which hide it: its interval holds the truth. `more`: what else the coarser case says."""
+        """Of data of ours, which hide it: its interval holds the truth. `more`: lines that the coarser case says below these."""
         tube = self.sources / "configs/tube/case.yaml"
         self.write("truth.yaml", COARSE.format(base=tube, name="truth", spring=HIDDEN))
         self.write("ours.yaml", COARSE.format(base=tube, name="ours", spring=0))

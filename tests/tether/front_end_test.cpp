@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <regex>
 
 #include "common/base/child_process.hpp"
 #include "common/io/record_file.hpp"
@@ -140,6 +141,12 @@ TEST_F(FrontEnd, WritesAndTellsTheNoiseOfTwoSurfaces) {
 TEST_F(FrontEnd, HandsTheOptionsOn) {
   EXPECT_EQ(tether("simulate case.yaml --output results --steps 7 --resume --quiet").output, "");
   EXPECT_EQ(content("arguments"), "case.yaml --output results --steps 7 --resume --quiet\n");
+}
+
+TEST_F(FrontEnd, TellsItsVersion) {
+  const ChildEnd end = tether("--version");
+  EXPECT_EQ(end.exit_code, 0);
+  EXPECT_TRUE(std::regex_match(end.output, std::regex("tether \\d+\\.\\d+\\.\\d+( \\(.+\\))?\n"))) << end.output;
 }
 
 TEST_F(FrontEnd, DoesNotStartAWrongCase) {
