@@ -238,8 +238,8 @@ class Client {
 
   void refuse(const std::string& message) {
     master().send(pack(Failure{message, true}));
-    master().close(exit_run_failed);
     stage_ = Stage::over;
+    if (session_.is_alone()) master().close(exit_run_failed);  // else in `end`, where the others take leave too
   }
 
   bool next(tether_request& request) {
@@ -289,6 +289,10 @@ class Client {
         session_.gather_processes();
         master().close(exit_done);
       }
+    }
+    if (stage_ == Stage::over && !session_.is_alone()) {
+      session_.gather_processes();
+      master().close(exit_run_failed);
     }
     link_.reset();
     return session_.end(exit_done);

@@ -1,5 +1,8 @@
 #include "fsi_master/message_partners.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tether {
 namespace {
 
@@ -42,8 +45,17 @@ Later<std::vector<double>> ask_end_step(Partner& partner, bool accepted) {
   });
 }
 
+/// Throws RunError for one that cannot be set again: it would be saved, and be missed when the run is to go on.
 Later<std::vector<double>> ask_state(Partner& partner) {
-  return ask_later(partner, protocol::GetState{}, [](protocol::State state) { return std::move(state.values); });
+  return ask_later(partner, protocol::GetState{}, [&partner](protocol::State state) {
+    const auto announced = static_cast<std::size_t>(partner.hello().state_size);
+    if (state.values.size() != announced)
+      throw run_error("{} gives a state of {} numbers after announcing {}", partner.role(), state.values.size(),
+                      announced);
+    if (!std::all_of(state.values.begin(), state.values.end(), [](double x) { return std::isfinite(x); }))
+      throw run_error("{} gives a state with numbers that are not finite", partner.role());
+    return std::move(state.values);
+  });
 }
 
 Later<Done> tell_state(Partner& partner, std::vector<double> values) {
@@ -72,6 +84,16 @@ protocol::Correct correction_of(const Innovation& data, double dt, bool drift) {
 VectorXd sized(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
   check_size(values, size, partner);
   return vector_of(values);
+}
+
+/// A wall's displacement. Of its velocity, which the residual is made of, Convergence says whether it is finite.
+VectorXd displacement_of(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
+  VectorXd displacement = sized(values, size, partner);
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!std::isfinite(displacement[i]))
+      throw StepFailure(fmt::format("{} answered with a displacement that is not finite, at interface node {}",
+                                    partner.role(), i / 3));
+  return displacement;
 }
 
 }  // namespace
@@ -204,10 +226,10 @@ Later<PartnerUsage> MessageSolid::usage() {
 }
 
 Later<Motion> MessageSolid::motion(const VectorXd& load) {
-  return ask_later(partner_, protocol::SolidEvaluate{values_of(load)},
-                   [this, size = load.size()](const protocol::Motion& motion) {
-                     return Motion{sized(motion.displacement, size, partner_), sized(motion.velocity, size, partner_)};
-                   });
+  return ask_later(
+      partner_, protocol::SolidEvaluate{values_of(load)}, [this, size = load.size()](const protocol::Motion& motion) {
+        return Motion{displacement_of(motion.displacement, size, partner_), sized(motion.velocity, size, partner_)};
+      });
 }
 
 Later<VectorXd> MessageSolid::velocity_change(const VectorXd& load_change) {
@@ -220,8 +242,9 @@ Later<VectorXd> MessageSolid::velocity_change(const VectorXd& load_change) {
 Later<SolidPartner::Iterate> MessageSolid::residual(const VectorXd& correction, const VectorXd& load) {
   return ask_later(partner_, protocol::SolidResidual{values_of(correction), values_of(load)},
                    [this, size = load.size()](const protocol::SolidResidualReply& reply) {
-                     return Iterate{vector_of(reply.residual),
-                                    {sized(reply.displacement, size, partner_), sized(reply.velocity, size, partner_)}};
+                     return Iterate{
+                         vector_of(reply.residual),
+                         {displacement_of(reply.displacement, size, partner_), sized(reply.velocity, size, partner_)}};
                    });
 }
 

@@ -192,6 +192,12 @@ bool Session::is_leader() const {
   return parts_->is_leader;
 }
 
+bool Session::is_alone() const {
+  int size = 1;
+  MPI_Comm_size(parts_->own, &size);
+  return size == 1;
+}
+
 int Session::communicator() const {
   return MPI_Comm_c2f(parts_->own);
 }
@@ -245,9 +251,7 @@ Partner& Session::first_to_reply(std::span<Partner* const> asked) {
 }
 
 void Session::gather_processes() {
-  int size = 1;
-  MPI_Comm_size(parts_->own, &size);
-  if (parts_->parent == MPI_COMM_NULL || size == 1) return;
+  if (parts_->parent == MPI_COMM_NULL || is_alone()) return;
   MPI_Request meeting = MPI_REQUEST_NULL;
   check_mpi(MPI_Ibarrier(parts_->own, &meeting), "MPI_Ibarrier");
   const auto have_met = [&meeting] {

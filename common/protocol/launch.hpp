@@ -46,6 +46,8 @@ class Session {
   bool has_master() const;
   /// Whether this process talks: rank 0 of its code.
   bool is_leader() const;
+  /// Whether its code has no other process.
+  bool is_alone() const;
   /// Fortran handle of the processes of this code.
   int communicator() const;
 

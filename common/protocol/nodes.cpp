@@ -1,6 +1,7 @@
 #include "common/protocol/nodes.hpp"
 
 #include <netdb.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,22 +13,31 @@
 #include <cstdlib>
 #include <iterator>
 #include <list>
+#include <memory>
 #include <sstream>
+
+#include "common/base/error.hpp"
 
 namespace tether::protocol {
 
 namespace {
 
+/// Where a node's ssh would be. Null: the name is nobody's.
+std::shared_ptr<addrinfo> address_of(const std::string& node) {
+  addrinfo hints{}, *found = nullptr;
+  hints.ai_socktype = SOCK_STREAM;
+  if (getaddrinfo(node.c_str(), "22", &hints, &found) != 0) return nullptr;
+  return {found, freeaddrinfo};
+}
+
 /// A connection that is being made, and whether it is known already how that ends.
 class Call {
  public:
   explicit Call(const std::string& node) {
-    addrinfo hints{}, *found = nullptr;
-    hints.ai_socktype = SOCK_STREAM;
-    if (getaddrinfo(node.c_str(), "22", &hints, &found) != 0) return;
-    descriptor_ = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (descriptor_ >= 0) error_ = connect(descriptor_, found->ai_addr, found->ai_addrlen) == 0 ? 0 : errno;
-    freeaddrinfo(found);
+    const std::shared_ptr<addrinfo> at = address_of(node);
+    if (!at) return;
+    descriptor_ = socket(at->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (descriptor_ >= 0) error_ = connect(descriptor_, at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
   }
   ~Call() {
     if (descriptor_ >= 0) close(descriptor_);
@@ -56,8 +66,27 @@ std::vector<std::string> nodes_of_job() {
   std::replace(given.begin(), given.end(), ',', ' ');
   std::istringstream list(given);
   std::vector<std::string> nodes{std::istream_iterator<std::string>(list), {}};
+  constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+  for (const std::string& node : nodes) {
+    if (node.find_first_not_of(letters) != std::string::npos)
+      throw input_error("{}: {}: names of hosts with commas between them, n1,n2, and nothing else", nodes_variable,
+                        node);
+    if (std::count(nodes.begin(), nodes.end(), node) > 1) throw input_error("{}: {} twice", nodes_variable, node);
+  }
   if (nodes.size() == 1) nodes.clear();
   return nodes;
+}
+
+bool is_here(const std::string& node) {
+  const std::shared_ptr<addrinfo> at = address_of(node);
+  if (!at) return false;
+  const int descriptor = socket(at->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  auto* place = reinterpret_cast<sockaddr_in*>(at->ai_addr);
+  if (at->ai_family == AF_INET) place->sin_port = 0;  // any that is free
+  if (at->ai_family == AF_INET6) reinterpret_cast<sockaddr_in6*>(at->ai_addr)->sin6_port = 0;
+  const bool here = descriptor >= 0 && bind(descriptor, at->ai_addr, at->ai_addrlen) == 0;
+  if (descriptor >= 0) close(descriptor);
+  return here;
 }
 
 std::string own_node() {

@@ -10,8 +10,12 @@ namespace tether::protocol {
 inline constexpr const char* nodes_variable = "TETHER_NODES";
 inline constexpr const char* node_variable = "TETHER_NODE";
 
-/// The nodes of the job; nothing if there is one only, or nobody said.
+/// The nodes of the job; nothing if there is one only, or nobody said. Throws InputError for what is no name of a host,
+/// or is there twice.
 std::vector<std::string> nodes_of_job();
+
+/// Whether a node's address is one of this machine.
+bool is_here(const std::string& node);
 
 /// Where the partners of this process are to run: on its own node; the first process is on the first. Empty: wherever
 /// MPI starts them.

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
@@ -48,15 +49,26 @@ bool are_nodes_given() {
 }
 
 /// The nodes, which mpirun reaches by ssh where no scheduler gave them; and that one of which nothing is heard for half
-/// a minute is lost: Open MPI would wait for eight. The user's own settings stand.
+/// a minute is lost: Open MPI would wait for eight, and ssh without end. The user's own settings stand. Throws
+/// InputError if the first is another machine: locks and notes of the run are looked for here.
 void add_nodes(Command& run) {
   const std::vector<std::string> nodes = protocol::nodes_of_job();
   if (nodes.empty()) return;
-  if (!are_nodes_given()) run.words.insert(run.words.begin() + 1, {"--host", fmt::to_string(fmt::join(nodes, ","))});
-  for (const auto& [name, seconds] :
-       {std::pair{"OMPI_MCA_oob_tcp_keepalive_time", "10"}, std::pair{"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
-        std::pair{"OMPI_MCA_oob_tcp_keepalive_probes", "4"}})
-    if (std::getenv(name) == nullptr) run.environment.emplace_back(name, seconds);
+  const auto set = [&run](const char* name, const char* value) {
+    if (std::getenv(name) == nullptr) run.environment.emplace_back(name, value);
+  };
+  if (!are_nodes_given()) {
+    if (!protocol::is_here(nodes.front()))
+      throw input_error("{}: {} is not this machine ({}), which must be the first", protocol::nodes_variable,
+                        nodes.front(), host_name());
+    run.words.insert(run.words.begin() + 1, {"--host", fmt::to_string(fmt::join(nodes, ","))});
+    const char* agent = std::getenv("OMPI_MCA_plm_rsh_agent");
+    if (agent == nullptr || std::string_view(agent).starts_with("ssh"))
+      set("OMPI_MCA_plm_rsh_args", "-o ServerAliveInterval=10 -o ServerAliveCountMax=2 -o ConnectTimeout=30");
+  }
+  set("OMPI_MCA_oob_tcp_keepalive_time", "10");
+  set("OMPI_MCA_oob_tcp_keepalive_intvl", "5");
+  set("OMPI_MCA_oob_tcp_keepalive_probes", "4");
 }
 
 /// The file by which a run's programs let this process know that they said why they failed; gone with this process.
@@ -138,7 +150,7 @@ int report_failure(const ForegroundEnd& end, const std::string& master, const ch
   if (end.handed_on != 0 && told != protocol::Told::interruption)
     std::cerr << "tether: interrupted\n";
   else if (const std::string lost = end.handed_on == 0 ? lost_nodes() : ""; !lost.empty())
-    std::cerr << fmt::format("tether: mpirun ended the run: no answer any more from {}\n", lost);
+    std::cerr << fmt::format("tether: mpirun ended the run: no answer from {}\n", lost);
   else if (told == protocol::Told::nothing && !end.was_still)
     std::cerr << fmt::format("tether: {}\n", how_it_failed(end, master));
   if (end.exit_code == exit_input_wrong) return exit_input_wrong;

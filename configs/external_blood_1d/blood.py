@@ -140,6 +140,9 @@ def of_case():
     case = tether.case(sys.argv[1])
     tube, fluid = case["mesh"]["swept"], case["fluid"]
     flow, outlet = fluid["inlets"]["inlet"]["flow"], fluid["outlets"]["outlet"]
+    for place, kind, own in (("fluid.rheology", fluid["rheology"]["type"], "newtonian"), ("fluid.outlets.outlet", outlet["type"], "windkessel")):
+        if kind != own:
+            raise ValueError(f"{place}.type: {kind}: this blood knows {own} only")
     numbers = {"density": fluid["density"], "rheology.viscosity": fluid["rheology"]["viscosity"], "distal_pressure": outlet["distal_pressure"],
                **{name: outlet[name.rsplit(".", 1)[1]] for name in PARAMETERS if name.startswith("outlets.")}}
     mesh = fluid.get("mesh", tube)

@@ -83,6 +83,8 @@ class Wall:
     def __init__(self):
         case = tether.case(sys.argv[1])
         self.solid, self.swept = case["solid"], case["mesh"]["swept"]
+        if self.solid["material"]["type"] != "neo_hookean":
+            raise ValueError(f"solid.material.type: {self.solid['material']['type']}: this wall knows neo_hookean only")
         self.tube = Tube(self.swept["radius"], self.swept["wall_thickness"], self.swept["length"], **self.solid["mesh"])
         self.lumen, self.consistent = self.tube.loads()
         self.points = self.tube.points[self.lumen]

@@ -24,6 +24,8 @@ class FailingSolid:
     def evaluate(self, load):
         if os.environ["FAIL_IN"] == "shape":
             return load[:, :2], load
+        if os.environ["FAIL_IN"] == "order":
+            return load.T, load.T
         if os.environ["FAIL_IN"] == "count":
             return load
         raise RuntimeError("did not converge")

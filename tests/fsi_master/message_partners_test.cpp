@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/fakes/fake_fluid.hpp"
 #include "tests/fakes/fake_solid.hpp"
@@ -46,6 +47,52 @@ TEST(MessagePartners, AFailureIsAStepFailureAndTheNextRequestGetsItsOwnReply) {
   EXPECT_THROW(black_box.load_change(VectorXd::Zero(surface.points.size())).get(), StepFailure);
   { auto dropped = black_box.state(); }
   EXPECT_EQ(black_box.end_step(true).get().size(), 1u);
+}
+
+/// A displacement of which one number is none, and a state of another size than announced.
+struct Careless : fakes::FakeSolid {
+  using FakeSolid::operator();
+  protocol::Motion operator()(const protocol::SolidEvaluate& m) {
+    protocol::Motion motion = FakeSolid::operator()(m);
+    motion.displacement[7] = std::nan("");
+    return motion;
+  }
+  protocol::State operator()(const protocol::GetState& m) {
+    protocol::State state = FakeSolid::operator()(m);
+    (short_state ? state.values.pop_back() : void(state.values[0] = std::nan("")));
+    return state;
+  }
+  bool short_state = false;
+};
+
+TEST(MessageSolid, ADisplacementThatIsNoNumberFailsTheStep) {
+  auto process = in_process_partner<protocol::ToSolid>("solid", std::make_shared<Careless>());
+  MessageSolid solid(process);
+  const VectorXd zero = VectorXd::Zero(ask_interface(process).points.size());
+  solid.begin_step({1, 0, 0.1, zero, zero}).get();
+  try {
+    solid.motion(zero).get();
+    FAIL() << "no error";
+  } catch (const StepFailure& failure) {
+    EXPECT_STREQ(failure.what(), "solid answered with a displacement that is not finite, at interface node 2");
+  }
+}
+
+TEST(MessageSolid, AStateThatCannotBeSetAgainIsRefusedBeforeItIsSaved) {
+  const auto said = [](bool is_short) -> std::string {
+    auto careless = std::make_shared<Careless>();
+    careless->short_state = is_short;
+    auto process = in_process_partner<protocol::ToSolid>("solid", careless);
+    process.hello();
+    try {
+      MessageSolid(process).state().get();
+    } catch (const RunError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(said(true).find(" numbers after announcing "), std::string::npos) << said(true);
+  EXPECT_EQ(said(false), "solid gives a state with numbers that are not finite");
 }
 
 TEST(MessageSolid, GivesItsEquationsAsTheSolidSentThem) {

@@ -14,7 +14,7 @@ import cases
 import host_group
 
 TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
-OURS = {"tether", "mpirun", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
+OURS = {"tether", "mpirun", "ssh", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
 NOTICED = 60  # [s]: half a minute without a word, and what programs then have to say to each other
 
 class Hosts(unittest.TestCase):
@@ -51,7 +51,7 @@ class Hosts(unittest.TestCase):
     def assert_told(self, run, host, name):
         told = run.communicate(timeout=NOTICED)[1]
         self.assertEqual(run.returncode, 1, told)
-        self.assertIn(f"tether: mpirun ended the run: no answer any more from {host}\n", told)
+        self.assertIn(f"tether: mpirun ended the run: no answer from {host}\n", told)
         self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --resume\n", told)
         ours = [line for line in told.splitlines() if not line.startswith("[")]  # not what mpirun's own servers log of each other
         self.assertLessEqual(len(ours), 4, told)
@@ -80,6 +80,22 @@ class Hosts(unittest.TestCase):
         self.assert_told(run, "h1", "lost")
         self.assert_nothing_left(10, first, third)
         self.assert_goes_on("lost", "h0,h2")
+
+    def test_a_host_that_is_lost_while_it_starts_is_named(self):
+        """Before its orted has called, only ssh knows of it."""
+        run = self.identify("start")
+        host = self.group.hosts[1]
+        self.group.wait(lambda: "orted" in host.processes(), 30, "orted")
+        host.lose()
+        told = run.communicate(timeout=NOTICED)[1]
+        self.assertEqual(run.returncode, 1, told)
+        self.assertIn("tether: mpirun ended the run: no answer from h1\n", told)
+        self.assert_nothing_left(10, self.group.hosts[0], self.group.hosts[2])
+
+    def test_the_first_host_is_this_one(self):
+        run = self.identify("elsewhere", nodes="h1,h0")
+        self.assertEqual(run.communicate(timeout=30)[1], "TETHER_NODES: h1 is not this machine (h0), which must be the first\n")
+        self.assertEqual(run.returncode, 2)
 
     def test_a_host_that_is_cut_off_ends_its_processes(self):
         run = self.identify("cut")

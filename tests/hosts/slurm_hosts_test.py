@@ -44,12 +44,13 @@ class SlurmOverHosts(unittest.TestCase):
         """Starts programs, a task each, on the hosts that are named for them."""
         (self.folder / "programs").write_text("".join(f"{k} {TETHER.parent / words}\n" for k, words in enumerate(tasks)))
         (self.folder / "places").write_text("\n".join(hosts) + "\n")
-        self.on_first("env", f"SLURM_HOSTFILE={self.folder}/places", "srun", "--mpi=pmix", f"--ntasks={len(tasks)}", "--distribution=arbitrary",
-                      *options, "--multi-prog", self.folder / "programs")
+        return self.cluster.call("env", f"SLURM_HOSTFILE={self.folder}/places", "timeout", "120", "srun", "--mpi=pmix", "--kill-on-bad-exit=1",
+                                 f"--ntasks={len(tasks)}", "--distribution=arbitrary", *options, "--multi-prog", f"{self.folder}/programs")
 
     def test_srun_starts_the_programs_of_a_run_on_three_hosts(self):
         case, output = self.folder / "tube.yaml", self.folder / "run_srun"
-        self.srun([f"fsi_master {case} --steps 20 --output {output}", f"fluid {case}", f"solid {case}"], ["h0", "h1", "h2"])
+        done = self.srun([f"fsi_master {case} --steps 20 --output {output}", f"fluid {case}", f"solid {case}"], ["h0", "h1", "h2"])
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((output / "timeseries.csv").read_bytes(), (self.folder / "run_here/timeseries.csv").read_bytes())
 
     def test_srun_starts_an_identification_with_a_model_on_each_host(self):
@@ -57,8 +58,15 @@ class SlurmOverHosts(unittest.TestCase):
         programs = [f"identification_master {case} --output {output}"]
         for name in ("fsi_master", "fluid", "solid", "observation_manager"):
             programs += [f"{name} {case}"] * HOSTS
-        self.srun(programs, ["h0"] + hosts * 4, "--overcommit")
+        done = self.srun(programs, ["h0"] + hosts * 4, "--overcommit")
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(cases.estimates(output), cases.estimates(self.folder / "here"))
+
+    def test_a_program_that_srun_does_not_start_is_named_and_all_end(self):
+        case = self.folder / "tube.yaml"
+        done = self.srun([f"fsi_master {case} --output {self.folder}/alone", f"fluid {case}"], ["h0", "h1"])
+        self.assertNotIn(done.returncode, (0, 124), "ended by itself")
+        self.assertIn("the mpirun line has no solid for this fsi_master", done.stderr)
 
     def state_of(self, name):
         return self.on_first(TETHER, "status", self.folder / name).splitlines()[1].split()[1]

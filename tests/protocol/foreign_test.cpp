@@ -151,6 +151,24 @@ TEST_F(ForeignPython, Several_processes_that_do_not_serve_together_are_told) {
   EXPECT_TRUE(job.orphans.empty());
 }
 
+/// The master hears of it although all processes take leave together.
+TEST_F(ForeignPython, What_one_of_several_processes_refuses_is_told) {
+  const TemporaryFolder folder;
+  const auto file = [&folder](const char* name) { return (folder / name).string(); };
+  std::ofstream(file("solid.py")) << "#!/usr/bin/python3\nimport sys, tether\n"
+                                     "def make(communicator):\n    raise ValueError('no file wall.dat')\n"
+                                     "sys.exit(tether.serve('solid', make, together=True))\n";
+  std::filesystem::permissions(file("solid.py"), std::filesystem::perms::owner_all);
+  std::ofstream(file("case.yaml")) << "base: " << TETHER_SOURCE << "/docs/examples/ring_tube.yaml\n"
+                                   << "coupling: {ranks: {solid: 2}, programs: {solid: ./solid.py}}\n";
+  const auto job =
+      run_job({product_program("tether"), "simulate", file("case.yaml"), "--output", file("out")}, python_path);
+  EXPECT_EQ(job.exit_code, 2) << job.output;
+  EXPECT_NE(job.errors.find("fsi_master: solid: ValueError: no file wall.dat (solid.py:4)\n"), std::string::npos)
+      << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
 TEST(Foreign, The_conformance_check_reports_a_death) {
   const auto job = run_job({product_program("tether_conform"), test_program("fake_solid")},
                            {{"TETHER_FAKE", "solid.kill=SolidTangent"}});
@@ -175,7 +193,7 @@ TEST_F(ForeignPython, Exceptions_are_reported_by_the_master) {
   expect_failure("set-up", 2, ": ValueError: case.yaml:3: no such mesh (failing_solid.py:17)");
   expect_failure(
       "evaluate", 1,
-      " failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge (failing_solid.py:29)");
+      " failed while computing step 0 (SolidEvaluate): RuntimeError: did not converge (failing_solid.py:31)");
 }
 
 TEST_F(ForeignPython, What_is_not_as_it_should_be_is_told_with_what_is_due) {
@@ -183,6 +201,9 @@ TEST_F(ForeignPython, What_is_not_as_it_should_be_is_told_with_what_is_due) {
   expect_failure("shape", 1,
                  " failed while computing step 0 (SolidEvaluate): ValueError: evaluate returned an array of shape (18, "
                  "2) and an array of shape (18, 3): 2 of shape (18, 3) are due");
+  expect_failure("order", 1,
+                 " failed while computing step 0 (SolidEvaluate): ValueError: evaluate returned an array of shape (3, "
+                 "18) and an array of shape (3, 18): 2 of shape (18, 3) are due");
   expect_failure("count", 1,
                  " failed while computing step 0 (SolidEvaluate): ValueError: evaluate returned an array of shape (18, "
                  "3): 2 of shape (18, 3) are due");

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "common/base/error.hpp"
+
 namespace tether::protocol {
 namespace {
 
@@ -19,6 +21,12 @@ TEST(Nodes, OneThatIsNowhereIsNamed) {
   EXPECT_EQ(silent_nodes({"127.0.0.1", nowhere}, 5), Names{nowhere});
 }
 
+TEST(Nodes, ThisMachineIsKnownByItsAddress) {
+  EXPECT_TRUE(is_here("localhost"));
+  EXPECT_FALSE(is_here("192.0.2.1"));  // kept for documents (RFC 5737)
+  EXPECT_FALSE(is_here("no-such-host.invalid"));
+}
+
 TEST(Nodes, AJobHasSeveralOrNoneThatMatters) {
   setenv(nodes_variable, "n1,, n2", 1);
   EXPECT_EQ(nodes_of_job(), (Names{"n1", "n2"}));
@@ -27,6 +35,10 @@ TEST(Nodes, AJobHasSeveralOrNoneThatMatters) {
   setenv(node_variable, "n2", 1);
   EXPECT_EQ(own_node(), "n2");
   EXPECT_FALSE(is_on_first_node());
+  for (const char* wrong : {"n1:4,n2", "n1;n2", "n1,n2,n1"}) {
+    setenv(nodes_variable, wrong, 1);
+    EXPECT_THROW(nodes_of_job(), InputError) << wrong;
+  }
   setenv(nodes_variable, "n1", 1);
   EXPECT_EQ(nodes_of_job(), Names());
   EXPECT_EQ(own_node(), "");

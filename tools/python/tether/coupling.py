@@ -117,10 +117,26 @@ def _parameter(entry):
     if "name" not in entry or "value" not in entry:
         raise ValueError(f"parameters: {entry}: needs a name and a value")
     text = [str(entry.get(key, "")).encode() for key in ("name", "meaning", "unit")]
-    numbers = [entry["value"], entry.get("absent", math.nan), entry.get("lower", -math.inf),
-               entry.get("upper", math.inf), entry.get("prior_deviation", math.nan),
-               entry.get("scale", math.nan)]
-    return _Parameter(*text, entry.get("transform", "linear").encode(), *map(float, numbers))
+    numbers = dict(value=None, absent=math.nan, lower=-math.inf, upper=math.inf, prior_deviation=math.nan, scale=math.nan)
+    for key in numbers:
+        try:
+            numbers[key] = float(entry.get(key, numbers[key]))
+        except (TypeError, ValueError):
+            raise ValueError(f"parameter {entry['name']}: {key}: {entry[key]!r} is no number") from None
+    return _Parameter(*text, entry.get("transform", "linear").encode(), *numbers.values())
+
+
+def _triangles(values):
+    numbers = numpy.asarray(values)
+    if numbers.ndim != 2 or numbers.shape[1] != 3 or not numpy.issubdtype(numbers.dtype, numpy.integer):
+        raise ValueError(f"triangles: an array of shape {numbers.shape} and kind {numbers.dtype}: whole numbers of shape (m, 3) are due")
+    return numpy.ascontiguousarray(numbers, dtype=numpy.int64).ravel()
+
+
+def _points(values):
+    if numpy.ndim(values) != 2 or numpy.shape(values)[1] != 3:
+        raise ValueError(f"points: an array of shape {numpy.shape(values)}: (n, 3) is due")
+    return _doubles(values)
 
 
 class _Introduction:
@@ -128,8 +144,7 @@ class _Introduction:
 
     def __init__(self, code):
         can = lambda *names: int(all(hasattr(code, name) for name in names))
-        self.points = _doubles(code.points)
-        self.triangles = numpy.ascontiguousarray(code.triangles, dtype=numpy.int64).ravel()
+        self.points, self.triangles = _points(code.points), _triangles(code.triangles)
         parameters = [_parameter(entry) for entry in getattr(code, "parameters", [])]
         observables = [_Observable(name.encode(), unit.encode()) for name, unit in getattr(code, "observables", [])]
         self.description = _Description(
@@ -191,7 +206,7 @@ def _checked(kind, answer, nodes):
     if due is None:
         return answer
     shapes = ["nothing" if one is None else f"an array of shape {numpy.shape(one)}" for one in answer]
-    if len(answer) != due or any(one is None or numpy.size(one) != 3 * nodes for one in answer):
+    if len(answer) != due or any(one is None or numpy.shape(one) not in ((nodes, 3), (3 * nodes,)) for one in answer):
         raise ValueError(f"{_METHODS[kind]} returned {' and '.join(shapes)}: {due} of shape ({nodes}, 3) are due")
     return answer
 
