@@ -8,6 +8,7 @@ from jobs import ROOT, Job, clean
 
 sys.path.insert(0, str(ROOT / "tests/hosts"))
 from host_group import HostGroup
+from waiting import wait
 
 NODES = ("h0", "h1")
 
@@ -39,7 +40,7 @@ def over_hosts(bench, what):
         job = Job("identify", bench.case("identify"), output, ("--processes", str(len(NODES))), on=group.hosts[0], TETHER_NODES=",".join(NODES),
                   TETHER_STOPPED_LIMIT="5")
         saved = output / "checkpoint/identification.bin"
-        group.wait(lambda: saved.exists() or not job.is_running(), 60, "a saved state")
+        wait(lambda: saved.exists() or not job.is_running(), 60, "a saved state")
         if not job.is_running():
             return bench.absent(job)
         HAPPENS[what](group.hosts)

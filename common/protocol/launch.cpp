@@ -80,10 +80,15 @@ int rank_in(MPI_Comm communicator) {
   return rank;
 }
 
+int size_of(MPI_Comm communicator) {
+  int size = 0;
+  MPI_Comm_size(communicator, &size);
+  return size;
+}
+
 /// Ends a program that was started in several processes (coupling.ranks), each of which would answer the master alone.
 void refuse_company(const std::string& role, int rank) {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const int size = size_of(MPI_COMM_WORLD);
   if (size == 1) return;
   if (rank == 0)
     give_up(role, fmt::format("{} processes (coupling.ranks), each of which would answer alone: let them serve "
@@ -95,8 +100,7 @@ void refuse_company(const std::string& role, int rank) {
 
 /// Everybody's role by world rank.
 std::vector<std::string> gather_roles(const std::string& role) {
-  int size = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const int size = size_of(MPI_COMM_WORLD);
   std::array<char, 64> mine{};
   role.copy(mine.data(), mine.size() - 1);
   std::vector<std::array<char, 64>> all(static_cast<std::size_t>(size));
@@ -193,9 +197,7 @@ bool Session::is_leader() const {
 }
 
 bool Session::is_alone() const {
-  int size = 1;
-  MPI_Comm_size(parts_->own, &size);
-  return size == 1;
+  return size_of(parts_->own) == 1;
 }
 
 int Session::communicator() const {

@@ -1,7 +1,6 @@
 #include "common/protocol/nodes.hpp"
 
 #include <netdb.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -22,11 +21,13 @@ namespace tether::protocol {
 
 namespace {
 
-/// Where a node's ssh would be. Null: the name is nobody's.
-std::shared_ptr<addrinfo> address_of(const std::string& node) {
+constexpr const char *ssh = "22", *any_port = nullptr;
+
+/// Null: the name is nobody's.
+std::shared_ptr<addrinfo> address_of(const std::string& node, const char* port) {
   addrinfo hints{}, *found = nullptr;
   hints.ai_socktype = SOCK_STREAM;
-  if (getaddrinfo(node.c_str(), "22", &hints, &found) != 0) return nullptr;
+  if (getaddrinfo(node.c_str(), port, &hints, &found) != 0) return nullptr;
   return {found, freeaddrinfo};
 }
 
@@ -34,7 +35,7 @@ std::shared_ptr<addrinfo> address_of(const std::string& node) {
 class Call {
  public:
   explicit Call(const std::string& node) {
-    const std::shared_ptr<addrinfo> at = address_of(node);
+    const std::shared_ptr<addrinfo> at = address_of(node, ssh);
     if (!at) return;
     descriptor_ = socket(at->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor_ >= 0) error_ = connect(descriptor_, at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
@@ -78,12 +79,9 @@ std::vector<std::string> nodes_of_job() {
 }
 
 bool is_here(const std::string& node) {
-  const std::shared_ptr<addrinfo> at = address_of(node);
+  const std::shared_ptr<addrinfo> at = address_of(node, any_port);
   if (!at) return false;
   const int descriptor = socket(at->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  auto* place = reinterpret_cast<sockaddr_in*>(at->ai_addr);
-  if (at->ai_family == AF_INET) place->sin_port = 0;  // any that is free
-  if (at->ai_family == AF_INET6) reinterpret_cast<sockaddr_in6*>(at->ai_addr)->sin6_port = 0;
   const bool here = descriptor >= 0 && bind(descriptor, at->ai_addr, at->ai_addrlen) == 0;
   if (descriptor >= 0) close(descriptor);
   return here;

@@ -5,7 +5,8 @@ import pathlib
 import signal
 import socket
 import subprocess
-import time
+
+from waiting import wait
 
 CONFIGURATION = """
 ClusterName=test
@@ -109,11 +110,7 @@ class Cluster:
         return self.call(*words).stdout
 
     def wait(self, is_so, seconds, what):
-        end = time.monotonic() + seconds
-        while not is_so():
-            if time.monotonic() > end:
-                raise TimeoutError(f"{what}: not within {seconds} s\n{self.ask('squeue', '--states=all')}")
-            time.sleep(0.2)
+        wait(is_so, seconds, what, lambda: self.ask("squeue", "--states=all"))
 
     def stop(self):
         self.ask("scancel", "--user", str(os.getuid()))

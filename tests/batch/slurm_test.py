@@ -10,34 +10,10 @@ import sys
 import tempfile
 import unittest
 
+import cases
 import slurm_cluster
 
 TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
-
-COARSE = """base: {tube}
-name: tube
-time: {{step: 4e-3}}
-mesh: {{swept: {{around: 12, along: 8}}}}
-output: {{checkpoint_every: 20}}
-"""
-TWIN = """base: tube.yaml
-name: lost_spring
-solid: {support: {regions: {spine: {stiffness: 1e5}}}}
-twin:
-  truth: tube.yaml
-  seed: 1
-  frames: 6
-  image: {voxel: [1 mm, 1 mm, 1.5 mm]}
-  noise: {deviation: 0.15 mm, correlation_length: 5 mm}
-  hidden: {effects: {visco_elastic: {where: spine, amplitude: 1e6, unit: g/(cm2 s2)}}}
-"""
-IDENTIFICATION = """base: case.yaml
-name: springs
-identification:
-  parameters:
-    spine: {of: [solid.support.regions.spine.stiffness]}
-    opposite: {of: [solid.support.regions.opposite.stiffness]}
-"""
 
 
 def content(folder):
@@ -51,7 +27,7 @@ class Jobs(unittest.TestCase):
         cls.cluster = slurm_cluster.Cluster(cls.folder / "slurm")
         cls.addClassCleanup(shutil.rmtree, cls.folder, True)
         cls.addClassCleanup(cls.cluster.stop)
-        (cls.folder / "tube.yaml").write_text(COARSE.format(tube=CONFIGS / "tube/case.yaml"))
+        cases.write_tube(cls.folder, CONFIGS, more="output: {checkpoint_every: 20}\n")
         cls.tether("simulate", "tube.yaml", "--output", "undisturbed", "--quiet")
 
     @classmethod
@@ -67,8 +43,7 @@ class Jobs(unittest.TestCase):
 
     def make_twin(self):
         if not (self.folder / "twin/case.yaml").exists():
-            (self.folder / "twin.yaml").write_text(TWIN)
-            self.tether("twin", "twin.yaml", "--output", "twin", "--quiet")
+            cases.write_twin(self.folder, TETHER)
 
     def submit(self, name, *words):
         self.tether("submit", *words, "--output", name, "--time", "20", "--memory", "1G")
@@ -173,12 +148,11 @@ class Jobs(unittest.TestCase):
 
     def test_an_identification_has_its_models_on_three_nodes(self):
         self.make_twin()
-        (self.folder / "twin/springs.yaml").write_text(IDENTIFICATION)
         self.submit("springs", "identify", "twin/springs.yaml", "--nodes", "3", "--processes", "3")
         self.cluster.wait(lambda: nodes_of("fsi_master", self.folder / "twin/springs.yaml") == {"n0", "n1", "n2"}, 60, "a model on each node")
         self.wait_for("springs", "done")
         self.tether("identify", "twin/springs.yaml", "--processes", "3", "--output", "here", "--quiet")
-        self.assertEqual((self.folder / "springs/springs/estimate.csv").read_bytes(), (self.folder / "here/estimate.csv").read_bytes())
+        self.assertEqual(cases.estimates(self.folder / "springs/springs"), cases.estimates(self.folder / "here"))
 
     def test_what_is_wrong_is_told_before_it_waits(self):
         refused = self.run_tether("submit", "simulate", "tube.yaml", "--output", "nowhere", "--time", "20", "--memory", "1G", "--partition", "moon")

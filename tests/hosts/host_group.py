@@ -5,7 +5,10 @@ import os
 import pathlib
 import shutil
 import subprocess
-import time
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "batch"))
+from waiting import wait
 
 SSHD = """Port 22
 ListenAddress {address}
@@ -46,9 +49,12 @@ def run(*words, **more):
 
 
 def can_be_made():
-    """Whether this machine lets this user make hosts."""
-    words = ["unshare", "--net", "--uts", "--ipc", "--pid", "--mount", "--fork", "--mount-proc", "ip", "link", "add", "bridge0", "type", "bridge"]
-    return os.geteuid() == 0 and subprocess.run(words, capture_output=True, check=False).returncode == 0
+    """Whether this machine lets this user make hosts: each kind of namespace, mounts in it, and a bridge outside."""
+    inside = ["unshare", "--net", "--uts", "--ipc", "--pid", "--mount", "--fork", "--mount-proc", "sh", "-c",
+              "mount --make-rprivate / && mount -t tmpfs tmpfs /dev/shm && mount --bind /etc/hosts /etc/hosts && hostname probe"]
+    bridge = f"tp{os.getpid() % 10**6}"
+    steps = (inside, ["ip", "link", "add", bridge, "type", "bridge"], ["ip", "link", "del", bridge])
+    return os.geteuid() == 0 and all(subprocess.run(words, capture_output=True, check=False).returncode == 0 for words in steps)
 
 
 class Host:
@@ -70,7 +76,7 @@ class Host:
 
     def _connect(self):
         own, other = (pathlib.Path(f"/proc/{one}/ns/net") for one in ("self", self.process.pid))
-        self.group.wait(lambda: own.readlink() != other.readlink(), 10, f"a network of {self.name}'s own")
+        wait(lambda: own.readlink() != other.readlink(), 10, f"a network of {self.name}'s own")
         run("ip", "link", "add", self.link, "type", "veth", "peer", "name", "eth0", "address", self.card, "netns", self.process.pid)
         run("ip", "link", "set", self.link, "master", self.group.bridge, "up")
         self._inside("ip", "link", "set", "lo", "up")
@@ -141,7 +147,7 @@ class HostGroup:
                 host.join()
             else:
                 self.hosts[number] = Host(self, number)
-        self.wait(lambda: all(map(self.is_up, self.hosts)), 20, "sshd")
+        wait(lambda: all(map(self.is_up, self.hosts)), 20, "sshd")
 
     def address(self, number):
         return f"{self.network}.{number + 1}"
@@ -160,19 +166,12 @@ class HostGroup:
     def inner(self, host):
         """The first process of the host, as this machine sees it."""
         children = pathlib.Path(f"/proc/{host.process.pid}/task/{host.process.pid}/children")
-        self.wait(lambda: children.read_text().split(), 5, f"a process of {host.name}")
+        wait(lambda: children.read_text().split(), 5, f"a process of {host.name}")
         return int(children.read_text().split()[0])
 
     def is_up(self, host):
         words = ["timeout", "10", *self.agent.split(), host.name, "true"]
         return self.start(self.hosts[0], words, self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).wait() == 0
-
-    def wait(self, is_so, seconds, what):
-        end = time.monotonic() + seconds
-        while not is_so():
-            if time.monotonic() > end:
-                raise TimeoutError(f"{what}: not within {seconds} s")
-            time.sleep(0.05)
 
     def stop(self):
         for host in self.hosts:

@@ -10,8 +10,9 @@ import tempfile
 import time
 import unittest
 
+import host_group  # which leads to tests/batch
 import cases
-import host_group
+from waiting import wait
 
 TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
 OURS = {"tether", "mpirun", "ssh", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
@@ -24,7 +25,8 @@ class Hosts(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder, True)
         cls.group = host_group.HostGroup(cls.folder / "hosts", 3)
         cls.addClassCleanup(cls.group.stop)
-        cases.write(cls.folder, CONFIGS, TETHER)
+        cases.write_tube(cls.folder, CONFIGS, end=0.4)
+        cases.write_twin(cls.folder, TETHER)
         cls.tether("identify", "twin/springs.yaml", "--processes", "3", "--output", "here", "--quiet")
 
     def setUp(self):
@@ -45,7 +47,7 @@ class Hosts(unittest.TestCase):
     def wait_for_state(self, run, name):
         """Until something is saved. A run that ends before has said why."""
         saved = self.folder / name / "checkpoint/identification.bin"
-        self.group.wait(lambda: saved.exists() or run.poll() is not None, 60, "a saved state")
+        wait(lambda: saved.exists() or run.poll() is not None, 60, "a saved state")
         self.assertIsNone(run.poll(), run.poll() and run.stderr.read())
 
     def assert_told(self, run, host, name):
@@ -57,7 +59,7 @@ class Hosts(unittest.TestCase):
         self.assertLessEqual(len(ours), 4, told)
 
     def assert_nothing_left(self, seconds, *hosts):
-        self.group.wait(lambda: not any(map(self.ours, hosts)), seconds, "the end of all processes")
+        wait(lambda: not any(map(self.ours, hosts)), seconds, "the end of all processes")
 
     def assert_goes_on(self, name, nodes):
         run = self.identify(name, "--resume", nodes=nodes)
@@ -67,7 +69,7 @@ class Hosts(unittest.TestCase):
 
     def test_each_model_is_on_a_host_of_its_own_and_the_estimate_is_that_of_one_host(self):
         run = self.identify("over")
-        self.group.wait(lambda: all("solid" in self.ours(host) and "fsi_master" in self.ours(host) for host in self.group.hosts), 60,
+        wait(lambda: all("solid" in self.ours(host) and "fsi_master" in self.ours(host) for host in self.group.hosts), 60,
                         "a model on each host")
         self.assertEqual((run.communicate(timeout=120)[1], run.returncode), ("", 0))
         self.assertEqual(cases.estimates(self.folder / "over"), cases.estimates(self.folder / "here"))
@@ -85,7 +87,7 @@ class Hosts(unittest.TestCase):
         """Before its orted has called, only ssh knows of it."""
         run = self.identify("start")
         host = self.group.hosts[1]
-        self.group.wait(lambda: "orted" in host.processes(), 30, "orted")
+        wait(lambda: "orted" in host.processes(), 30, "orted")
         host.lose()
         told = run.communicate(timeout=NOTICED)[1]
         self.assertEqual(run.returncode, 1, told)

@@ -10,8 +10,8 @@ import sys
 import tempfile
 import unittest
 
+import host_group  # which leads to tests/batch
 import cases
-import host_group
 import slurm_on_hosts
 
 TETHER, CONFIGS = pathlib.Path(sys.argv[1]).absolute(), pathlib.Path(sys.argv[2]).absolute()
@@ -27,7 +27,8 @@ class SlurmOverHosts(unittest.TestCase):
         cls.addClassCleanup(cls.group.stop)
         cls.cluster = slurm_on_hosts.ClusterOnHosts(cls.folder / "slurm", cls.group)
         cls.addClassCleanup(cls.cluster.stop)
-        cls.identification = cases.write(cls.folder, CONFIGS, TETHER)
+        cases.write_tube(cls.folder, CONFIGS, end=0.4)
+        cls.identification = cases.write_twin(cls.folder, TETHER)
         cls.call(TETHER, "identify", cls.identification, "--processes", HOSTS, "--output", cls.folder / "here", "--quiet")
         cls.call(TETHER, "simulate", cls.folder / "tube.yaml", "--steps", "20", "--output", cls.folder / "run_here", "--quiet")
 

@@ -1,9 +1,6 @@
 """Slurm over hosts: a controller on the first, a slurmd on each."""
 
-import pathlib
-import sys
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "batch"))
+import host_group  # noqa: F401  which leads to tests/batch
 from slurm_cluster import CONFIGURATION, Cluster, user_name
 
 GIVEN_UP_AFTER = 15  # [s], a node of which the controller hears nothing

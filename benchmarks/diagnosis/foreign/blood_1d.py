@@ -22,7 +22,9 @@ def on_the_wall():
     points = surfaces.motion_of(pathlib.Path(given["motion"]))[0]
     times, flows = np.loadtxt(given["flow"], delimiter=",", skiprows=1, usecols=(1, 2)).T
     numbers = {name: given[name.rsplit(".", 1)[-1]] for name in PARAMETERS} | {"distal_pressure": given["distal_pressure"]}
-    return Blood(Lattice(points, surfaces.Lattice(points).order), lambda time: np.interp(time % times[-1], times, flows), numbers)
+    blood = Blood(Lattice(points, surfaces.Lattice(points).order), lambda time: np.interp(time % times[-1], times, flows), numbers)
+    blood.parameters = []  # its numbers stand beside the case, not in it
+    return blood
 
 
 if __name__ == "__main__":

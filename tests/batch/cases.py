@@ -1,11 +1,11 @@
-"""What is run over hosts: a small tube, and two of its springs identified from a twin."""
+"""What jobs and hosts run: a small tube, and two of its springs identified from a twin."""
 
 import os
 import subprocess
 
 MODEL = """base: {tube}
 name: tube
-time: {{step: 4e-3, end: 0.4}}
+time: {{step: 4e-3{end}}}
 mesh: {{swept: {{around: 12, along: 8}}}}
 """
 TWIN = """base: tube.yaml
@@ -30,9 +30,13 @@ identification:
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
-def write(folder, configs, tether):
-    """tube.yaml, the twin of it that lacks a spring, and the identification in it, whose path is returned."""
-    (folder / "tube.yaml").write_text(MODEL.format(tube=configs / "tube/case.yaml"))
+def write_tube(folder, configs, end="", more=""):
+    """tube.yaml; `end`: of the run [s], a beat by default; `more`: lines that it says too."""
+    (folder / "tube.yaml").write_text(MODEL.format(tube=configs / "tube/case.yaml", end=end and f", end: {end}") + more)
+
+
+def write_twin(folder, tether):
+    """The twin of tube.yaml that lacks a spring, and the identification in it, whose path is returned."""
     (folder / "twin.yaml").write_text(TWIN)
     subprocess.run([tether, "twin", "twin.yaml", "--output", "twin", "--quiet"], cwd=folder, env=os.environ | AS_ROOT, check=True, capture_output=True)
     (folder / "twin/springs.yaml").write_text(IDENTIFICATION)
