@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "common/base/error.hpp"
 
@@ -38,6 +39,16 @@ protocol::Program partner_program(const char* role, const std::string& field, co
           file.where("coupling.programs." + field)};
 }
 
+/// Throws InputError for a name that is empty or announced twice: what is set or reported by it would be either's.
+template <class Infos>
+void check_names(const Infos& infos, const char* what, const protocol::Partner& partner) {
+  std::set<std::string> names;
+  for (const auto& info : infos)
+    if (info.name.empty() || !names.insert(info.name).second)
+      throw input_error("{} announces {} \"{}\"{}", partner.role(), what, info.name,
+                        info.name.empty() ? "" : " twice");
+}
+
 /// Throws InputError if the case says of a number that a code of somebody else's announces another value than the code:
 /// it does not read that place, and what is identified would be lost there.
 void check_is_read(protocol::Partner& partner, const std::string& executable, const CaseFile& file) {
@@ -71,6 +82,10 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
       interface_(ask_interface(processes[1])),
       size_(diagonal(interface_.points)),
       units_(master.file.units()) {
+  for (protocol::Partner& partner : processes) {
+    check_names(partner.hello().parameters, "a parameter", partner);
+    check_names(partner.hello().observables, "an observable", partner);
+  }
   check_is_read(processes[0], master.coupling.programs.fluid, master.file);
   check_is_read(processes[1], master.coupling.programs.solid, master.file);
   const InterfaceSurface of_fluid = ask_interface(processes[0]);

@@ -36,11 +36,15 @@ VectorXd vector_of(const std::vector<double>& v) {
 // What both partners are asked in the same words.
 
 Later<std::vector<double>> ask_end_step(Partner& partner, bool accepted) {
-  const std::size_t announced = partner.hello().observables.size();
-  return ask_later(partner, protocol::EndStep{accepted}, [&partner, announced](protocol::StepReport report) {
-    if (report.observables.size() != announced)
+  return ask_later(partner, protocol::EndStep{accepted}, [&partner, accepted](protocol::StepReport report) {
+    const std::vector<protocol::ObservableInfo>& announced = partner.hello().observables;
+    if (report.observables.size() != announced.size())
       throw run_error("{} reports {} observables after announcing {}", partner.role(), report.observables.size(),
-                      announced);
+                      announced.size());
+    for (std::size_t i = 0; accepted && i < announced.size(); ++i)
+      if (!std::isfinite(report.observables[i]))
+        throw run_error("{} reports {} as {} after a step that was accepted", partner.role(), announced[i].name,
+                        report.observables[i]);
     return std::move(report.observables);
   });
 }

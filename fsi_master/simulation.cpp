@@ -82,8 +82,8 @@ void Simulation::advance(std::int64_t step) {
   check_held(plan_.output);
   const auto begun = std::chrono::steady_clock::now();
   const StepRecord done = compute(step);
-  for (const std::string& failure : done.failures)
-    progress_->note(fmt::format("step {} is repeated in halves: {}", step + 1, failure));
+  if (!done.failures.empty())
+    progress_->note(fmt::format("step {} is repeated in halves: {}", step + 1, told(done.failures)));
   if ((step + 1) % plan_.write_every == 0 || step + 1 == plan_.last_step) write_files(step + 1);
   record(step + 1, done, seconds_since(begun));
   if ((step + 1) % plan_.checkpoint_every == 0 && step + 1 < plan_.last_step) save(step + 1);

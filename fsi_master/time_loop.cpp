@@ -15,6 +15,16 @@ VectorXd unpacked(const std::vector<double>& v) {
 
 }  // namespace
 
+std::string told(const std::vector<FailedAttempt>& attempts) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const auto& [time, dt, cause, seen] = attempts[i];
+    const bool again = i > 0 && cause == attempts[i - 1].cause;
+    lines.push_back(fmt::format("time {:.6g} s, step {:.3g} s: {}{}", time, dt, again ? "the same" : cause, seen));
+  }
+  return fmt::format("{}", fmt::join(lines, "\n  then "));
+}
+
 TimeLoop::TimeLoop(FluidPartner& fluid, SolidPartner& solid, Coupling& coupling, VectorXd rest, int halvings)
     : fluid_(fluid),
       solid_(solid),
@@ -31,7 +41,7 @@ StepRecord TimeLoop::advance(std::int64_t step, double time, double dt) {
   const Snapshot before = snapshot();
   if (advance_in_halves(time, dt, 1, record)) return record;
   restore(before);
-  throw StepFailure(fmt::format("step {} failed: {}", step, fmt::join(record.failures, "\n  then ")));
+  throw StepFailure(fmt::format("step {} failed: {}", step, told(record.failures)));
 }
 
 bool TimeLoop::advance_in_halves(double time, double dt, int level, StepRecord& record) {
@@ -47,7 +57,7 @@ bool TimeLoop::attempt(double time, double dt, StepRecord& record) {
   const StepStart start{step_, time, dt, y_, V_};  // V_ is (y0 - y_-1)/dt, not the midpoint velocity, which rings (C.1)
   const CouplingResult result = solve(start);
   finish(result, record);
-  if (!result.converged) record.failures.push_back(explain(result, time, dt));
+  if (!result.converged) record.failures.push_back({time, dt, result.failure, seen_by(result)});
   if (result.converged && observer_ != nullptr && observer_->form() == Observer::Form::split)
     y_ += observer_->correct(time + dt, dt, y_);  // (O.8)
   return result.converged;
@@ -118,8 +128,8 @@ void TimeLoop::finish(const CouplingResult& result, StepRecord& record) {
   V_ = result.motion.velocity;
 }
 
-std::string TimeLoop::explain(const CouplingResult& result, double time, double dt) const {
-  std::string text = fmt::format("time {:.6g} s, step {:.3g} s: {}", time, dt, result.failure);
+std::string TimeLoop::seen_by(const CouplingResult& result) const {
+  std::string text;
   if (!result.residuals.empty()) text += fmt::format("; residuals {:.2e}", fmt::join(result.residuals, " "));
   if (result.worst_node < 0) return text;
   const Vec3 x = (rest_ + y_).segment<3>(3 * result.worst_node);

@@ -9,13 +9,22 @@
 
 namespace tether {
 
+/// An attempt that failed, and was repeated with half the step.
+struct FailedAttempt {
+  double time = 0, dt = 0;  ///< [time]
+  std::string cause, seen;  ///< in words; what the coupling saw of it: residuals, where they are largest
+};
+
+/// A line each; a cause that is the one before it is not said again.
+std::string told(const std::vector<FailedAttempt>& attempts);
+
 /// What one full step found and took, its halved parts included.
 struct StepRecord {
   int evaluations = 0, krylov_iterations = 0;  ///< sums over the parts, failed attempts included
   int parts = 0;                               ///< converged time steps: 1, more if it was halved
   double residual = 0;                         ///< (C.3) of the last evaluation
   std::vector<double> fluid, solid;            ///< observables at its end
-  std::vector<std::string> failures;           ///< of attempts that were repeated with half the step
+  std::vector<FailedAttempt> failures;
 };
 
 /// Everything that a run needs to continue from the end of a step.
@@ -51,7 +60,7 @@ class TimeLoop {
   CouplingResult solve(const StepStart& start);
   CouplingResult solve_with_drift(StepStart start);
   void finish(const CouplingResult& result, StepRecord& record);
-  std::string explain(const CouplingResult& result, double time, double dt) const;
+  std::string seen_by(const CouplingResult& result) const;
 
   FluidPartner& fluid_;
   SolidPartner& solid_;

@@ -13,23 +13,32 @@ using protocol::Partner;
 
 namespace {
 
-std::size_t groups_of_machine(const VesselMesh& vessel) {
-  const auto nodes = static_cast<std::size_t>(vessel.fluid.points.cols() + vessel.wall.points.cols());
-  return std::max<std::size_t>(1, std::min(cores(), groups_within(available_memory(), nodes)));
-}
-
-}  // namespace
-
+/// Cores that this process may use.
 std::size_t cores() {
   cpu_set_t set;
   CPU_ZERO(&set);
   return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
 }
 
+std::size_t hosts() {
+  return std::max<std::size_t>(1, protocol::nodes_of_job().size());
+}
+
+std::size_t groups_that_fit(const VesselMesh& vessel) {
+  const auto nodes = static_cast<std::size_t>(vessel.fluid.points.cols() + vessel.wall.points.cols());
+  return hosts() * std::max<std::size_t>(1, std::min(cores(), groups_within(available_memory(), nodes)));
+}
+
+}  // namespace
+
+std::size_t cores_of_job() {
+  return hosts() * cores();
+}
+
 std::size_t group_count(const GroupsWanted& wanted, const protocol::Session& session) {
   if (const auto offered = session.offered("fsi_master")) return *offered;
   return std::min(wanted.most,
-                  wanted.wanted > 0 ? static_cast<std::size_t>(wanted.wanted) : groups_of_machine(wanted.vessel()));
+                  wanted.wanted > 0 ? static_cast<std::size_t>(wanted.wanted) : groups_that_fit(wanted.vessel()));
 }
 
 std::vector<Partner*> launch_groups(std::size_t count, const std::filesystem::path& case_file,

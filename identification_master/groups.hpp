@@ -11,13 +11,13 @@ namespace tether {
 
 /// What the number of groups of processes depends on.
 struct GroupsWanted {
-  int wanted = 0;                      ///< by the user; 0: what the machine can hold
+  int wanted = 0;                      ///< by the user; 0: what the machines can hold
   std::size_t most = 1;                ///< that would have something to do
   std::function<VesselMesh()> vessel;  ///< of the model, asked for where the user wants no number
 };
 
-/// Cores that this process may use.
-std::size_t cores();
+/// Cores that this process may use, on each host of the job: they are taken to be alike.
+std::size_t cores_of_job();
 
 /// Groups that share the work: what the mpirun line holds, what the user wants, or one a core as far as memory goes.
 std::size_t group_count(const GroupsWanted& wanted, const protocol::Session& session);

@@ -237,6 +237,9 @@ std::span<Partner> Session::launch(const std::vector<Program>& programs, const s
     welcome(*channel, output);
     group.emplace_back(std::move(channel));
   }
+  if (!candidates.empty())
+    throw input_error("the mpirun line has a {} too many for this {}",
+                      parts_->roles[static_cast<std::size_t>(candidates.front())], parts_->role);
   return group;
 }
 

@@ -95,6 +95,28 @@ TEST(MessageSolid, AStateThatCannotBeSetAgainIsRefusedBeforeItIsSaved) {
   EXPECT_EQ(said(false), "solid gives a state with numbers that are not finite");
 }
 
+/// Its observable is no number.
+struct Unknowing : fakes::FakeFluid {
+  using FakeFluid::operator();
+  protocol::StepReport operator()(const protocol::EndStep& m) {
+    FakeFluid::operator()(m);
+    return {{std::nan("")}};
+  }
+};
+
+TEST(MessageFluid, AnObservableThatIsNoNumberIsRefusedOfAStepThatWasAccepted) {
+  auto process = in_process_partner<protocol::ToFluid>("fluid", std::make_shared<Unknowing>());
+  const InterfaceSurface surface = ask_interface(process);
+  MessageFluid fluid(process, InterfaceMap::match(surface, surface, 1e-9));
+  EXPECT_TRUE(std::isnan(fluid.end_step(false).get().at(0)));
+  try {
+    fluid.end_step(true).get();
+    FAIL() << "no error";
+  } catch (const RunError& error) {
+    EXPECT_STREQ(error.what(), "fluid reports pressure.now as nan after a step that was accepted");
+  }
+}
+
 TEST(MessageSolid, GivesItsEquationsAsTheSolidSentThem) {
   auto process = in_process_partner<protocol::ToSolid>("solid", std::make_shared<fakes::FakeSolid>());
   MessageSolid solid(process);

@@ -129,8 +129,16 @@ TEST_F(Program, AnInterruptedRunSaysWhatIsSavedAndContinuesFromThere) {
 TEST_F(Program, AFailingPartnerIsNamedAfterTheLastHalving) {
   const ChildEnd end = run("out", {"--quiet"}, "solid.fail=SolidResidual");
   EXPECT_EQ(end.exit_code, 1);
-  EXPECT_NE(end.errors.find("element 12 is inverted"), std::string::npos) << end.errors;
-  EXPECT_NE(end.errors.find("step 0.00125 s"), std::string::npos) << end.errors;
+  const auto first = end.errors.find("element 12 is inverted");
+  EXPECT_NE(first, std::string::npos) << end.errors;
+  EXPECT_EQ(end.errors.find("element 12", first + 1), std::string::npos) << "said again: " << end.errors;
+  EXPECT_NE(end.errors.find("step 0.00125 s: the same"), std::string::npos) << end.errors;
+}
+
+TEST_F(Program, ANameThatIsAnnouncedTwiceIsRefused) {
+  const ChildEnd end = run("out", {"--quiet"}, "solid.announce=twice");
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("solid announces a parameter \"stiffness\" twice"), std::string::npos) << end.errors;
 }
 
 TEST_F(Program, WrongInputOfAPartnerIsTheUsersMessage) {

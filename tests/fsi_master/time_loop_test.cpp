@@ -43,7 +43,7 @@ TEST(TimeLoop, FailedStepIsDoneInHalvesThenTheFullStepReturns) {
   EXPECT_EQ(begun, expected);
   EXPECT_EQ(record.parts, 2);
   ASSERT_EQ(record.failures.size(), 1u);
-  EXPECT_EQ(record.failures[0], "time 0.01 s, step 0.01 s: fluid: element 7 is inverted");
+  EXPECT_EQ(told(record.failures), "time 0.01 s, step 0.01 s: fluid: element 7 is inverted");
 }
 
 TEST(TimeLoop, HalvedStepsFollowTheSolutionOfHalfSteps) {

@@ -87,6 +87,17 @@ TEST(Foreign, A_c_code_of_two_processes_takes_part_in_an_mpmd_line) {
   EXPECT_TRUE(job.orphans.empty());
 }
 
+TEST(Foreign, A_code_too_many_on_an_mpmd_line_is_told) {
+  auto words = mpirun();
+  words.insert(words.end(), {"-n", "1", test_program("fake_master"), "x", "x", "3", ":", "-n", "2",
+                             test_program("fake_fluid"), ":", "-n", "1", test_program("fake_solid")});
+  const auto job = run_job(words);
+  EXPECT_EQ(job.exit_code, 2) << job.errors;
+  EXPECT_NE(job.errors.find("the mpirun line has a fluid too many for this fake_master"), std::string::npos)
+      << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
 TEST(Foreign, Examples_conform) {
   for (const char* name : {"spring_solid", "linear_fluid"}) expect_conforms(example(name));
 }
