@@ -45,8 +45,7 @@ void check_names(const Infos& infos, const char* what, const protocol::Partner& 
   std::set<std::string> names;
   for (const auto& info : infos)
     if (info.name.empty() || !names.insert(info.name).second)
-      throw input_error("{} announces {} \"{}\"{}", partner.role(), what, info.name,
-                        info.name.empty() ? "" : " twice");
+      throw input_error("{} announces {} \"{}\"{}", partner.role(), what, info.name, info.name.empty() ? "" : " twice");
 }
 
 /// Throws InputError if the case says of a number that a code of somebody else's announces another value than the code:

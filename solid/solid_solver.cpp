@@ -14,6 +14,7 @@ namespace {
 /// they do, with the products between them.
 constexpr double calls_for_a_factor = 15;
 constexpr double young = 5;                    ///< steps
+constexpr double rough = 0.01;                 ///< of a solve: that the factor is of another step spoils it by more
 constexpr double newton_tolerance = 1e-9;      ///< of the correction, relative to the iterate
 constexpr double rounding = 1e-14;             ///< smallest change of position that the forces can tell, over the size
 constexpr double correction_tolerance = 1e-4;  ///< of each correction's conjugate gradients: Newton repeats them anyway
@@ -213,12 +214,12 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
 /// A wall that buckles is carried through it by its mass, but its tangent is indefinite: then the factor is that of one
 /// whose diagonal is larger, by the least power of ten that makes it definite. (S.11)
 void SolidSolver::factor_tangent() {
-  if (factor_.factor_if_definite(tangent_)) return;
+  if (factor_.factor_roughly(tangent_, rough)) return;
   const VectorXd diagonal = tangent_.diagonal().cwiseAbs();
   for (const double more : {1e-3, 1e-2, 1e-1, 1.0, 1e1}) {
     SparseMatrix stiffer = tangent_;
     stiffer.diagonal() += more * diagonal;
-    if (factor_.factor_if_definite(stiffer)) return;
+    if (factor_.factor_roughly(stiffer, rough)) return;
   }
   throw run_error("the wall's tangent is not positive definite: it folds");
 }

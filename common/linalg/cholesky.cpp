@@ -1,7 +1,12 @@
 #include "common/linalg/cholesky.hpp"
 
+#include <cblas.h>
 #include <cholmod.h>
 #include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 
 #include "common/base/error.hpp"
 #include "common/linalg/blas_kernels.hpp"
@@ -13,6 +18,8 @@ struct Cholesky::Data {
   cholmod_factor* factor = nullptr;
   mutable cholmod_dense* work_y = nullptr;
   mutable cholmod_dense* work_e = nullptr;
+  float* rounded = nullptr;  ///< values of the factor in single precision, instead of its own
+  mutable std::vector<float> solution, below;
 
   Data() {
     prepare_blas();
@@ -24,6 +31,7 @@ struct Cholesky::Data {
     common.print = 0;
   }
   ~Data() {
+    drop_rounded();
     cholmod_free_dense(&work_y, &common);
     cholmod_free_dense(&work_e, &common);
     cholmod_free_factor(&factor, &common);
@@ -31,6 +39,13 @@ struct Cholesky::Data {
   }
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
+
+  void round();
+  void drop_rounded() { rounded = static_cast<float*>(cholmod_free(room_of_rounded(), 8, rounded, &common)); }
+  void solve_rounded(Eigen::Ref<VectorXd> rhs) const;
+
+ private:
+  std::size_t room_of_rounded() const { return factor == nullptr ? 0 : factor->xsize / 2 + 1; }  ///< in doubles
 };
 
 namespace {
@@ -86,7 +101,73 @@ std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, chol
   return order;
 }
 
+/// Some columns of a supernodal factor that have the same rows: a dense block, the triangle of the columns' own rows
+/// above the others.
+struct Supernode {
+  Supernode(const cholmod_factor& factor, const float* values, std::size_t s)
+      : Supernode(static_cast<const int*>(factor.super) + s, static_cast<const int*>(factor.pi) + s,
+                  static_cast<const int*>(factor.s), values + static_cast<const int*>(factor.px)[s]) {}
+  int first, columns, height;
+  const int* rows;  ///< of what is below the triangle
+  const float *triangle, *rectangle;
+  int below() const { return height - columns; }
+
+ private:
+  Supernode(const int* super, const int* pi, const int* s, const float* block)
+      : first(super[0]),
+        columns(super[1] - super[0]),
+        height(pi[1] - pi[0]),
+        rows(s + pi[0] + columns),
+        triangle(block),
+        rectangle(block + columns) {}
+};
+
 }  // namespace
+
+/// In place: nothing more is needed than the factor takes, and half of that is given back.
+void Cholesky::Data::round() {
+  const std::size_t size = factor->xsize;
+  rounded = static_cast<float*>(factor->x);
+  for (std::size_t i = 0; i < size; ++i) {
+    double value = 0;
+    std::memcpy(&value, static_cast<const double*>(factor->x) + i, sizeof value);
+    const auto single = static_cast<float>(value);
+    std::memcpy(rounded + i, &single, sizeof single);
+  }
+  std::size_t room = size;
+  rounded = static_cast<float*>(cholmod_realloc(room_of_rounded(), 8, factor->x, &room, &common));
+  factor->x = nullptr;  // as cholmod_change_factor leaves it, which would have freed the values
+  factor->xtype = CHOLMOD_PATTERN;
+}
+
+void Cholesky::Data::solve_rounded(Eigen::Ref<VectorXd> rhs) const {
+  const double scale = rhs.cwiseAbs().maxCoeff();  // single precision has a small range
+  if (scale == 0) return;
+  const int* order = static_cast<const int*>(factor->Perm);
+  solution.resize(factor->n);
+  below.resize(factor->maxesize);
+  for (std::size_t i = 0; i < factor->n; ++i) solution[i] = static_cast<float>(rhs[order[i]] / scale);
+  float *const x = solution.data(), *const other = below.data();
+  for (std::size_t k = 0; k < factor->nsuper; ++k) {
+    const Supernode node(*factor, rounded, k);
+    cblas_strsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, node.columns, node.triangle, node.height,
+                x + node.first, 1);
+    if (node.below() == 0) continue;
+    cblas_sgemv(CblasColMajor, CblasNoTrans, node.below(), node.columns, 1, node.rectangle, node.height, x + node.first,
+                1, 0, other, 1);
+    for (int i = 0; i < node.below(); ++i) x[node.rows[i]] -= other[i];
+  }
+  for (std::size_t k = factor->nsuper; k-- > 0;) {
+    const Supernode node(*factor, rounded, k);
+    for (int i = 0; i < node.below(); ++i) other[i] = x[node.rows[i]];
+    if (node.below() > 0)
+      cblas_sgemv(CblasColMajor, CblasTrans, node.below(), node.columns, -1, node.rectangle, node.height, other, 1, 1,
+                  x + node.first, 1);
+    cblas_strsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, node.columns, node.triangle, node.height,
+                x + node.first, 1);
+  }
+  for (std::size_t i = 0; i < factor->n; ++i) rhs[order[i]] = scale * static_cast<double>(solution[i]);
+}
 
 Cholesky::Cholesky() : data_(std::make_unique<Data>()) {}
 Cholesky::~Cholesky() = default;
@@ -112,6 +193,7 @@ void Cholesky::factor(const SparseMatrix& matrix) {
 
 bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
   if (data_->factor == nullptr) analyze(matrix);
+  data_->drop_rounded();
   cholmod_sparse a = view(matrix);
   cholmod_factorize(&a, data_->factor, &data_->common);
   if (data_->common.status < 0)
@@ -119,7 +201,23 @@ bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
   return data_->common.status != CHOLMOD_NOT_POSDEF;
 }
 
+bool Cholesky::factor_roughly(const SparseMatrix& matrix, double tolerance) {
+  if (!factor_if_definite(matrix)) return false;
+  if (!data_->factor->is_super) return true;
+  data_->round();
+  const VectorXd any =
+      VectorXd::LinSpaced(matrix.rows(), 1, static_cast<double>(matrix.rows())).unaryExpr([](double i) {
+        return std::sin(i * i);
+      });
+  if ((solve(matrix * any) - any).norm() <= tolerance * any.norm()) return true;
+  return factor_if_definite(matrix);
+}
+
 void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
+  if (data_->rounded != nullptr) {
+    for (Eigen::Index column = 0; column < rhs.cols(); ++column) data_->solve_rounded(rhs.col(column));
+    return;
+  }
   cholmod_dense b{};
   b.nrow = static_cast<std::size_t>(rhs.rows());
   b.ncol = static_cast<std::size_t>(rhs.cols());
@@ -143,13 +241,13 @@ VectorXd Cholesky::solve(const VectorXd& rhs) const {
 }
 
 bool Cholesky::has_factor() const {
-  return data_->factor != nullptr && data_->factor->xtype != CHOLMOD_PATTERN;
+  return data_->factor != nullptr && (data_->factor->xtype != CHOLMOD_PATTERN || data_->rounded != nullptr);
 }
 
 double Cholesky::factor_megabytes() const {
-  return data_->factor == nullptr
-             ? 0.0
-             : 8e-6 * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
+  if (data_->factor == nullptr) return 0;
+  const double bytes = data_->rounded == nullptr ? 8 : 4;
+  return 1e-6 * bytes * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
 }
 
 }  // namespace tether

@@ -39,11 +39,16 @@ MatrixXd leading(const MatrixXd& gram) {
 }  // namespace
 
 void Recycling::begin(const VectorXd& residual) {
-  bool fits = Q_.rows() == residual.size();
-  if (fits && residual.isZero(0)) return;
-  for (Eigen::Index i = 0; fits && i < residual.size(); ++i)
-    fits = residual[i] != 0 || (D_.row(i).isZero(0) && Q_.row(i).isZero(0));
-  if (!fits) forget();
+  if (Q_.rows() != residual.size()) forget();
+  if (Q_.cols() == 0 || residual.isZero(0)) return;
+  bool changed = false;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    if (residual[i] != 0 || (D_.row(i).isZero(0) && Q_.row(i).isZero(0))) continue;
+    D_.row(i).setZero();
+    Q_.row(i).setZero();
+    changed = true;
+  }
+  if (changed) prepare();
 }
 
 VectorXd Recycling::solved(const VectorXd& v) const {

@@ -13,8 +13,8 @@ namespace tether {
 /// Pairs of an H that has changed since cost iterations, never accuracy.
 class Recycling {
  public:
-  /// A solve with this right-hand side comes. What is known of other sizes is forgotten, and what moves unknowns that
-  /// are exactly zero here: they were free when it was learnt, and are held now.
+  /// A solve with this right-hand side comes. What is known of other sizes is forgotten, and what it does to
+  /// unknowns that are exactly zero here: they may have been free when it was learnt, and be held now.
   void begin(const VectorXd& residual);
   /// P v
   VectorXd solved(const VectorXd& v) const;

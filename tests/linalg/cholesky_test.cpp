@@ -40,6 +40,44 @@ TEST(Cholesky, SolvesForOneAndForSeveral) {
   EXPECT_LT((cholesky.solve(matrix * exact.col(1)) - exact.col(1)).norm(), 1e-12 * exact.norm());
 }
 
+TEST(Cholesky, RoundedToSingleItSolvesAlmostAsWellInHalfTheMemory) {
+  const SparseMatrix matrix = laplacian(12);
+  Cholesky cholesky;
+  cholesky.factor(matrix);
+  const double whole = cholesky.factor_megabytes();
+  ASSERT_TRUE(cholesky.factor_roughly(matrix, 1e-3));
+  EXPECT_TRUE(cholesky.has_factor());
+  EXPECT_DOUBLE_EQ(cholesky.factor_megabytes(), whole / 2);
+  const Eigen::MatrixXd exact = Eigen::MatrixXd::Random(matrix.rows(), 2);
+  for (const double size : {1.0, 1e-60, 1e60}) {  // beyond the range of single precision
+    Eigen::MatrixXd x = size * (matrix * exact);
+    cholesky.solve_in_place(x);
+    EXPECT_LT((x - size * exact).norm(), 3e-6 * size * exact.norm());
+    EXPECT_GT((x - size * exact).norm(), 1e-9 * size * exact.norm());
+  }
+  EXPECT_EQ(cholesky.solve(VectorXd::Zero(matrix.rows())), VectorXd::Zero(matrix.rows()));
+  cholesky.factor(2 * matrix);
+  EXPECT_LT((cholesky.solve(matrix * exact.col(1)) - exact.col(1) / 2).norm(), 1e-12 * exact.norm());
+  EXPECT_DOUBLE_EQ(cholesky.factor_megabytes(), whole);
+}
+
+TEST(Cholesky, RoughlyOrNotItSaysWhatIsNotDefinite) {
+  Cholesky cholesky;
+  EXPECT_FALSE(cholesky.factor_roughly(-laplacian(5), 1e-3));
+  EXPECT_TRUE(cholesky.factor_roughly(laplacian(5), 1e-3));
+  EXPECT_FALSE(cholesky.factor_roughly(-laplacian(5), 1e-3));
+}
+
+TEST(Cholesky, IsNotRoundedWhereThatWouldSolveSomethingElse) {
+  SparseMatrix matrix = laplacian(8);
+  for (int i = 0; i < matrix.rows(); ++i)  // almost singular: a constant is hardly held
+    matrix.coeffRef(i, i) = 1e-7 - (matrix.row(i).sum() - matrix.coeff(i, i));
+  Cholesky cholesky;
+  ASSERT_TRUE(cholesky.factor_roughly(matrix, 1e-2));
+  const VectorXd exact = VectorXd::Random(matrix.rows());
+  EXPECT_LT((cholesky.solve(matrix * exact) - exact).norm(), 1e-6 * exact.norm());
+}
+
 TEST(Blas, UsesWhatTheProcessorOffers) {
   const bool chosen_by_user = std::getenv("OPENBLAS_CORETYPE") != nullptr;
   prepare_blas();
