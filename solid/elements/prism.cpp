@@ -90,16 +90,6 @@ Eigen::Matrix<double, 6, 1> fan_of(const PrismElement::Positions& reference, con
   return fan;
 }
 
-/// int N_a N_b dV, exact for a constant Jacobian (the points in the plane have degree 2).
-Eigen::Matrix<double, 6, 6> mass_matrix(const PrismElement& element) {
-  Eigen::Matrix<double, 6, 6> m = Eigen::Matrix<double, 6, 6>::Zero();
-  for (int q = 0; q < PrismElement::points; ++q) {
-    const NodeVector n = shape(place(q));
-    m += element.weight(q) * n * n.transpose();
-  }
-  return m;
-}
-
 }  // namespace
 
 const StrainSamples<6, 12>& PrismElement::strains() {
@@ -118,7 +108,6 @@ PrismElement::PrismElement(const Positions& reference) {
                                             p.zeta * centre.determinant() / jacobian};
   }
   fan_ = fan_of(reference, centre_contravariant_);
-  mass_ = mass_matrix(*this);
 }
 
 PrismElement::Map PrismElement::map(int point, double thickness_variation) const {
@@ -129,8 +118,7 @@ PrismElement::Map PrismElement::map(int point, double thickness_variation) const
   map.col(level) = voigt_dyad(g.col(0), g.col(0));
   map.col(level + 1) = voigt_dyad(g.col(1), g.col(1));
   map.col(level + 2) = voigt_dyad(g.col(0), g.col(1));
-  const Vec3 mean = Vec3::Constant(1.0 / 3),
-             weights = mean + thickness_variation * (triangle_shape(p.xi, p.eta) - mean);
+  const Vec3 mean = Vec3::Constant(1.0 / 3), weights = mean + thickness_variation * (triangle_shape(point) - mean);
   const Eigen::Matrix<double, 6, 1> e33 = voigt_dyad(g.col(2), g.col(2));
   map.leftCols<6>() += e33 * fan_.transpose();
   map.middleCols<3>(6) = e33 * weights.transpose();
@@ -141,6 +129,25 @@ PrismElement::Map PrismElement::map(int point, double thickness_variation) const
 Eigen::Matrix<double, 6, 1> PrismElement::enhanced_mode(int point) const {
   return points_[static_cast<std::size_t>(point)].enhanced *
          voigt_dyad(centre_contravariant_.col(2), centre_contravariant_.col(2));
+}
+
+Vec3 PrismElement::triangle_shape(int point) {
+  const QuadraturePoint p = place(point);
+  return tether::triangle_shape(p.xi, p.eta);
+}
+
+Eigen::Matrix<double, 6, 1> PrismElement::shape(int point) {
+  return tether::shape(place(point));
+}
+
+/// int N_a N_b dV, exact for a constant Jacobian (the points in the plane have degree 2).
+Eigen::Matrix<double, 6, 6> PrismElement::mass() const {
+  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int q = 0; q < points; ++q) {
+    const NodeVector n = shape(q);
+    sum += weight(q) * n * n.transpose();
+  }
+  return sum;
 }
 
 Mat3 PrismElement::mean_gradient(const Positions& x) const {

@@ -32,6 +32,10 @@ struct PrismElement {
   explicit PrismElement(const Positions& reference);
 
   static const StrainSamples<nodes, samples>& strains();
+  /// Of the three corners at a quadrature point: 1 - xi - eta, xi, eta.
+  static Vec3 triangle_shape(int point);
+  /// Of the six nodes there.
+  static Eigen::Matrix<double, nodes, 1> shape(int point);
   double weight(int point) const { return points_[static_cast<std::size_t>(point)].weight; }
   /// From the samples to the Cartesian strain at a quadrature point. thickness_variation: see `WallLaw`.
   Map map(int point, double thickness_variation) const;
@@ -42,9 +46,10 @@ struct PrismElement {
   Vec3 thickness_direction() const { return centre_contravariant_.col(2).normalized(); }
   /// Deformation gradient at the centre for nodal positions x.
   Mat3 mean_gradient(const Positions& x) const;
-  Eigen::Matrix<double, nodes, nodes> mass() const { return mass_; }
+  Eigen::Matrix<double, nodes, nodes> mass() const;
 
  private:
+  friend class PrismPack;
   struct Point {
     double weight;
     Mat3 contravariant;  ///< columns G^1, G^2, G^3
@@ -53,7 +58,6 @@ struct PrismElement {
   std::array<Point, points> points_;
   Mat3 centre_contravariant_;        ///< columns G^1, G^2, G^3 at the centre
   Eigen::Matrix<double, 6, 1> fan_;  ///< thickness strain by the in-plane samples
-  Eigen::Matrix<double, nodes, nodes> mass_;
 };
 
 }  // namespace tether

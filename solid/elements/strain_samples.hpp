@@ -14,14 +14,24 @@ struct StrainSamples {
   Eigen::Matrix<double, nodes, count> b = Eigen::Matrix<double, nodes, count>::Zero();
   Eigen::Matrix<double, count, 1> factor = Eigen::Matrix<double, count, 1>::Ones();  ///< c: 1 for E_aa, 2 for 2 E_ab
 
-  using Positions = Eigen::Matrix<double, 3, nodes>;
-  using Values = Eigen::Matrix<double, count, 1>;
-  using Rates = Eigen::Matrix<double, 3 * nodes, count>;
+  /// Of positions in T: double, or a Pack of them.
+  template <class T>
+  using PositionsOf = Eigen::Matrix<T, 3, nodes>;
+  template <class T>
+  using ValuesOf = Eigen::Matrix<T, count, 1>;
+  template <class T>
+  using RatesOf = Eigen::Matrix<T, 3 * nodes, count>;
+  using Positions = PositionsOf<double>;
+  using Values = ValuesOf<double>;
+  using Rates = RatesOf<double>;
 
   /// c/2 g_a . g_b of each sample; the strain is the difference to the reference's.
-  Values products(const Positions& x) const {
-    const Eigen::Matrix<double, 3, count> ga = x * a, gb = x * b;
-    return 0.5 * factor.cwiseProduct(ga.cwiseProduct(gb).colwise().sum().transpose());
+  template <class T>
+  ValuesOf<T> products(const PositionsOf<T>& x) const {
+    const Eigen::Matrix<T, 3, count> ga = x.lazyProduct(a), gb = x.lazyProduct(b);
+    ValuesOf<T> result;
+    for (int k = 0; k < count; ++k) result[k] = 0.5 * factor[k] * ga.col(k).dot(gb.col(k));
+    return result;
   }
 
   /// c/2 |g_a| |g_b|: what a strain of one makes of each sample.
@@ -31,27 +41,31 @@ struct StrainSamples {
   }
 
   /// B': derivative of each sample by the nodal positions, one column a sample (S.2).
-  Rates rates(const Positions& x) const {
-    const Eigen::Matrix<double, 3, count> ga = x * a * (0.5 * factor).asDiagonal(),
-                                          gb = x * b * (0.5 * factor).asDiagonal();
-    Rates result;
+  template <class T>
+  RatesOf<T> rates(const PositionsOf<T>& x) const {
+    const Eigen::Matrix<T, 3, count> ga = x.lazyProduct(a), gb = x.lazyProduct(b);
+    RatesOf<T> result;
     for (int k = 0; k < count; ++k)
-      for (int i = 0; i < nodes; ++i) result.template block<3, 1>(3 * i, k) = a(i, k) * gb.col(k) + b(i, k) * ga.col(k);
+      for (int i = 0; i < nodes; ++i)
+        for (int c = 0; c < 3; ++c) result(3 * i + c, k) = 0.5 * factor[k] * (a(i, k) * gb(c, k) + b(i, k) * ga(c, k));
     return result;
   }
 
   /// Second derivative of sum_k stress_k s_k by the positions: a scalar per pair of nodes, times the 3 x 3 identity
   /// (S.3).
-  Eigen::Matrix<double, nodes, nodes> geometric(const Values& stress) const {
-    const Eigen::Matrix<double, nodes, nodes> half =
-        a * (0.5 * factor.cwiseProduct(stress)).asDiagonal() * b.transpose();
+  template <class T>
+  Eigen::Matrix<T, nodes, nodes> geometric(const ValuesOf<T>& stress) const {
+    Eigen::Matrix<T, nodes, count> scaled;
+    for (int k = 0; k < count; ++k) scaled.col(k) = a.col(k) * T(0.5 * factor[k] * stress[k]);
+    const Eigen::Matrix<T, nodes, nodes> half = scaled.lazyProduct(b.transpose());
     return half + half.transpose();
   }
 };
 
 /// Voigt form (2 E12 ...) of the symmetric part of p x q.
-inline Eigen::Matrix<double, 6, 1> voigt_dyad(const Vec3& p, const Vec3& q) {
-  Eigen::Matrix<double, 6, 1> result;
+template <class P, class Q>
+Eigen::Matrix<typename P::Scalar, 6, 1> voigt_dyad(const Eigen::MatrixBase<P>& p, const Eigen::MatrixBase<Q>& q) {
+  Eigen::Matrix<typename P::Scalar, 6, 1> result;
   result << p[0] * q[0], p[1] * q[1], p[2] * q[2], p[0] * q[1] + p[1] * q[0], p[1] * q[2] + p[2] * q[1],
       p[0] * q[2] + p[2] * q[0];
   return result;

@@ -3,9 +3,14 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <span>
+#include <type_traits>
+
 #include "common/base/error.hpp"
 #include "solid/elements/element_response.hpp"
 #include "solid/elements/prism.hpp"
+#include "solid/elements/prism_pack.hpp"
 #include "solid/elements/tetrahedron.hpp"
 #include "solid/materials/registry.hpp"
 
@@ -42,6 +47,8 @@ class ElementsOf final : public WallElements {
           throw run_error("wall element {} at ({:.4g} {:.4g} {:.4g}) has no positive volume", e, x.row(0).mean(),
                           x.row(1).mean(), x.row(2).mean());
     }
+    if constexpr (packed)
+      for (std::size_t e = 0; e < cells.size(); e += Pack::width) packs_.emplace_back(four_at(e));
   }
 
   void static_force(const Points& x, const Material& material, VectorXd& force, SparseMatrix* tangent) const override {
@@ -64,6 +71,8 @@ class ElementsOf final : public WallElements {
 
   void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
                   SparseMatrix* tangent) const override {
+    if constexpr (packed)
+      if (!motion.conserve_energy && !has_fibres()) return step_force_by_packs(motion, material, force, tangent);
     const double advance = motion.theta * motion.dt;
     const WallLaw law(*material.elastic);
     for (std::size_t e = 0; e < cells_.size(); ++e) {
@@ -117,6 +126,65 @@ class ElementsOf final : public WallElements {
   VectorXd tension_force(const Points& x) const override;
 
  private:
+  static constexpr bool packed = std::is_same_v<Element, PrismElement>;  ///< four of them are computed at once
+
+  /// Those of the pack that begins with element e: four, or those that are left.
+  std::span<const Element> four_at(std::size_t e) const {
+    return std::span(elements_).subspan(e, std::min<std::size_t>(Pack::width, cells_.size() - e));
+  }
+
+  bool has_fibres() const {
+    return std::any_of(local_.begin(), local_.end(), [](const WallLocal& local) { return !local.fibres.empty(); });
+  }
+
+  /// `step_force` of elements without fibres, whose energy need not be conserved.
+  void step_force_by_packs(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
+                           SparseMatrix* tangent) const {
+    const WallLaw law(*material.elastic);
+    const PrismPack::Step step(law, material.viscosity, material.density, motion.theta, motion.dt);
+    PrismPack::Block block;
+    for (std::size_t p = 0; p < packs_.size(); ++p) {
+      const std::size_t first = p * Pack::width, count = four_at(first).size();
+      const PrismPack::Motion moved = pack_motion(motion, first, count);
+      const PrismPack::Force all =
+          tangent == nullptr ? packs_[p].force(moved, step) : packs_[p].force(moved, step, block);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        scatter(lane_of(all, lane), first + lane, force);
+        if (tangent != nullptr) scatter_.add(*tangent, first + lane, Block(lane_of(block, lane)).data());
+      }
+    }
+  }
+
+  PrismPack::Motion pack_motion(const StepMotion& motion, std::size_t first, std::size_t count) const {
+    PrismPack::Motion moved;
+    for (std::size_t lane = 0; lane < Pack::width; ++lane) {
+      const std::size_t e = first + std::min(lane, count - 1);
+      const auto at = static_cast<int>(lane);
+      for (int a = 0; a < nodes; ++a) {
+        const int node = cells_[e][static_cast<std::size_t>(a)];
+        for (int i = 0; i < 3; ++i) {
+          moved.start(i, a).set(at, motion.start(i, node));
+          moved.velocity(i, a).set(at, motion.velocity(i, node));
+          moved.acceleration(i, a).set(at, motion.acceleration(i, node));
+        }
+      }
+      const Samples initial = initial_stress(e);
+      for (int k = 0; k < samples; ++k) {
+        moved.reference[k].set(at, reference_[e][k]);
+        moved.initial[k].set(at, initial[k]);
+      }
+      moved.stiffness.set(at, local_at(e).stiffness);
+      moved.thickness.set(at, local_at(e).thickness);
+    }
+    return moved;
+  }
+
+  /// One element's part of what four have.
+  template <class Packed>
+  static auto lane_of(const Packed& four, std::size_t lane) {
+    return four.unaryExpr([lane](const Pack& x) { return x[static_cast<int>(lane)]; });
+  }
+
   Positions gather(const Points& x, std::size_t e) const {
     Positions local;
     for (int a = 0; a < nodes; ++a) local.col(a) = x.col(cells_[e][static_cast<std::size_t>(a)]);
@@ -295,6 +363,7 @@ class ElementsOf final : public WallElements {
 
   std::vector<Cell> cells_;
   std::vector<Element> elements_;
+  std::vector<PrismPack> packs_;                  ///< of prisms
   std::vector<Samples> reference_;                ///< products at the stress-free positions
   std::vector<Samples> unit_;                     ///< samples of unit strain there
   std::vector<Samples> initial_;                  ///< initial stress, dual to the samples

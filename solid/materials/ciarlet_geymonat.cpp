@@ -13,16 +13,20 @@ const EffectDeclaration ciarlet_geymonat_declaration{
                    modulus_parameter("bulk", "bulk modulus", range::positive)}};
 
 /// W = k1 (J1 - 3) + k2 (J2 - 3) + k (J - 1) - k ln J.
-class CiarletGeymonat final : public Material {
+class CiarletGeymonat final : public MaterialOf<CiarletGeymonat> {
  public:
   explicit CiarletGeymonat(std::span<const double> values) : k1_(values[0]), k2_(values[1]), bulk_(values[2]) {}
-  Potential potential(double i1, double i2, double j) const override {
-    Potential w;
+  double energy(double i1, double i2, double j) const override {
+    return isochoric_energy(k1_, 0, i1, j) + isochoric_energy(k2_, 1, i2, j) + bulk_ * (j - 1 - std::log(j));
+  }
+  template <class T>
+  Derivatives<T> at(const T& i1, const T& i2, const T& j) const {
+    Derivatives<T> w;
     add_isochoric(w, k1_, 0, i1, j);
     add_isochoric(w, k2_, 1, i2, j);
-    w.energy += bulk_ * (j - 1 - std::log(j));
-    w.first[2] += bulk_ * (1 - 1 / j);
-    w.second(2, 2) += bulk_ / (j * j);
+    const T inverse = 1.0 / j;
+    w.first[2] += bulk_ * (1.0 - inverse);
+    w.second(2, 2) += bulk_ * inverse * inverse;
     return w;
   }
 

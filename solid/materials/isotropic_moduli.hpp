@@ -48,24 +48,32 @@ inline Parameter modulus_parameter(const char* name, const char* meaning, Range 
           .prior_deviation = 1.0};
 }
 
-/// W += kappa/4 (J^2 - 1 - 2 ln J): no stress at J = 1, bulk modulus kappa, infinite at J = 0.
-inline void add_volumetric(Potential& w, double bulk, double j) {
-  w.energy += 0.25 * bulk * (j * j - 1 - 2 * std::log(j));
-  w.first[2] += 0.5 * bulk * (j - 1 / j);
-  w.second(2, 2) += 0.5 * bulk * (1 + 1 / (j * j));
+/// kappa/4 (J^2 - 1 - 2 ln J): no stress at J = 1, bulk modulus kappa, infinite at J = 0.
+inline double volumetric_energy(double bulk, double j) {
+  return 0.25 * bulk * (j * j - 1 - 2 * std::log(j));
+}
+template <class T>
+void add_volumetric(Derivatives<T>& w, double bulk, const T& j) {
+  const T inverse = 1.0 / j;
+  w.first[2] += 0.5 * bulk * (j - inverse);
+  w.second(2, 2) += 0.5 * bulk * (1.0 + inverse * inverse);
 }
 
-/// W += c (I J^-m - 3) for the invariant number `which` (0: I1 with m = 2/3, 1: I2 with m = 4/3).
-inline void add_isochoric(Potential& w, double c, int which, double invariant, double j) {
-  const double m = which == 0 ? 2.0 / 3.0 : 4.0 / 3.0, cubic_root = std::cbrt(j),
-               root_squared = cubic_root * cubic_root;
-  const double scale = c / (which == 0 ? root_squared : root_squared * root_squared);
-  w.energy += scale * invariant - 3 * c;
+/// An isochoric term c (I J^-m - 3), of the invariant number `which` (0: I1 with m = 2/3, 1: I2 with m = 4/3).
+inline double isochoric_energy(double c, int which, double invariant, double j) {
+  const double root = std::cbrt(j), squared = root * root;
+  return c * (invariant / (which == 0 ? squared : squared * squared) - 3);
+}
+template <class T>
+void add_isochoric(Derivatives<T>& w, double c, int which, const T& invariant, const T& j) {
+  const double m = which == 0 ? 2.0 / 3.0 : 4.0 / 3.0;
+  const T root = inverse_cube_root(j), squared = root * root, inverse = root * squared;
+  const T scale = c * (which == 0 ? squared : squared * squared);
   w.first[which] += scale;
-  w.first[2] += -m * scale * invariant / j;
-  w.second(which, 2) += -m * scale / j;
-  w.second(2, which) += -m * scale / j;
-  w.second(2, 2) += m * (m + 1) * scale * invariant / (j * j);
+  w.first[2] += -m * scale * invariant * inverse;
+  w.second(which, 2) += -m * scale * inverse;
+  w.second(2, which) += -m * scale * inverse;
+  w.second(2, 2) += m * (m + 1) * scale * invariant * inverse * inverse;
 }
 
 }  // namespace tether

@@ -13,11 +13,15 @@ const EffectDeclaration mooney_rivlin_declaration{
                    modulus_parameter("bulk", "bulk modulus", range::positive)}};
 
 /// W = c1 (J1 - 3) + c2 (J2 - 3) + kappa/4 (J^2 - 1 - 2 ln J).
-class MooneyRivlin final : public Material {
+class MooneyRivlin final : public MaterialOf<MooneyRivlin> {
  public:
   explicit MooneyRivlin(std::span<const double> values) : c1_(values[0]), c2_(values[1]), bulk_(values[2]) {}
-  Potential potential(double i1, double i2, double j) const override {
-    Potential w;
+  double energy(double i1, double i2, double j) const override {
+    return isochoric_energy(c1_, 0, i1, j) + isochoric_energy(c2_, 1, i2, j) + volumetric_energy(bulk_, j);
+  }
+  template <class T>
+  Derivatives<T> at(const T& i1, const T& i2, const T& j) const {
+    Derivatives<T> w;
     add_isochoric(w, c1_, 0, i1, j);
     add_isochoric(w, c2_, 1, i2, j);
     add_volumetric(w, bulk_, j);

@@ -11,11 +11,15 @@ const EffectDeclaration neo_hookean_declaration{
     .parameters = {young_parameter(), poisson_parameter()}};
 
 /// W = mu/2 (I1 J^-2/3 - 3) + kappa/4 (J^2 - 1 - 2 ln J).
-class NeoHookean final : public Material {
+class NeoHookean final : public MaterialOf<NeoHookean> {
  public:
   explicit NeoHookean(std::span<const double> values) : moduli_(IsotropicModuli::from(values)) {}
-  Potential potential(double i1, double, double j) const override {
-    Potential w;
+  double energy(double i1, double, double j) const override {
+    return isochoric_energy(moduli_.shear / 2, 0, i1, j) + volumetric_energy(moduli_.bulk, j);
+  }
+  template <class T>
+  Derivatives<T> at(const T& i1, const T&, const T& j) const {
+    Derivatives<T> w;
     add_isochoric(w, moduli_.shear / 2, 0, i1, j);
     add_volumetric(w, moduli_.bulk, j);
     return w;

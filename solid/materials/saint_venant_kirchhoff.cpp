@@ -11,20 +11,27 @@ const EffectDeclaration saint_venant_kirchhoff_declaration{
     .parameters = {young_parameter(), poisson_parameter()}};
 
 /// W = lambda/2 tr(E)^2 + mu tr(E^2), tr E = (I1 - 3)/2, tr E^2 = (I1^2 - 2 I2 - 2 I1 + 3)/4.
-class SaintVenantKirchhoff final : public Material {
+class SaintVenantKirchhoff final : public MaterialOf<SaintVenantKirchhoff> {
  public:
-  explicit SaintVenantKirchhoff(std::span<const double> values) : moduli_(IsotropicModuli::from(values)) {}
-  Potential potential(double i1, double i2, double) const override {
-    const double mu = moduli_.shear, lambda = moduli_.bulk - 2 * mu / 3, trace = (i1 - 3) / 2;
-    Potential w;
-    w.energy = lambda / 2 * trace * trace + mu / 4 * (i1 * i1 - 2 * i2 - 2 * i1 + 3);
-    w.first << lambda / 2 * trace + mu / 2 * (i1 - 1), -mu / 2, 0;
-    w.second(0, 0) = lambda / 4 + mu / 2;
+  explicit SaintVenantKirchhoff(std::span<const double> values) {
+    const IsotropicModuli moduli = IsotropicModuli::from(values);
+    mu_ = moduli.shear;
+    lambda_ = moduli.bulk - 2 * mu_ / 3;
+  }
+  double energy(double i1, double i2, double) const override {
+    const double trace = (i1 - 3) / 2;
+    return lambda_ / 2 * trace * trace + mu_ / 4 * (i1 * i1 - 2 * i2 - 2 * i1 + 3);
+  }
+  template <class T>
+  Derivatives<T> at(const T& i1, const T&, const T&) const {
+    Derivatives<T> w;
+    w.first << lambda_ / 4 * (i1 - 3.0) + mu_ / 2 * (i1 - 1.0), -mu_ / 2, 0.0;
+    w.second(0, 0) = lambda_ / 4 + mu_ / 2;
     return w;
   }
 
  private:
-  IsotropicModuli moduli_;
+  double mu_ = 0, lambda_ = 0;
 };
 
 }  // namespace
