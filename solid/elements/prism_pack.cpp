@@ -168,6 +168,35 @@ void PrismPack::enhance(const WallLaw& law, std::array<Six, points>& strain) con
   }
 }
 
+/// At the points, and the frames that they were turned by.
+struct PrismPack::Strains {
+  std::array<Sixes, points> frame;
+  std::array<Six, points> strain;
+};
+
+PrismPack::Strains PrismPack::strains_of(const Samples& s, const Step& step) const {
+  const Pack fanned = fan_.dot(s.head<6>());
+  Strains all;
+  for (std::size_t q = 0; q < points; ++q) {
+    all.frame[q] = frame(static_cast<int>(q));
+    all.strain[q] = all.frame[q].lazyProduct(parent_strain(step.at[q], s, fanned));
+  }
+  enhance(step.law, all.strain);
+  return all;
+}
+
+Eigen::Matrix<Pack, 6, 1> PrismPack::mean_stress(const Positions& x, const Samples& reference, const Step& step) const {
+  const Samples s = PrismElement::strains().products(x) - reference;
+  const Strains at = strains_of(s, step);
+  Six sum = Six::Zero();
+  Pack volume = 0.0;
+  for (std::size_t q = 0; q < points; ++q) {
+    sum += points_[q].weight * stress(step.law.material, at.strain[q]);
+    volume += points_[q].weight;
+  }
+  return (1.0 / volume) * sum;
+}
+
 /// Dual to the samples: stress, and tangent by the velocity, of what resists strain and its rate.
 struct PrismPack::Response {
   Samples stress = Samples::Zero();
@@ -177,15 +206,8 @@ struct PrismPack::Response {
 PrismPack::Response PrismPack::respond(const Motion& motion, const Samples& s, const Samples& rate, const Step& step,
                                        bool with_tangent) const {
   const Pack elastic = motion.stiffness * motion.thickness, viscous = step.viscosity * motion.thickness;
-  const Pack fanned = fan_.dot(s.head<6>()), fanned_rate = fan_.dot(rate.head<6>());
-  std::array<Sixes, points> frames;
-  std::array<Six, points> strain;
-  for (std::size_t q = 0; q < points; ++q) {
-    frames[q] = frame(static_cast<int>(q));
-    strain[q] = frames[q].lazyProduct(parent_strain(step.at[q], s, fanned));
-  }
-  enhance(step.law, strain);
-
+  const Pack fanned_rate = fan_.dot(rate.head<6>());
+  const auto [frames, strain] = strains_of(s, step);
   Response result;
   Samples coupling = Samples::Zero(), thickness = Samples::Zero();  // of the enhanced mode; of the parent's 33
   Pack thickness_stress = 0.0, thickness_coupling = 0.0, thickness_own = 0.0, slope = 0.0;

@@ -49,6 +49,9 @@ class PrismPack {
     return answer(motion, step, &by_velocity);
   }
 
+  /// Second Piola-Kirchhoff stress at nodal positions x, of the elastic law alone: its mean over each element.
+  Eigen::Matrix<Pack, 6, 1> mean_stress(const Positions& x, const Samples& reference, const Step& step) const;
+
  private:
   using Six = Eigen::Matrix<Pack, 6, 1>;
   using Sixes = Eigen::Matrix<Pack, 6, 6>;
@@ -63,6 +66,8 @@ class PrismPack {
   Force answer(const Motion& motion, const Step& step, Block* by_velocity) const;
   Response respond(const Motion& motion, const Samples& s, const Samples& rate, const Step& step,
                    bool with_tangent) const;
+  struct Strains;
+  Strains strains_of(const Samples& s, const Step& step) const;
   void enhance(const WallLaw& law, std::array<Six, points>& strain) const;
   Sixes frame(int point) const;
   Eigen::Matrix<Pack, nodes, nodes> mass(const Step& step) const;

@@ -155,6 +155,33 @@ class ElementsOf final : public WallElements {
     }
   }
 
+  /// Mean second Piola-Kirchhoff stress of all elements at nodal positions x, but for the initial one.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> mean_stresses(const Points& x, const WallLaw& law) const {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> all(6, static_cast<Eigen::Index>(cells_.size()));
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const Element& element = elements_[e];
+      const PointStrains<Element> at(element, Samples(element.strains().products(gather(x, e)) - reference_[e]), law);
+      all.col(static_cast<Eigen::Index>(e)) =
+          local_at(e).stiffness * mean_stress(element, at.strain, law) + mean_tension(e) + mean_of_fibres(e, at.strain);
+    }
+    return all;
+  }
+
+  /// The same of elements without fibres.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> mean_stresses_by_packs(const Points& x, const WallLaw& law) const {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> all(6, static_cast<Eigen::Index>(cells_.size()));
+    const PrismPack::Step at_rest(law, 0, 0, 1, 1);
+    for (std::size_t p = 0; p < packs_.size(); ++p) {
+      const std::size_t first = p * Pack::width, count = four_at(first).size();
+      const PrismPack::Motion still = pack_motion({x, x, x, 1, 1, false}, first, count);
+      const Eigen::Matrix<Pack, 6, 1> four = packs_[p].mean_stress(still.start, still.reference, at_rest);
+      for (std::size_t lane = 0; lane < count; ++lane)
+        all.col(static_cast<Eigen::Index>(first + lane)) =
+            local_at(first + lane).stiffness * lane_of(four, lane) + mean_tension(first + lane);
+    }
+    return all;
+  }
+
   PrismPack::Motion pack_motion(const StepMotion& motion, std::size_t first, std::size_t count) const {
     PrismPack::Motion moved;
     for (std::size_t lane = 0; lane < Pack::width; ++lane) {
@@ -315,16 +342,22 @@ class ElementsOf final : public WallElements {
     return sum;
   }
 
-  /// Of tension and fibres (S.19, S.20).
-  Voigt added_mean_stress(std::size_t e, const std::array<Voigt, Element::points>& strain) const {
+  static Voigt mean_along(const Vec3& direction) {
+    return voigt_dyad(direction, direction).cwiseProduct(halved_shears());
+  }
+  /// Of the tension (S.19).
+  Voigt mean_tension(std::size_t e) const {
+    if (local_at(e).tension == 0) return Voigt::Zero();
+    return local_at(e).tension * mean_along(frame(e).along);
+  }
+  /// Of the fibres (S.20).
+  Voigt mean_of_fibres(std::size_t e, const std::array<Voigt, Element::points>& strain) const {
     Voigt sum = Voigt::Zero();
-    if (local_at(e).tension == 0 && local_at(e).fibres.empty()) return sum;
+    if (local_at(e).fibres.empty()) return sum;
     const auto [around, along] = frame(e);
-    const auto dyad = [](const Vec3& a) -> Voigt { return voigt_dyad(a, a).cwiseProduct(halved_shears()); };
-    sum += local_at(e).tension * dyad(along);
     for (const Fibres& fibres : local_at(e).fibres)
       for (const double sign : {1.0, -1.0}) {
-        const Voigt direction = dyad(std::cos(fibres.angle) * around + sign * std::sin(fibres.angle) * along);
+        const Voigt direction = mean_along(std::cos(fibres.angle) * around + sign * std::sin(fibres.angle) * along);
         for (int q = 0; q < Element::points; ++q)
           sum += elements_[e].weight(q) / elements_[e].volume() *
                  fibre_response(fibres, direction.dot(strain[static_cast<std::size_t>(q)])).stress * direction;
@@ -437,13 +470,14 @@ template <class Element>
 Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(const Points& x,
                                                                             const Material& material) const {
   const WallLaw law(material);
-  Eigen::Matrix<double, 6, Eigen::Dynamic> result(6, static_cast<Eigen::Index>(cells_.size()));
+  Eigen::Matrix<double, 6, Eigen::Dynamic> result;
+  if constexpr (packed)
+    result = has_fibres() ? mean_stresses(x, law) : mean_stresses_by_packs(x, law);
+  else
+    result = mean_stresses(x, law);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const Positions local = gather(x, e);
-    const PointStrains<Element> at(elements_[e], Samples(elements_[e].strains().products(local) - reference_[e]), law);
-    const Mat3 f = elements_[e].mean_gradient(local);
-    const Voigt s = initial_mean_[e] + local_at(e).stiffness * mean_stress(elements_[e], at.strain, law) +
-                    added_mean_stress(e, at.strain);
+    const Mat3 f = elements_[e].mean_gradient(gather(x, e));
+    const Voigt s = initial_mean_[e] + result.col(static_cast<Eigen::Index>(e));
     Mat3 tensor;
     tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
     const Mat3 sigma = f * tensor * f.transpose() / f.determinant();

@@ -45,6 +45,29 @@ class ElementContract : public ::testing::TestWithParam<std::tuple<ElementKind, 
   std::unique_ptr<WallElements> wall_;
 };
 
+/// Walls with fibres of no stiffness are computed one element after the other, others four at once where they can be.
+TEST_P(ElementContract, FourAtOnceAnswerAsOneAfterTheOther) {
+  if (!mesh_.prisms.empty()) mesh_.prisms.resize(4 * (mesh_.prisms.size() / 4) - 3);  // the last is alone
+  wall_ = make_wall_elements(mesh_, mesh_.points);
+  const std::size_t elements = mesh_.prisms.empty() ? mesh_.tetrahedra.size() : mesh_.prisms.size();
+  wall_->set_places(std::vector<ElementPlace>(elements, {0, Vec3::UnitZ(), Vec3::UnitX()}));
+  const Points start = deformed(), velocity = noise(1), acceleration = noise(1);
+  const auto answer = [&](const std::vector<Fibres>& fibres, bool with_tangent) {
+    wall_->set_local({{.stiffness = 1.7, .thickness = 0.6, .tension = 0.1, .fibres = fibres}});
+    SparseMatrix tangent = wall_->zero_matrix();
+    const VectorXd force =
+        step_force({start, velocity, acceleration, 0.6, 0.02, false}, 0.3, with_tangent ? &tangent : nullptr);
+    return std::tuple(force, tangent, wall_->cauchy_stress(start, *material_));
+  };
+  const std::vector<Fibres> no_stiffness{{.stiffness = 0, .exponent = 1, .angle = 0.3}};
+  const auto [force, tangent, stress] = answer({}, true);
+  const auto [clear_force, clear_tangent, clear_stress] = answer(no_stiffness, true);
+  EXPECT_LE((force - clear_force).norm(), 1e-12 * force.norm());
+  EXPECT_LE((tangent - clear_tangent).norm(), 1e-12 * tangent.norm());
+  EXPECT_LE((stress - clear_stress).norm(), 1e-12 * stress.norm());
+  EXPECT_LE((std::get<0>(answer({}, false)) - force).norm(), 1e-13 * force.norm());
+}
+
 TEST_P(ElementContract, RigidMotionCostsNothing) {
   const Points moved = (random_rotation(random_) * mesh_.points).colwise() + Vec3(3, -2, 5);
   EXPECT_NEAR(strain_energy(moved), 0, 1e-13);
