@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "common/base/error.hpp"
 
@@ -34,6 +35,14 @@ MatrixXd leading(const MatrixXd& gram) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(gram);  // ascending
   const Eigen::Index worth = (squares.eigenvalues().array() > least * least).count();
   return squares.eigenvectors().rightCols(std::min(worth, most_directions));
+}
+
+/// Of so many rows at once what is made stays in the cache, and no memory is taken anew: the pages of whole matrices
+/// had to be cleared at each solve, which took half of the master's time.
+template <class Body>
+void for_each_block(Eigen::Index rows, const Body& body) {
+  constexpr Eigen::Index most = 512;
+  for (Eigen::Index row = 0; row < rows; row += most) body(row, std::min(most, rows - row));
 }
 
 }  // namespace
@@ -66,33 +75,50 @@ void Recycling::note(VectorXd x, VectorXd y) {
 
 void Recycling::learn() {
   if (x_.empty()) return;
-  const Eigen::Index size = x_.front().size(), fresh = static_cast<Eigen::Index>(x_.size()), known = Q_.cols();
-  MatrixXd X(size, fresh + known), Y(size, fresh + known);  // Y = (H - 1) X
-  for (Eigen::Index j = 0; j < fresh; ++j) {
-    const auto latest = static_cast<std::size_t>(fresh - 1 - j);
-    X.col(j) = x_[latest];
-    Y.col(j) = y_[latest] - x_[latest];
-  }
-  if (known > 0) {
-    X.rightCols(known) = Q_.cast<double>();
-    Y.rightCols(known) = D_.cast<double>();
-  }
+  const Eigen::Index size = x_.front().size(), columns = static_cast<Eigen::Index>(x_.size()) + Q_.cols();
+  MatrixXd of_x = MatrixXd::Zero(columns, columns), of_y = of_x;
+  for_each_block(size, [&](Eigen::Index row, Eigen::Index rows) {
+    const auto [X, Y] = pairs(row, rows);
+    of_x += X.transpose() * X;
+    of_y += Y.transpose() * Y;
+  });
+  const MatrixXd T = orthonormalizing(of_x), V = T * leading(T.transpose() * of_y * T);
+  Eigen::MatrixXf Q(size, V.cols()), D(size, V.cols());
+  for_each_block(size, [&](Eigen::Index row, Eigen::Index rows) {
+    const auto [X, Y] = pairs(row, rows);
+    Q.middleRows(row, rows) = (X * V).cast<float>();
+    D.middleRows(row, rows) = (Y * V).cast<float>();
+  });
   x_.clear();
   y_.clear();
-  const MatrixXd T = orthonormalizing(X.transpose() * X), V = T * leading(T.transpose() * (Y.transpose() * Y) * T);
-  keep(X * V, Y * V);
-}
-
-void Recycling::keep(const MatrixXd& Q, const MatrixXd& D) {
   if (!Q.allFinite() || !D.allFinite()) return forget();
-  Q_ = Q.cast<float>();
-  D_ = D.cast<float>();
+  Q_ = std::move(Q);
+  D_ = std::move(D);
   prepare();
 }
 
+/// Rows of X, the latest first and then what was known, and of (H - 1) X.
+std::pair<MatrixXd, MatrixXd> Recycling::pairs(Eigen::Index row, Eigen::Index rows) const {
+  const auto fresh = static_cast<Eigen::Index>(x_.size()), known = Q_.cols();
+  MatrixXd X(rows, fresh + known), Y(rows, fresh + known);
+  for (Eigen::Index j = 0; j < fresh; ++j) {
+    const auto latest = static_cast<std::size_t>(fresh - 1 - j);
+    X.col(j) = x_[latest].segment(row, rows);
+    Y.col(j) = y_[latest].segment(row, rows) - X.col(j);
+  }
+  if (known > 0) {
+    X.rightCols(known) = Q_.middleRows(row, rows).cast<double>();
+    Y.rightCols(known) = D_.middleRows(row, rows).cast<double>();
+  }
+  return {std::move(X), std::move(Y)};
+}
+
 void Recycling::prepare() {
-  const MatrixXd Q = Q_.cast<double>();
-  inverse_ = (MatrixXd::Identity(Q.cols(), Q.cols()) + Q.transpose() * D_.cast<double>()).inverse();
+  inverse_ = MatrixXd::Identity(Q_.cols(), Q_.cols());
+  for_each_block(Q_.rows(), [this](Eigen::Index row, Eigen::Index rows) {
+    inverse_ += Q_.middleRows(row, rows).cast<double>().transpose() * D_.middleRows(row, rows).cast<double>();
+  });
+  inverse_ = inverse_.inverse().eval();
   if (!inverse_.allFinite()) forget();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "common/base/types.hpp"
@@ -30,7 +31,7 @@ class Recycling {
   void unpack(const double* begin, const double* end);
 
  private:
-  void keep(const MatrixXd& Q, const MatrixXd& D);
+  std::pair<MatrixXd, MatrixXd> pairs(Eigen::Index row, Eigen::Index rows) const;
   void prepare();
 
   std::vector<VectorXd> x_, y_;  ///< noted since the last `learn`
