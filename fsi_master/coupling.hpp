@@ -34,8 +34,11 @@ class Coupling {
  public:
   virtual ~Coupling() = default;
   virtual std::string name() const = 0;
-  /// Both partners have begun the step. Throws StepFailure if one of them gives up.
-  virtual CouplingResult solve_step(const StepStart& start) = 0;
+  /// The solid has begun the step, the fluid is at it: a method that asks the solid first need not wait for the fluid.
+  /// Throws StepFailure if one of them gives up.
+  virtual CouplingResult solve_step(const StepStart& start, Later<Done> fluid_begins) = 0;
+  /// Both have begun it.
+  CouplingResult solve_step(const StepStart& start) { return solve_step(start, Later<Done>(Done{})); }
   /// What the method remembers from earlier steps: part of a checkpoint.
   virtual std::vector<double> memory() const { return {}; }
   virtual void set_memory(const std::vector<double>&) {}

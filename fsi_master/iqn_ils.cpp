@@ -12,7 +12,8 @@ constexpr double filter = 1e-2;
 IqnIls::IqnIls(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
     : fluid_(fluid), solid_(solid), options_(options), columns_(options.reuse, filter) {}
 
-CouplingResult IqnIls::solve_step(const StepStart& start) {
+CouplingResult IqnIls::solve_step(const StepStart& start, Later<Done> fluid_begins) {
+  fluid_begins.get();
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd x = start.velocity, r_old, solved_old;

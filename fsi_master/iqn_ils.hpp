@@ -12,7 +12,7 @@ class IqnIls : public Coupling {
  public:
   IqnIls(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options);
   std::string name() const override { return "iqn_ils"; }
-  CouplingResult solve_step(const StepStart& start) override;
+  CouplingResult solve_step(const StepStart& start, Later<Done> fluid_begins) override;
   std::vector<double> memory() const override;
   void set_memory(const std::vector<double>& values) override;
 

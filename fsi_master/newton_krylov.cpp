@@ -7,14 +7,14 @@ namespace tether {
 NewtonKrylov::NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
     : fluid_(fluid), solid_(solid), options_(options) {}
 
-CouplingResult NewtonKrylov::solve_step(const StepStart& start) {
+CouplingResult NewtonKrylov::solve_step(const StepStart& start, Later<Done> fluid_begins) {
   Convergence convergence(options_, start);
   SolidPartner::Iterate solid;
   VectorXd V = start.velocity, dV = memory_.begin(start), change = dV;
   size_ = V.size();
   if (dV.size() > 0) V += dV.head(size_);
   for (double first = 0; convergence.may_continue();) {
-    solid = evaluate(start, dV, V, convergence);
+    solid = evaluate(start, dV, V, convergence, convergence.evaluations() == 0 ? &fluid_begins : nullptr);
     const VectorXd estimate = solid_.precondition(solid.residual).get();
     if (convergence.evaluations() == 1) memory_.first_correction_left(estimate.norm() / first);
     if (convergence.reached(V, estimate.head(size_))) break;
@@ -37,15 +37,20 @@ void NewtonKrylov::set_memory(const std::vector<double>& values) {
   memory_.unpack(values);
 }
 
-/// The residual after `dV`, at V (C.4). Prescribed motion need not be the predicted one: then V becomes what it is. The
-/// residual is linear in the load.
+/// The residual after `dV`, at V (C.4). It is linear in the load, so that the wall computes its part while the blood
+/// does its own, the first time the whole explicit stage. Prescribed motion need not be the predicted one: then V
+/// becomes what it is.
 SolidPartner::Iterate NewtonKrylov::evaluate(const StepStart& start, const VectorXd& dV, VectorXd& V,
-                                             const Convergence& convergence) {
-  const VectorXd load = fluid_.load(start.motion(V)).get();
-  SolidPartner::Iterate solid = solid_.residual(dV, load).get();
-  if (convergence.is_same(solid.motion.velocity, V)) return solid;
-  V = solid.motion.velocity;
-  solid.residual.head(size_) += fluid_.load(start.motion(V)).get() - load;
+                                             const Convergence& convergence, Later<Done>* fluid_begins) {
+  auto of_wall = solid_.residual(dV, VectorXd::Zero(size_));
+  if (fluid_begins != nullptr) fluid_begins->get();
+  VectorXd load = fluid_.load(start.motion(V)).get();
+  SolidPartner::Iterate solid = of_wall.get();
+  if (!convergence.is_same(solid.motion.velocity, V)) {
+    V = solid.motion.velocity;
+    load = fluid_.load(start.motion(V)).get();
+  }
+  solid.residual.head(size_) += load;
   return solid;
 }
 

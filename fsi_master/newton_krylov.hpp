@@ -13,14 +13,14 @@ class NewtonKrylov : public Coupling {
  public:
   NewtonKrylov(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options);
   std::string name() const override { return "newton_krylov"; }
-  CouplingResult solve_step(const StepStart& start) override;
+  CouplingResult solve_step(const StepStart& start, Later<Done> fluid_begins) override;
   std::vector<double> memory() const override;
   void set_memory(const std::vector<double>& values) override;
   void follow(RunGuide* guide) override { memory_.follow(guide); }
 
  private:
   SolidPartner::Iterate evaluate(const StepStart& start, const VectorXd& dV, VectorXd& V,
-                                 const Convergence& convergence);
+                                 const Convergence& convergence, Later<Done>* fluid_begins);
   VectorXd correction(const VectorXd& estimate, double target, Convergence& convergence);
   VectorXd tangent_times(const VectorXd& dV);
 

@@ -7,7 +7,8 @@ namespace tether {
 NewtonTangents::NewtonTangents(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options)
     : fluid_(fluid), solid_(solid), options_(options) {}
 
-CouplingResult NewtonTangents::solve_step(const StepStart& start) {
+CouplingResult NewtonTangents::solve_step(const StepStart& start, Later<Done> fluid_begins) {
+  fluid_begins.get();
   Convergence convergence(options_, start);
   Motion solid;
   VectorXd V = start.velocity;

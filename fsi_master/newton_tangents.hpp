@@ -12,7 +12,7 @@ class NewtonTangents : public Coupling {
  public:
   NewtonTangents(FluidPartner& fluid, SolidPartner& solid, const CouplingOptions& options);
   std::string name() const override { return "newton_krylov"; }
-  CouplingResult solve_step(const StepStart& start) override;
+  CouplingResult solve_step(const StepStart& start, Later<Done> fluid_begins) override;
   std::vector<double> memory() const override;
   void set_memory(const std::vector<double>& values) override;
   void follow(RunGuide* guide) override { memory_.follow(guide); }

@@ -67,10 +67,8 @@ CouplingResult TimeLoop::solve(const StepStart& start) {
   try {
     if (observer_ != nullptr && observer_->form() == Observer::Form::monolithic) return solve_with_drift(start);
     auto fluid = fluid_.begin_step(start);
-    auto solid = solid_.begin_step(start);
-    fluid.get();
-    solid.get();
-    return coupling_.solve_step(start);
+    solid_.begin_step(start).get();
+    return coupling_.solve_step(start, std::move(fluid));
   } catch (const StepFailure& failure) {
     CouplingResult result;
     result.failure = failure.what();
