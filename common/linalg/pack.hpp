@@ -13,13 +13,14 @@ namespace tether {
 /// elements in the time of one. Products of such matrices must be lazy: blocking is for larger ones.
 struct Pack {
   static constexpr int width = 4;
-  using Lanes [[gnu::vector_size(8 * width)]] = double;
+  /// Aligned as Eigen's matrices are without AVX; with it they are aligned to more anyway.
+  using Lanes [[gnu::vector_size(8 * width), gnu::aligned(16)]] = double;
 
   Lanes lanes;
 
   Pack() = default;
   Pack(double x) : lanes{x, x, x, x} {}  // NOLINT(google-explicit-constructor): a number is one for all
-  explicit Pack(Lanes all) : lanes(all) {}
+  explicit Pack(const Lanes& all) : lanes(all) {}
 
   double operator[](int lane) const { return lanes[lane]; }
   void set(int lane, double x) { lanes[lane] = x; }

@@ -81,6 +81,9 @@ function(tether_test name)
   if(NOT arg_TIMEOUT)  # for what hangs: no busy machine needs as long
     set(arg_TIMEOUT 1800)
   endif()
+  if(CMAKE_BUILD_TYPE STREQUAL Debug)  # under the sanitizers, where what draws thousands of samples takes ten times as long
+    math(EXPR arg_TIMEOUT "10 * ${arg_TIMEOUT}")
+  endif()
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "OMP_NUM_THREADS=1;OPENBLAS_NUM_THREADS=1")
 endfunction()
