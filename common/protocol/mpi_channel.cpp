@@ -19,7 +19,7 @@ constexpr double master_waits = 10, partner_waits = 20;
 constexpr int rounds_of_progress = 4;
 
 /// While it lives nothing is said: if a job fails, it has been told why, and Open MPI logs that its servers go away
-/// while leave is taken.
+/// while leave is taken. A partner does not know whether the job fails; its master tells.
 class Silence {
  public:
   explicit Silence(bool is_on) : errors_(is_on ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3) : -1) {
@@ -106,7 +106,7 @@ void MpiChannel::close(int exit_code) {
   const Guard deadline(0.5, [exit_code, limit](double seconds) {
     if (seconds > limit) end_job(exit_code);
   });
-  const Silence silence(exit_code != exit_done || !own_node().empty());
+  const Silence silence(exit_code != exit_done || to_ == To::master || !own_node().empty());
   if (MPI_Comm_disconnect(&communicator_) != MPI_SUCCESS) end_job(exit_code);  // the launcher has just gone
 }
 
