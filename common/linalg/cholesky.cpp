@@ -181,6 +181,7 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 1;
+  data_->drop_rounded();
   cholmod_free_factor(&data_->factor, &common);
   data_->factor = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
   if (data_->factor == nullptr)

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -65,18 +64,12 @@ inline Pack abs(const Pack& x) {
 inline Pack larger(const Pack& a, const Pack& b) {
   return Pack(a.lanes > b.lanes ? a.lanes : b.lanes);
 }
-inline double larger(double a, double b) {
-  return std::max(a, b);
-}
 
 /// Whether a > b in any lane; one that is no number is above nothing.
 inline bool any_above(const Pack& a, const Pack& b) {
   for (int lane = 0; lane < Pack::width; ++lane)
     if (a.lanes[lane] > b.lanes[lane]) return true;
   return false;
-}
-inline bool any_above(double a, double b) {
-  return a > b;
 }
 
 /// x^(-1/3) of positive numbers, to rounding.
@@ -86,9 +79,8 @@ inline double inverse_cube_root(double x) {
 /// Newton's method for y^-3 = x, from the bits of x: an exponent that is divided by three, and a mantissa that is right
 /// to 4 %; the error e becomes 2 e^2 in each of four turns.
 inline Pack inverse_cube_root(const Pack& x) {
-  const Pack first = each(
+  Pack y = each(
       x, [](double a) { return std::bit_cast<double>(0x553ef0ff289dd796U - std::bit_cast<std::uint64_t>(a) / 3); });
-  Pack y = first;
   for (int turn = 0; turn < 4; ++turn) y += y * (1.0 - x * y * y * y) * (1.0 / 3);
   return y;
 }

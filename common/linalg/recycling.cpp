@@ -37,8 +37,8 @@ MatrixXd leading(const MatrixXd& gram) {
   return squares.eigenvectors().rightCols(std::min(worth, most_directions));
 }
 
-/// Of so many rows at once what is made stays in the cache, and no memory is taken anew: the pages of whole matrices
-/// had to be cleared at each solve, which took half of the master's time.
+/// What is made of so many rows at once stays in the cache: the pages of whole matrices had to be cleared at each
+/// solve, which took half of the master's time.
 template <class Body>
 void for_each_block(Eigen::Index rows, const Body& body) {
   constexpr Eigen::Index most = 512;

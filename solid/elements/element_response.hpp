@@ -16,12 +16,9 @@ namespace tether {
 struct WallLaw {
   explicit WallLaw(const Material& elastic) : material(elastic) {
     const Voigt66 c = stress_and_tangent(elastic, Voigt::Zero()).tangent;
-    shear = c(3, 3);
-    first = c(0, 0) - 2 * shear;
     thickness_variation = 0.5 * std::sqrt(c(3, 3) / c(0, 0));
   }
   const Material& material;
-  double shear, first;  ///< Lame's constants mu, lambda at small strain
   double thickness_variation;
 };
 

@@ -57,16 +57,8 @@ void add_tangent(const At& at, const Sixes& parent, Tangent& sum) {
   }
 }
 
-/// S = c E of a linear, isotropic law; strain-like components.
-Six linear_stress(const Six& strain, const WallLaw& law) {
-  const Pack volume = law.first * (strain[0] + strain[1] + strain[2]);
-  Six result = law.shear * strain;
-  for (int i = 0; i < 3; ++i) result[i] = 2.0 * result[i] + volume;
-  return result;
-}
-
-/// D_ij += rates_i d rates_j, the upper half and its mirror image.
-void add_product(const Rates& rates, const Tangent& d, PrismPack::Block& block) {
+/// block = rates d rates': the upper half and its mirror image.
+void set_product(const Rates& rates, const Tangent& d, PrismPack::Block& block) {
   const Rates product = rates.lazyProduct(d);
   for (int i = 0; i < PrismPack::unknowns; ++i)
     for (int j = i; j < PrismPack::unknowns; ++j) {
@@ -96,8 +88,8 @@ PrismPack::PrismPack(std::span<const PrismElement> elements) {
   }
 }
 
-PrismPack::Step::Step(const WallLaw& wall_law, double viscosity_, double density_, double theta, double dt_)
-    : law(wall_law), viscosity(viscosity_), density(density_), dt(dt_), advance(theta * dt_) {
+PrismPack::Step::Step(const WallLaw& wall_law, double viscosity_, double density_, double theta, double dt)
+    : law(wall_law), viscosity(viscosity_), density(density_), advance(theta * dt) {
   const Vec3 mean = Vec3::Constant(1.0 / 3);
   for (int q = 0; q < points; ++q) {
     Point& point = at[static_cast<std::size_t>(q)];
@@ -135,35 +127,25 @@ Eigen::Matrix<Pack, PrismPack::nodes, PrismPack::nodes> PrismPack::mass(const St
   return sum;
 }
 
-/// The amplitude of the enhanced mode (S.10), by Newton from where a linear law has it.
+/// The amplitude of the enhanced mode (S.10), as PointStrains has it: until the last of the four is found.
 void PrismPack::enhance(const WallLaw& law, std::array<Six, points>& strain) const {
   constexpr int most = 25;
-  const Six linear = linear_stress(mode_, law);
-  const Pack own = linear.dot(mode_);
-  Pack residual = 0.0, slope = 0.0, scale = 0.0, largest = 0.0;
+  Pack scale = 0.0, largest = 0.0, size = 0.0;
   for (std::size_t q = 0; q < points; ++q) {
-    residual += points_[q].weight * points_[q].enhanced * linear.dot(strain[q]);
-    slope += points_[q].weight * points_[q].enhanced * points_[q].enhanced * own;
     largest = larger(largest, abs(points_[q].enhanced));
     for (int i = 0; i < 6; ++i) scale = larger(scale, abs(strain[q][i]));
   }
-  Pack size = 0.0;
-  for (int i = 0; i < 6; ++i) size = larger(size, abs(mode_[i]));
-  size *= largest;
-  Pack change = -residual / slope;
-  const auto move = [&] {
-    for (std::size_t q = 0; q < points; ++q) strain[q] += (change * points_[q].enhanced) * mode_;
-  };
-  move();
+  for (int i = 0; i < 6; ++i) size = larger(size, largest * abs(mode_[i]));
   for (int iteration = 0; iteration < most; ++iteration) {
-    residual = slope = 0.0;
+    Pack residual = 0.0, slope = 0.0;
     for (std::size_t q = 0; q < points; ++q) {
       const auto [force, stiffness] = along(mode_, law.material, strain[q]);
-      residual += points_[q].weight * points_[q].enhanced * force;
-      slope += points_[q].weight * points_[q].enhanced * points_[q].enhanced * stiffness;
+      const Pack share = points_[q].weight * points_[q].enhanced;
+      residual += share * force;
+      slope += share * points_[q].enhanced * stiffness;
     }
-    change = -residual / slope;
-    move();
+    const Pack change = -residual / slope;
+    for (std::size_t q = 0; q < points; ++q) strain[q] += (change * points_[q].enhanced) * mode_;
     if (!any_above(abs(change) * size, 1e-7 * scale)) break;  // quadratic: what is left is below 1e-13
   }
 }
@@ -275,7 +257,7 @@ PrismPack::Force PrismPack::answer(const Motion& motion, const Step& step, Block
   Force force = rates.lazyProduct(response.stress);
   force += inertia.reshaped();
   if (by_velocity == nullptr) return force;
-  add_product(rates, response.tangent, *by_velocity);
+  set_product(rates, response.tangent, *by_velocity);
   const Eigen::Matrix<Pack, nodes, nodes> isotropic =
       Pack(step.advance) * strains.geometric(response.stress) + Pack(1 / step.advance) * mass;
   for (int a = 0; a < nodes; ++a)

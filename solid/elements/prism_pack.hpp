@@ -11,7 +11,7 @@ namespace tether {
 
 /// Four prisms at once: what `PrismElement` and `sample_response` say clearly, arranged to cost a fraction. A strain is
 /// put together from the samples in the parent coordinates, where few of them make each component, and turned from
-/// there; that the enhanced mode is sought from where a linear law would have it saves a turn.
+/// there.
 class PrismPack {
  public:
   static constexpr int nodes = PrismElement::nodes, samples = PrismElement::samples, points = PrismElement::points,
@@ -28,7 +28,7 @@ class PrismPack {
   struct Step {
     Step(const WallLaw& law, double viscosity, double density, double theta, double dt);
     const WallLaw& law;
-    double viscosity, density, dt, advance;  ///< see WallMaterial; advance: theta dt
+    double viscosity, density, advance;  ///< see WallMaterial; advance: theta dt
     struct Point {
       Vec3 edges;                          ///< thickness strain by the three vertical edges' (S.7)
       Eigen::Matrix<double, 2, 3> shears;  ///< shears 13 and 23 by the samples 9, 10, 11

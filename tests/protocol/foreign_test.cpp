@@ -27,6 +27,14 @@ JobResult couple(const std::string& fluid, const std::string& solid) {
   return run_job({test_program("fake_master"), fluid, solid, "3"}, python_path);
 }
 
+/// A line of one master, two processes of the fluid and one of the solid.
+JobResult run_mpmd(const std::string& fluid, const std::string& solid) {
+  auto words = mpirun();
+  words.insert(words.end(),
+               {"-n", "1", test_program("fake_master"), "x", "x", "3", ":", "-n", "2", fluid, ":", "-n", "1", solid});
+  return run_job(words);
+}
+
 void expect_conforms(const std::string& program) {
   const auto job = run_job({product_program("tether_conform"), program}, python_path);
   EXPECT_EQ(job.exit_code, 0) << program << "\n" << job.output << job.errors;
@@ -78,20 +86,14 @@ TEST_F(ForeignPython, Codes_give_the_numbers_of_ours) {
 }
 
 TEST(Foreign, A_c_code_of_two_processes_takes_part_in_an_mpmd_line) {
-  auto words = mpirun();
-  words.insert(words.end(), {"-n", "1", test_program("fake_master"), "x", "x", "3", ":", "-n", "2",
-                             example("linear_fluid"), ":", "-n", "1", example("spring_solid")});
-  const auto job = run_job(words);
+  const auto job = run_mpmd(example("linear_fluid"), example("spring_solid"));
   EXPECT_EQ(job.exit_code, 0) << job.errors;
   EXPECT_EQ(steps_of(job), steps_of(couple("fake_fluid", "fake_solid")));
   EXPECT_TRUE(job.orphans.empty());
 }
 
 TEST(Foreign, A_code_too_many_on_an_mpmd_line_is_told) {
-  auto words = mpirun();
-  words.insert(words.end(), {"-n", "1", test_program("fake_master"), "x", "x", "3", ":", "-n", "2",
-                             test_program("fake_fluid"), ":", "-n", "1", test_program("fake_solid")});
-  const auto job = run_job(words);
+  const auto job = run_mpmd(test_program("fake_fluid"), test_program("fake_solid"));
   EXPECT_EQ(job.exit_code, 2) << job.errors;
   EXPECT_NE(job.errors.find("the mpirun line has a fluid too many for this fake_master"), std::string::npos)
       << job.errors;
