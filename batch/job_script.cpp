@@ -52,6 +52,18 @@ saved() {
 TETHER_NODES=$(scontrol show hostnames "$SLURM_JOB_NODELIST" | paste -sd,)
 export TETHER_NODES SLURM_OVERLAP=1
 
+# Whether all nodes of the job are there: asked of each, since Slurm itself notices the loss of one after SlurmdTimeout only.
+all_answer() { timeout 60 srun --nodes="$SLURM_JOB_NUM_NODES" --ntasks="$SLURM_JOB_NUM_NODES" --ntasks-per-node=1 true 2>/dev/null; }
+
+# The job begins anew, from what is saved.
+begin_anew() {
+  if scontrol requeue "$this_job"; then
+    sleep 60  # until Slurm ends this script
+  else
+    echo "$name: sbatch $folder/job/script.sh goes on from what is saved"
+  fi
+}
+
 # The time is nearly over: the programs save what they have come to.
 told=
 trap 'told=yes; kill -USR1 "$program" 2>/dev/null' USR1
@@ -64,11 +76,14 @@ if [ "$code" -ne 0 ]; then
     echo "$name: out of time before anything was saved: it needs a longer --time"
   elif [ -n "$told" ] || scontrol show job "$this_job" | grep -q ' PreemptTime=[0-9]'; then
     echo "$name: out of time, or preempted"
-    if scontrol requeue "$this_job"; then
-      sleep 60  # until Slurm ends this script
-    else
-      echo "$name: sbatch $folder/job/script.sh goes on from what is saved"
-    fi
+    begin_anew
+  elif [ "$SLURM_JOB_NUM_NODES" -gt 1 ] && ! all_answer; then
+    echo "$name: a node does not answer; Slurm starts the job again without it when it has noticed"
+    for _ in {1..15}; do
+      sleep 10  # until Slurm ends this script, or the node is there again
+      all_answer && break
+    done
+    begin_anew
   fi
 fi
 echo "$code" >"$folder/job/ended/$name"

@@ -45,8 +45,9 @@ class SlurmOverHosts(unittest.TestCase):
         """Starts programs, a task each, on the hosts that are named for them."""
         (self.folder / "programs").write_text("".join(f"{k} {TETHER.parent / words}\n" for k, words in enumerate(tasks)))
         (self.folder / "places").write_text("\n".join(hosts) + "\n")
-        return self.cluster.call("env", f"SLURM_HOSTFILE={self.folder}/places", "timeout", "120", "srun", "--mpi=pmix", "--kill-on-bad-exit=1",
-                                 f"--ntasks={len(tasks)}", "--distribution=arbitrary", *options, "--multi-prog", f"{self.folder}/programs")
+        words = [f"--ntasks={len(tasks)}", "--distribution=arbitrary", *options, "--multi-prog", f"{self.folder}/programs"]
+        variables = [f"SLURM_HOSTFILE={self.folder}/places", "SLURM_PMIX_FENCE=ring"]
+        return self.cluster.call("env", *variables, "timeout", "120", "srun", "--mpi=pmix", "--kill-on-bad-exit=1", *words)
 
     def test_srun_starts_the_programs_of_a_run_on_three_hosts(self):
         case, output = self.folder / "tube.yaml", self.folder / "run_srun"
@@ -87,14 +88,15 @@ class SlurmOverHosts(unittest.TestCase):
         self.assertEqual(cases.estimates(self.folder / "over/springs"), cases.estimates(self.folder / "here"))
 
     def test_after_a_lost_host_the_job_goes_on_where_others_are(self):
-        """Slurm notices, and starts the job again on the two that are left."""
+        """The programs end before Slurm notices; then it starts the job again on the two that are left."""
         number = self.submit("lost", HOSTS - 1)
         saved = self.folder / "lost/springs/checkpoint/identification.bin"
         self.cluster.wait(saved.exists, 60, "a saved state")
         lost = next(host for host in self.group.hosts[1:] if self.models_on(host))
         lost.lose()
         try:
-            self.cluster.wait(lambda: self.state_of("lost") == "done", 300, "done")
+            self.cluster.wait(lambda: self.state_of("lost") == "done", 400, "done")
+            self.assertIn("a node does not answer", (self.folder / f"lost/job/slurm-{number}.txt").read_text())
             self.assertIn("Restarts=1", self.on_first("scontrol", "show", "job", number))
             self.assertEqual(cases.estimates(self.folder / "lost/springs"), cases.estimates(self.folder / "here"))
         finally:

@@ -3,7 +3,7 @@
 import host_group  # noqa: F401  which leads to tests/batch
 from slurm_cluster import CONFIGURATION, Cluster, user_name
 
-GIVEN_UP_AFTER = 15  # [s], a node of which the controller hears nothing
+GIVEN_UP_AFTER = 60  # [s], a node of which the controller hears nothing: later than programs give it up (30 s), as on clusters (300 s)
 
 
 class ClusterOnHosts(Cluster):
