@@ -106,6 +106,23 @@ def of_haul(folder):
     return [*lines, ""]
 
 
+def of_fuzz():
+    """What tests/fuzz/run found, and how many findings of before are kept as tests."""
+    file, kept = ROOT / "build-fuzz/fuzz.json", ROOT / "tests/fuzz/findings"
+    if not file.exists():
+        return []
+    found = json.loads(file.read_text())
+    lines = ["## Files and messages that a fuzzer makes", "",
+             "`tests/fuzz/run`: each reader under libFuzzer with the address and undefined-behaviour sanitizers, for ten minutes or a million executions, whichever is first; "
+             "a file is read or refused within 10 s and 1 GB. *Kept*: earlier findings, mended and read by `fuzz_tests` "
+             "(which: [decision 117](decisions/0117-fuzzers.md)).", "",
+             "| reader | executions | minutes | edges | findings | kept |", "|---|---|---|---|---|---|"]
+    for reader, one in found.items():
+        of_before = len(list((kept / reader).iterdir())) if (kept / reader).exists() else 0
+        lines.append(f"| {reader} | {one['executions']:,} | {one['seconds'] / 60:.1f} | {one['edges']:,} | {'**1**' if one['found'] else 'none'} | {of_before or ''} |")
+    return [*lines, ""]
+
+
 def write_page(known, folder):
     wrong = {key: faults_of(key, result) for key, result in known.items() if faults_of(key, result)}
     text = ["# Faults and what they lead to", "",
@@ -127,7 +144,7 @@ def write_page(known, folder):
             "## Several hosts", "",
             "An identification with a model on each of two hosts, which are namespaces of one machine with an sshd each (`tests/hosts`): processes, network, shared memory and temporary files of their own. "
             "*Lost*: without power; *cut off*: without a network. Open MPI is told by `tether` that a host of which nothing is heard for 30 s is gone. After that the same command goes on, on one machine.", "",
-            *table(known, "hosts", "job | what happens", ("verb", "fault")), "", *of_chaos(folder), *of_haul(folder)]
+            *table(known, "hosts", "job | what happens", ("verb", "fault")), "", *of_chaos(folder), *of_haul(folder), *of_fuzz()]
     (ROOT / "docs/reliability.md").write_text("\n".join(text))
     for key, what in wrong.items():
         print("not green:", key, "; ".join(what))
