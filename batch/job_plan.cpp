@@ -9,12 +9,16 @@
 
 #include "batch/job_script.hpp"
 #include "common/base/error.hpp"
+#include "common/base/progress_line.hpp"
 
 namespace tether {
 namespace {
 
-/// Direct runs of the longest of 70 diagnoses (docs/diagnosis-validation.md: 66.2; half of them need at most 12.9).
-constexpr int longest_diagnosis = 66;
+/// Direct runs of 70 diagnoses, beside those of each number (docs/diagnosis-validation.md): half need at most 12.9, the
+/// longest 66.2.
+constexpr int half_of_diagnoses = 13, longest_diagnosis = 66;
+/// An explanation has beside its diagnosis: the model as it is, an identification of one parameter, what that gave.
+constexpr int beside_diagnosis = 4;
 /// [s]: in a time that is hardly longer than what is left for the end no work is done.
 constexpr int least_time = seconds_to_end + 120;
 /// [MB]: what tether, the master above the models, and the drawing of a picture take beside them.
@@ -31,6 +35,42 @@ std::string hours(double seconds) {
 
 std::string of(const std::string& given) {
   return given.empty() ? "the cluster's default" : given;
+}
+
+/// [s] of a whole run.
+double seconds_of(const MeasuredSteps& measured) {
+  return static_cast<double>(measured.of_case) * measured.seconds_per_step;
+}
+
+std::string steps_text(const MeasuredSteps& measured) {
+  return fmt::format("{} steps of {:.2g} s", measured.of_case, measured.seconds_per_step);
+}
+
+/// "207 steps of 0.02 s, 92 MB a model; of the coarser model 104 steps of 0.009 s"
+std::string steps_text(const PlannedRuns& planned) {
+  return fmt::format("{}, {:.0f} MB a model", steps_text(planned.model), planned.model.memory_mb) +
+         (planned.coarser ? "; of the coarser model " + steps_text(*planned.coarser) : "");
+}
+
+std::string runs_text(JobVerb verb, const PlannedRuns& planned) {
+  if (verb == JobVerb::identify) return fmt::format("{} particles, which go through the beat together", planned.most);
+  if (planned.first_order == 0) return planned.most == 1 ? "1" : std::to_string(planned.most);
+  return fmt::format(
+      "{} of the {}model: as it is, and one for each number that may be wrong; then what takes as long as "
+      "{} (half of 70 diagnoses) to {} (the longest) of the model",
+      planned.first_order, planned.coarser ? "coarser " : "", planned.least, planned.most);
+}
+
+/// "3 min 20 s to 9 min 10 s"
+std::string time_text(const PlannedRuns& planned) {
+  const ExpectedTime expected = expected_time(planned);
+  const std::string least = duration_text(expected.least), most = duration_text(expected.most);
+  return least == most ? least : least + " to " + most;
+}
+
+std::string processes_line(int processes) {
+  return fmt::format("  processes  {} model{} at once, each a master with fluid and solid, which take turns: a core\n",
+                     processes, processes == 1 ? "" : "s");
 }
 
 /// Of "30", "30:00", "2:30:00", "1-12", "1-12:30", "1-12:30:00", as sbatch reads it [s]; nothing if it is none of them.
@@ -68,39 +108,53 @@ void check_resources(const JobResources& resources) {
                       resources.time, least_time / 60, seconds_to_end / 60);
 }
 
-ExpectedTime expected_time(JobVerb verb, const MeasuredSteps& measured, int processes, int parameters) {
-  const double run = static_cast<double>(measured.of_case) * measured.seconds_per_step;
-  const std::string steps = fmt::format("{} steps of {:.2g} s", measured.of_case, measured.seconds_per_step);
-  if (!makes_many_runs(verb)) return {run, steps};
-  const bool is_identified = verb == JobVerb::identify;
-  const int runs = is_identified ? parameters + 1 : longest_diagnosis;
-  return {run * rounds(runs, processes),
-          fmt::format("{} {} runs of {}, {} at once", is_identified ? "as" : "at most some", runs, steps, processes)};
+PlannedRuns planned_runs(JobVerb verb, int parameters) {
+  PlannedRuns planned;
+  if (verb == JobVerb::identify) planned.least = planned.most = parameters + 1;
+  if (verb != JobVerb::diagnose && verb != JobVerb::explain) return planned;
+  const int beside = verb == JobVerb::explain ? beside_diagnosis : 0;
+  planned.least = half_of_diagnoses + beside;
+  planned.most = longest_diagnosis + beside;
+  return planned;
 }
 
-void fill_from(const MeasuredSteps& measured, const ExpectedTime& expected, JobResources& resources) {
-  const double models = 1.25 * measured.memory_mb * resources.processes;
+ExpectedTime expected_time(const PlannedRuns& planned) {
+  const int at_once = planned.cores > 0 ? std::min(planned.cores, planned.processes) : planned.processes;
+  const double run = seconds_of(planned.model);
+  const double first_order = rounds(planned.first_order, at_once) * seconds_of(planned.coarser.value_or(planned.model));
+  return {first_order + rounds(planned.least, at_once) * run, first_order + rounds(planned.most, at_once) * run};
+}
+
+double expected_memory(const PlannedRuns& planned, int nodes) {
+  return 1.25 * planned.model.memory_mb * planned.processes / nodes + beside_models;
+}
+
+void fill_from(const PlannedRuns& planned, JobResources& resources) {
   if (resources.memory.empty())
-    resources.memory = fmt::format("{:.0f}M", 100 * std::ceil((models / resources.nodes + beside_models) / 100));
-  if (resources.time.empty()) resources.time = hours(2 * expected.seconds + 600);
+    resources.memory = fmt::format("{:.0f}M", 100 * std::ceil(expected_memory(planned, resources.nodes) / 100));
+  if (resources.time.empty()) resources.time = hours(2 * expected_time(planned).most + 600);
 }
 
-std::string plan_text(const Job& job, const std::optional<ExpectedTime>& expected) {
+std::string plan_text(const Job& job, const std::optional<PlannedRuns>& planned) {
   const JobResources& r = job.resources;
   std::string text = fmt::format("{} of {} case{}, each on {} node{} with {} task{}{}\n", word_of(job.verb),
                                  job.cases.size(), job.cases.size() == 1 ? "" : "s", r.nodes, r.nodes == 1 ? "" : "s",
                                  r.tasks_per_node, r.tasks_per_node == 1 ? "" : "s", r.nodes == 1 ? "" : " each");
-  text += fmt::format("  processes  {} model{} at once, each a master with fluid and solid, which take turns: a core\n",
-                      r.processes, r.processes == 1 ? "" : "s");
-  if (job.measured)
-    text += fmt::format("  measured   {} steps of {}: {:.2g} s a step, {:.0f} MB a model\n", job.measured->steps,
-                        job.cases.front().name, job.measured->seconds_per_step, job.measured->memory_mb);
+  text += processes_line(r.processes);
+  if (planned) text += "  measured   on " + job.cases.front().name + " here: " + steps_text(*planned) + "\n";
   text += fmt::format("  memory     {} a node\n", of(r.memory));
-  if (expected)
-    text += fmt::format("  time       {}; expected {} ({})\n", of(r.time), hours(expected->seconds), expected->from);
-  else
-    text += fmt::format("  time       {}\n", of(r.time));
-  return text;
+  text += fmt::format("  time       {}", of(r.time));
+  return text +
+         (planned ? fmt::format("; expected {} ({})\n", time_text(*planned), runs_text(job.verb, *planned)) : "\n");
+}
+
+std::string plan_text(JobVerb verb, const PlannedRuns& planned) {
+  return fmt::format("tether {} would take, if nothing of it is there yet:\n", word_of(verb)) +
+         fmt::format("  runs       {}\n", runs_text(verb, planned)) + processes_line(planned.processes) +
+         fmt::format("  measured   here: {}\n", steps_text(planned)) +
+         fmt::format("  memory     {:.0f} MB\n", expected_memory(planned, 1)) +
+         fmt::format("  time       {}{}\n", time_text(planned),
+                     planned.first_order > 0 ? " for the runs; statistics and pictures beside" : "");
 }
 
 }  // namespace tether

@@ -6,24 +6,40 @@
 
 namespace tether {
 
-/// How long a case is expected to take, and from what.
-struct ExpectedTime {
-  double seconds = 0;
-  std::string from;  ///< "413 steps of 0.07 s"
+/// The work of a verb on a case, in runs.
+struct PlannedRuns {
+  MeasuredSteps model;
+  std::optional<MeasuredSteps> coarser;  ///< of a diagnosis that has a coarser model
+  int first_order = 0;      ///< of a diagnosis: as it is, and one for each number, of the coarser model if there is one
+  int least = 1, most = 1;  ///< what else takes as long as so many runs of the model
+  int processes = 1;        ///< models at once
+  int cores = 0;            ///< that these share; 0: each has one
 };
 
-/// By what a few steps took; of an identification by the number of its parameters. A diagnosis is taken for the longest
-/// of those in docs/diagnosis-validation.md.
-ExpectedTime expected_time(JobVerb verb, const MeasuredSteps& measured, int processes, int parameters);
+/// Of a verb other than a diagnosis: of an identification a run of each particle. What a diagnosis does beside varying
+/// numbers takes as long as in the 70 of docs/diagnosis-validation.md: half of them at most `least`, the longest
+/// `most`.
+PlannedRuns planned_runs(JobVerb verb, int parameters);
 
-/// What the job asks for where the user said nothing: memory for all models and a quarter more, twice the time.
-void fill_from(const MeasuredSteps& measured, const ExpectedTime& expected, JobResources& resources);
+/// How long that is expected to take [s].
+struct ExpectedTime {
+  double least = 0, most = 0;
+};
+ExpectedTime expected_time(const PlannedRuns& planned);
+
+/// [MB], all models and a quarter more, and what stands beside them.
+double expected_memory(const PlannedRuns& planned, int nodes);
+
+/// What the job asks for where the user said nothing: that memory, twice the most time.
+void fill_from(const PlannedRuns& planned, JobResources& resources);
 
 /// Throws InputError for what cannot stand in a script, and for a time that leaves none to work in before the programs
 /// are told to end.
 void check_resources(const JobResources& resources);
 
-/// For a person: what is asked for, and why.
-std::string plan_text(const Job& job, const std::optional<ExpectedTime>& expected);
+/// For a person: what is asked for, and why. planned: null where nothing was measured.
+std::string plan_text(const Job& job, const std::optional<PlannedRuns>& planned);
+/// For a person: what the verb would take here.
+std::string plan_text(JobVerb verb, const PlannedRuns& planned);
 
 }  // namespace tether

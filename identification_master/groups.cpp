@@ -1,9 +1,8 @@
 #include "identification_master/groups.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 
+#include "common/base/process.hpp"
 #include "common/protocol/nodes.hpp"
 #include "identification_master/group_memory.hpp"
 
@@ -13,11 +12,8 @@ using protocol::Partner;
 
 namespace {
 
-/// Cores that this process may use.
 std::size_t cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
+  return static_cast<std::size_t>(usable_cores());
 }
 
 std::size_t hosts() {

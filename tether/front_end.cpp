@@ -11,6 +11,7 @@
 #include "common/base/interruption.hpp"
 #include "common/protocol/programs.hpp"
 #include "fluid/windkessels/outlets_case.hpp"
+#include "tether/plan.hpp"
 #include "tether/schemas.hpp"
 #include "tether/submit.hpp"
 #include "tether/verbs.hpp"
@@ -40,20 +41,31 @@ struct Verb {
   bool makes_steps = false, shares_work = false, needs_case = true, shares_runs = false;
   std::string (*reference)(const std::string& format) = case_reference;
   void (*check)(const CommandLine&) = check_case;
+  std::string (*plan)(const CommandLine&) = nullptr;
 };
 
+constexpr Verb planned(Verb verb, std::string (*plan)(const CommandLine&)) {
+  verb.plan = plan;
+  return verb;
+}
+
 constexpr std::array verbs{
-    Verb{"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>, true},
-    Verb{"compare", "compare a run with the measurements; simulates first if need be", told<ComparisonResult, compare>,
-         true},
-    Verb{"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
-         told<Explanation, explain>, false, true, true, true},
-    Verb{"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false, true,
-         true, true},
+    planned({"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>, true},
+            plan<JobVerb::simulate>),
+    planned({"compare", "compare a run with the measurements; simulates first if need be",
+             told<ComparisonResult, compare>, true},
+            plan<JobVerb::compare>),
+    planned({"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
+             told<Explanation, explain>, false, true, true, true},
+            plan<JobVerb::explain>),
+    planned({"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false,
+             true, true, true},
+            plan<JobVerb::diagnose>),
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
          told<fs::path, make_twin>},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
-    Verb{"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true},
+    planned({"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true},
+            plan<JobVerb::identify>),
     Verb{"measure-noise", "measure the noise of the data, which a diagnosis wants stated: of a case, or of two files",
          told<NoiseMeasurements, measure_noise>},
     Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR",
@@ -79,6 +91,7 @@ Program program_of(const Verb& verb) {
   program.makes_steps = verb.makes_steps;
   program.reference = verb.reference;
   program.validate = verb.check;
+  if (verb.plan) program.plan = verb.plan;
   program.run = verb.act;
   return program;
 }

@@ -12,22 +12,17 @@
 #include "batch/job_status.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
-#include "common/base/temporary_folder.hpp"
 #include "common/base/write_error.hpp"
-#include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
-#include "diagnosis/evidence/diagnosed_case.hpp"
+#include "tether/plan.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A few, beyond the first, which is longer.
-constexpr int steps_to_measure = 3;
 
 struct Typed {
   std::string verb;
@@ -88,53 +83,6 @@ void add_options(CLI::App& app, Typed& typed) {
                "replace an ended job that is in the folder; runs start anew, diagnoses keep their runs");
 }
 
-/// How many models of a case are worth running at once.
-int processes_of(const Typed& typed, JobVerb verb, int parameters) {
-  if (typed.processes > 0) return typed.processes;
-  if (!makes_many_runs(verb)) return 1;
-  constexpr int of_a_diagnosis = 8;  // its sensitivity runs are some dozens, those that confirm come in rounds of few
-  return verb == JobVerb::identify ? parameters + 1 : of_a_diagnosis;
-}
-
-int parameters_of(const fs::path& case_file) {
-  const YamlNode tree = read_case_tree(case_file);
-  const YamlNode* section = tree.find("identification");
-  const YamlNode* parameters = section == nullptr ? nullptr : section->find("parameters");
-  return parameters == nullptr ? 0 : static_cast<int>(parameters->entries.size());
-}
-
-/// A folder that ends with this object.
-class Scratch {
- public:
-  Scratch() : path_((temporary_folder() / "tether_measured_XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) throw write_error(path_);
-  }
-  ~Scratch() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-MeasuredSteps measure(const JobCase& one) {
-  const Scratch scratch;
-  const ChildEnd end =
-      capture({{fs::read_symlink("/proc/self/exe").string(), "simulate", one.case_file, "--steps",
-                std::to_string(steps_to_measure), "--output", (scratch.path() / "run").string(), "--quiet"},
-               {{"TETHER_PICTURES", "0"}}});
-  if (end.exit_code != 0)
-    throw run_error("{}: {} steps, to measure what they take, failed:\n{}", one.case_file, steps_to_measure,
-                    end.errors);
-  const auto run = read_record<RunSummary>(scratch.path() / "run/summary.json");
-  return {run.steps, CaseFile(one.case_file).common().time.steps(), run.seconds_per_step,
-          run.peak_memory_mb.at("total")};
-}
-
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file);
   if (!(out << text).flush()) throw write_error(file);
@@ -186,17 +134,6 @@ void claim_job(const fs::path& folder) {
   fs::create_directories(folder / job_files / "ended");
 }
 
-void check_case_for(JobVerb verb, const fs::path& case_file) {
-  CommandLine command;
-  command.case_file = case_file;
-  command.quiet = true;
-  validate(command);
-  if (verb == JobVerb::identify) check_identification(command);
-  if (verb == JobVerb::diagnose || verb == JobVerb::explain) DiagnosedCase{case_file};
-  if (verb == JobVerb::compare && !CaseFile(case_file).has("observations"))
-    throw input_error("{}: observations: names nothing that was measured", case_file.string());
-}
-
 /// What is wrong is told before it waits for its turn, of all cases at once.
 void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
   std::string wrong;
@@ -223,21 +160,20 @@ int act(const Typed& typed) {
   if (typed.table.empty()) check_cases(job_cases(typed.given), *from_word<JobVerb>(typed.verb));
   claim_job(folder);
   Job job = job_of(typed, folder);
-  const int parameters = parameters_of(job.cases.front().case_file);
   JobResources& r = job.resources;
-  r.processes = processes_of(typed, job.verb, parameters);
+  std::optional<PlannedRuns> planned;
+  r.processes = typed.processes > 0 ? typed.processes : models_at_once(job.verb, job.cases.front().case_file);
   r.tasks_per_node = typed.tasks_per_node > 0 ? typed.tasks_per_node : (r.processes + r.nodes - 1) / r.nodes;
-  std::optional<ExpectedTime> expected;
   if (r.memory.empty() || r.time.empty()) {
-    job.measured = measure(job.cases.front());
-    expected = expected_time(job.verb, *job.measured, r.processes, parameters);
-    fill_from(*job.measured, *expected, r);
+    planned = planned_of(job.verb, job.cases.front().case_file, r.processes);
+    job.measured = planned->model;
+    fill_from(*planned, r);
   }
   const fs::path script = folder / job_files / "script.sh";
   write_text(script, job_script(job, folder));
   if (!typed.dry_run) job.number = slurm::submit(script);
   write_record(folder / job_files / "job.json", job);
-  std::cout << plan_text(job, expected);
+  std::cout << plan_text(job, planned);
   if (typed.dry_run)
     std::cout << fmt::format("In {}, not submitted:\n\n{}", script.string(), job_script(job, folder));
   else

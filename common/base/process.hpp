@@ -11,6 +11,7 @@ void prepare_process();
 
 double cpu_seconds();     ///< user + system time of this process [s]
 double peak_memory_mb();  ///< largest resident set so far [MB]
+int usable_cores();       ///< of this host, by this process
 std::string host_name();
 std::int64_t process_id();
 

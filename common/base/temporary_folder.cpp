@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "common/base/error.hpp"
+#include "common/base/write_error.hpp"
 
 namespace tether {
 
@@ -13,6 +14,17 @@ std::filesystem::path temporary_folder() {
   const char* given = std::getenv("TMPDIR");
   throw input_error("TMPDIR: {}: must name a folder, for the notes that a run's programs leave each other",
                     given ? given : "not given, and there is no /tmp");
+}
+
+ScratchFolder::ScratchFolder(const std::string& name) {
+  std::string made = (temporary_folder() / (name + "_XXXXXX")).string();
+  if (mkdtemp(made.data()) == nullptr) throw write_error(made);
+  path_ = made;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code none;
+  std::filesystem::remove_all(path_, none);
 }
 
 }  // namespace tether

@@ -50,6 +50,8 @@ void add_options(CLI::App& app, const Program& program, Typed& typed) {
   CommandLine& c = typed.command;
   app.add_option("case", c.case_file, "the case file")->type_name("CASE.yaml");
   app.add_flag("--validate", c.validate, "check the case and all it refers to, then end");
+  if (program.plan)
+    app.add_flag("--plan", c.plan, "tell how many runs, how much memory and time it would take, then end");
   app.add_option("--describe-config", typed.describe_format,
                  "list every field of the case file that this program reads")
       ->expected(0, 1)
@@ -87,6 +89,10 @@ int act(const Program& program, const Typed& typed) {
     throw input_error("which case? Give the path of a case file, or --help");
   if (typed.command.list_effects) {
     std::cout << program.list_effects(typed.command) << "\n";
+    return exit_done;
+  }
+  if (typed.command.plan) {
+    std::cout << program.plan(typed.command);
     return exit_done;
   }
   if (!typed.command.validate) return program.run(typed.command);

@@ -17,7 +17,7 @@ struct CommandLine {
   std::string role;              ///< one of the program's roles; empty if it has but one
   int processes = 0;             ///< to share the work between; 0: the program decides
   std::filesystem::path runs;    ///< a folder of runs that several data sets share; empty: none
-  bool validate = false, list_effects = false, resume = false, overwrite = false, quiet = false;
+  bool validate = false, plan = false, list_effects = false, resume = false, overwrite = false, quiet = false;
 };
 
 /// A program as its main presents it.
@@ -29,6 +29,8 @@ struct Program {
   std::function<std::string(const std::string& format)> reference = {};
   /// For --validate: reads the case and what it refers to. Throws InputError.
   std::function<void(const CommandLine&)> validate = {};
+  /// For --plan, an option only where this is set: what running would take, for a person.
+  std::function<std::string(const CommandLine&)> plan = {};
   /// For --list-effects, an option only where this is set: what could be added to the case, as JSON.
   std::function<std::string(const CommandLine&)> list_effects = {};
   /// Returns the exit code.

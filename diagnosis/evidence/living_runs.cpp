@@ -1,9 +1,11 @@
 #include "diagnosis/evidence/living_runs.hpp"
 
+#include <chrono>
 #include <iostream>
 #include <map>
 
 #include "common/base/error.hpp"
+#include "common/base/progress_line.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/stored_run.hpp"
 
@@ -73,12 +75,17 @@ std::vector<FinishedMotion> LivingRuns::make(const std::vector<WantedRun>& wante
   const protocol::OrderRuns order = order_of(wanted);
   if (!wanted.empty()) ask(order);
   std::map<std::string, FinishedMotion> motions;
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
+  const auto begun = std::chrono::steady_clock::now();
+  for (std::size_t k = 0, made = 0; k < wanted.size(); ++k) {
     const protocol::RunEnded ended = ask(protocol::NextRun{});
     note(ended);
-    if (ended.made && !quiet_)
-      std::cout << fmt::format("run {} of {}: {}\n", k + 1, wanted.size(), fs::path(ended.folder).filename().string())
+    if (ended.made && !quiet_) {
+      const double each = seconds_since(begun) / static_cast<double>(++made);
+      const auto open = static_cast<double>(wanted.size() - k - 1);
+      std::cout << fmt::format("run {} of {}: {}{}\n", k + 1, wanted.size(), fs::path(ended.folder).filename().string(),
+                               open > 0 ? "  left " + duration_text(each * open) : "")
                 << std::flush;
+    }
     motions.insert_or_assign(ended.folder, motion_of(ended));
   }
   std::vector<FinishedMotion> all;

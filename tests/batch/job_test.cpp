@@ -101,18 +101,33 @@ TEST_F(Jobs, MakeACaseOfEachRowOfATable) {
 }
 
 TEST_F(Jobs, AskForTwiceTheTimeThatAFewStepsFortell) {
-  const MeasuredSteps measured{3, 400, 0.5, 1000};
-  const ExpectedTime run = expected_time(JobVerb::simulate, measured, 1, 0);
-  EXPECT_DOUBLE_EQ(run.seconds, 200);
-  const ExpectedTime identification = expected_time(JobVerb::identify, measured, 4, 11);
-  EXPECT_DOUBLE_EQ(identification.seconds, 600) << "12 particles, 4 at once";
-  EXPECT_GT(expected_time(JobVerb::explain, measured, 4, 0).seconds, identification.seconds);
+  const MeasuredSteps measured{3, 400, 0.5, 1000}, coarser{3, 200, 0.1, 400};
+  const auto planned = [&](JobVerb verb, int processes, int parameters) {
+    PlannedRuns runs = planned_runs(verb, parameters);
+    runs.model = measured;
+    runs.processes = processes;
+    return runs;
+  };
+  EXPECT_DOUBLE_EQ(expected_time(planned(JobVerb::simulate, 1, 0)).most, 200);
+  const PlannedRuns identification = planned(JobVerb::identify, 4, 11);
+  EXPECT_DOUBLE_EQ(expected_time(identification).most, 600) << "12 particles, 4 at once";
+  PlannedRuns diagnosis = planned(JobVerb::diagnose, 4, 0);
+  EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 800) << "what takes as long as 13 runs, 4 at once";
+  EXPECT_DOUBLE_EQ(expected_time(diagnosis).most, 3400) << "66 runs";
+  diagnosis.cores = 2;
+  EXPECT_DOUBLE_EQ(expected_time(diagnosis).most, 6600) << "two cores do no more than two at once";
+  diagnosis.cores = 0;
+  diagnosis.first_order = 40;
+  EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 800 + 2000) << "and 40 of each number";
+  diagnosis.coarser = coarser;
+  EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 800 + 200) << "of the coarser model";
+  EXPECT_GT(expected_time(planned(JobVerb::explain, 4, 0)).most, 3400);
   JobResources asked{2, 4, 2, "", "", "", "", {}};
-  fill_from(measured, identification, asked);
+  fill_from(identification, asked);
   EXPECT_EQ(asked.memory, "2900M") << "half of 4 x 1000 MB and a quarter, and 400 MB for the rest";
   EXPECT_EQ(asked.time, "0:30:00") << "2 x 10 min and 10 min";
   JobResources given{1, 1, 1, "8G", "5", "", "", {}};
-  fill_from(measured, identification, given);
+  fill_from(identification, given);
   EXPECT_EQ(given.memory + " " + given.time, "8G 5");
 }
 

@@ -98,6 +98,29 @@ TEST_F(Diagnose, FindsTheHiddenSupport) {
   EXPECT_NE(std::find(group.begin(), group.end(), "visco_elastic"), group.end()) << said;
 }
 
+/// Runs that show what each number does, of what `tether diagnose --plan` says.
+int planned_first_order(const std::string& plan) {
+  const std::string before = "runs       ";
+  const auto at = plan.find(before);
+  return at == std::string::npos ? -1 : std::stoi(plan.substr(at + before.size()));
+}
+
+TEST_F(Diagnose, TellsBeforeItBeginsWhatItWouldTake) {
+  const Json found = diagnosed("held", "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}");
+  const ChildEnd plan = tether({"diagnose", (folder / "twin/case.yaml").string(), "--plan", "--processes", "3",
+                                "--output", (folder / "planned").string()});
+  ASSERT_EQ(plan.exit_code, 0) << plan.errors;
+  const int planned = planned_first_order(plan.output);
+  EXPECT_LE(planned, found["cost"]["sensitivity_runs"]) << "which has parts of places too";
+  EXPECT_NE(said.find(fmt::format("run 1 of {}: ", planned - 1)), std::string::npos) << "beside the model as it is\n"
+                                                                                     << plan.output << said;
+  EXPECT_NE(said.find("  left "), std::string::npos) << said;
+  EXPECT_NE(plan.output.find("3 models at once"), std::string::npos) << plan.output;
+  EXPECT_NE(plan.output.find("30 steps of"), std::string::npos) << plan.output;
+  EXPECT_NE(plan.output.find("of the coarser model 15 steps of"), std::string::npos) << plan.output;
+  EXPECT_FALSE(fs::exists(folder / "planned")) << "nothing has begun";
+}
+
 /// Of the published quantities of one model.
 double published(const Json& model, const std::string& name) {
   for (const Json& quantity : model["quantities"])

@@ -257,6 +257,14 @@ TEST_F(Identify, BeginsWhereAnotherOneEnded) {
   EXPECT_NEAR(second["parameters"][1]["prior"]["theta_deviation"], std::hypot(first[1].second, 1), 1e-12);
 }
 
+TEST_F(Identify, TellsBeforeItBeginsWhatItWouldTake) {
+  const ChildEnd plan = tether("identify", case_file, "planned", {"--plan", "--processes", "2"});
+  ASSERT_EQ(plan.exit_code, 0) << plan.errors;
+  EXPECT_NE(plan.output.find("3 particles"), std::string::npos) << plan.output;
+  EXPECT_NE(plan.output.find("2 models at once"), std::string::npos) << plan.output;
+  EXPECT_FALSE(fs::exists(folder / "planned")) << "nothing has begun";
+}
+
 TEST_F(Identify, SaysWhichNumberItDoesNotKnow) {
   const fs::path wrong =
       case_variant(case_file, folder / "wrong", {{"regions.spine.stiffness]", "regions.spin.stiffness]"}});
