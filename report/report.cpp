@@ -5,12 +5,14 @@
 
 #include "common/base/error.hpp"
 #include "common/base/write_error.hpp"
+#include "common/config/output_folder.hpp"
 #include "report/collect.hpp"
 #include "report/page.hpp"
 
 namespace tether {
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
+  check_writable_through(folder);
   const std::string document = collected(folder);
   const auto title = nlohmann::json::parse(document)["title"].get<std::string>();
   const std::filesystem::path path = folder / "report.html";

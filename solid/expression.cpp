@@ -3,6 +3,8 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -27,23 +29,49 @@ bool assigns(const std::string& text) {
   return false;
 }
 
+/// Of a list muParser would take the last: "0,5*k" as 5*k. Those of a function's arguments separate.
+bool lists(const std::string& text) {
+  std::vector<bool> of_function;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(') {
+      const std::size_t before = text.find_last_not_of(" \t", i == 0 ? std::string::npos : i - 1);
+      of_function.push_back(i > 0 && before != std::string::npos &&
+                            (std::isalnum(static_cast<unsigned char>(text[before])) || text[before] == '_'));
+    } else if (text[i] == ')' && !of_function.empty()) {
+      of_function.pop_back();
+    } else if (text[i] == ',' && (of_function.empty() || !of_function.back())) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Values that no formula singles out.
+constexpr std::array tried{1.0, 0.7310585, -1.6487213, 14.134725};
+
 }  // namespace
 
 Expression::Expression(std::string text, const std::vector<std::string>& names)
     : text_(std::move(text)), parser_(std::make_unique<Parser>()) {
   parser_->values.assign(names.size(), 1.0);
   if (assigns(text_)) throw input_error("\"{}\": a formula cannot set a value: two of them are compared by ==", text_);
-  double value = 0;
+  if (lists(text_)) throw input_error("\"{}\": numbers have points (0.5), and a formula is one, not a list", text_);
+  bool is_finite = false;
   try {
     parser_->parser.DefineConst("pi", std::numbers::pi);
     for (std::size_t i = 0; i < names.size(); ++i) parser_->parser.DefineVar(names[i], &parser_->values[i]);
     parser_->parser.SetExpr(text_);
-    value = parser_->parser.Eval();
+    for (std::size_t k = 0; k < tried.size() && !is_finite; ++k) {
+      for (std::size_t i = 0; i < names.size(); ++i)
+        parser_->values[i] = tried[k] + 0.1 * static_cast<double>(i * (k % 2));
+      is_finite = std::isfinite(parser_->parser.Eval());
+    }
   } catch (const mu::Parser::exception_type& error) {
     throw input_error("\"{}\": {}", text_, error.GetMsg());
   }
-  if (parser_->parser.GetUsedVar().empty() && !std::isfinite(value))
-    throw input_error("\"{}\": is not a finite number", text_);
+  if (!is_finite)
+    throw input_error("\"{}\": is not a finite number{}", text_,
+                      parser_->parser.GetUsedVar().empty() ? "" : ", whatever its variables are");
 }
 
 Expression::~Expression() = default;

@@ -25,6 +25,13 @@ std::string lower_case(std::string text) {
 
 namespace {
 
+/// Bytes: of a million nodes; a volume's may have twenty times as many.
+constexpr std::uintmax_t largest_surface = 200'000'000, largest_volume = 4'000'000'000;
+
+std::uintmax_t largest(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".vtu" ? largest_volume : largest_surface;
+}
+
 MeshFile read_by_extension(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".vtu" || extension == ".vtp") return read_xml_vtk(path);
@@ -83,7 +90,7 @@ void check_coordinates(const MeshFile& mesh) {
 }  // namespace
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
-  input_stream(path);
+  input_stream(path, std::ios::in, largest(path));
   MeshFile mesh = read_by_extension(path);
   if (mesh.tetrahedra.empty() && mesh.prisms.empty() && mesh.triangles.empty())
     throw input_error("{}: holds no cell of a surface or a volume", mesh.name);

@@ -27,6 +27,9 @@ namespace tether {
 
 namespace {
 
+/// Bytes: of zeros a small file holds any number. The cells of a million nodes take half of it.
+constexpr std::uint64_t largest_array = 400'000'000;
+
 constexpr std::uint64_t most_components = 1000;
 constexpr std::uint64_t most_compression = 1100;  ///< zlib: 1032; blocks of the others are too small for more
 
@@ -255,11 +258,15 @@ class XmlCheck {
 
   void check_values(const XmlArray& array) const {
     const std::uint64_t values = tuples(array) * array.components;  // of most_ and most_components: no overflow
-    if (array.type_size == 0 || values == 0) return;
-    if (array.tag.attribute("format") == "ascii") {
+    const bool is_text = array.tag.attribute("format") == "ascii";
+    if (array.type_size == 0 || values == 0) {
+      if (!is_text && !next_word_of(array).empty()) stated_bytes(array);  // VTK reads how long it is, needed or not
+    } else if (is_text) {
       check_text(array, values);
     } else if (const std::uint64_t bytes = stated_bytes(array); bytes / array.type_size < values) {
       fail(array, fmt::format("{} values are needed, it has {} bytes", values, bytes));
+    } else if (!compressor_.empty() && values > largest_array / array.type_size) {
+      fail(array, fmt::format("{} values: more than the {} MB that are read here", values, largest_array / 1'000'000));
     } else if (!compressor_.empty()) {
       data(array, values * array.type_size);  // VTK must not fail: telling so it follows a null pointer
     }
@@ -269,6 +276,11 @@ class XmlCheck {
     if (array.tag.empty) return {};
     const std::string_view behind = std::string_view(content_).substr(array.tag.end);
     return behind.substr(0, behind.find('<'));
+  }
+
+  std::string_view next_word_of(const XmlArray& array) const {
+    std::string_view text = text_of(array);
+    return next_word(text);
   }
 
   /// Throws InputError unless there are so many numbers.

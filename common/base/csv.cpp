@@ -47,6 +47,8 @@ bool skipped(const std::string& line) {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// One column whose heading has semicolons is a table of another dialect.
+constexpr std::uintmax_t largest_table = 100'000'000;  // bytes
+
 void check_separator(const std::string& file, int line, const std::vector<std::string>& headings) {
   if (headings.size() == 1 && headings.front().find_first_of(";\t") != std::string::npos)
     throw input_error("{}:{}: columns are separated by {}: must be commas, and numbers have points (0.5)", file, line,
@@ -56,7 +58,7 @@ void check_separator(const std::string& file, int line, const std::vector<std::s
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
-  std::ifstream in = input_stream(file);
+  std::ifstream in = input_stream(file, std::ios::in, largest_table);
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
     if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());

@@ -4,10 +4,13 @@
 
 namespace tether {
 
-std::ifstream input_stream(const std::filesystem::path& file, std::ios::openmode mode) {
+std::ifstream input_stream(const std::filesystem::path& file, std::ios::openmode mode, std::uintmax_t most) {
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) throw input_error("{}: no such file", file.string());
   if (!std::filesystem::is_regular_file(file, unknown)) throw input_error("{}: is not a file", file.string());
+  if (const std::uintmax_t size = std::filesystem::file_size(file, unknown); size > most)
+    throw input_error("{}: has {:.0f} MB: larger than any such file that is read here ({} MB)", file.string(),
+                      static_cast<double>(size) / 1e6, most / 1'000'000);
   std::ifstream stream(file, mode);
   if (!stream) throw input_error("{}: cannot be opened", file.string());
   return stream;

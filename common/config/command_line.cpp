@@ -1,7 +1,10 @@
 #include "common/config/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -101,6 +104,15 @@ int act(const Program& program, const Typed& typed) {
   return exit_done;
 }
 
+/// What the person named, or may do, and not what the machine is short of.
+bool is_of_input(const std::error_code& code) {
+  constexpr std::array named{std::errc::permission_denied,    std::errc::operation_not_permitted,
+                             std::errc::not_a_directory,      std::errc::is_a_directory,
+                             std::errc::filename_too_long,    std::errc::too_many_symbolic_link_levels,
+                             std::errc::read_only_file_system};
+  return std::any_of(named.begin(), named.end(), [&](std::errc one) { return code == one; });
+}
+
 }  // namespace
 
 int guarded(const std::string& program, const std::function<int()>& body) {
@@ -116,6 +128,9 @@ int guarded(const std::string& program, const std::function<int()>& body) {
     return exit_input_wrong;
   } catch (const ToldFailure& failure) {
     return failure.exit_code;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << fmt::format("{}: {}", error.path1().string(), error.code().message()) << std::endl;
+    return is_of_input(error.code()) ? exit_input_wrong : exit_run_failed;
   } catch (const std::exception& error) {
     std::cerr << program << ": " << error.what() << std::endl;
     return exit_run_failed;
@@ -132,6 +147,8 @@ int run_main(int argc, char** argv, const Program& program) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_input_wrong;
   }
+  if (typed.command.output.string().starts_with('-'))  // programs that it is handed to would take it for an option
+    typed.command.output = "." / typed.command.output;
   return guarded(program.name, [&] { return act(program, typed); });
 }
 

@@ -11,6 +11,7 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/output_folder.hpp"
 
 namespace tether {
 namespace {
@@ -54,31 +55,6 @@ std::string bare(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(around) + 1 - begin));
 }
 
-/// The files that the cells of a table, or the attributes of a series, name: whatever text between two of some marks is
-/// the name of a file. A name may hold the other marks.
-std::set<fs::path> files_named_in(const fs::path& path) {
-  std::string kind = path.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (kind != ".csv" && kind != ".pvd") return {};
-  std::set<fs::path> found;
-  const auto add_if_file = [&](const std::string& name) {
-    std::error_code none;
-    if (!name.empty() && !is_number(name) && fs::is_regular_file(path.parent_path() / name, none))
-      found.insert(path.parent_path() / name);
-  };
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);)
-    for (const std::string_view marks : {",;\t\r", "\"", "'", ",\"'\t\r"})
-      for (std::size_t begin = 0; begin < line.size();) {
-        const std::size_t end = std::min(line.find_first_of(marks, begin), line.size());
-        const std::string text = bare(std::string_view(line).substr(begin, end - begin));
-        add_if_file(text);
-        if (text.find('&') != std::string::npos) add_if_file(with_xml_entities_read(text));
-        begin = end + 1;
-      }
-  return found;
-}
-
 std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) {
   std::vector<fs::path> inside;
   for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied))
@@ -99,14 +75,29 @@ std::uint64_t hash_state(const fs::path& checkpoint) {
 
 constexpr std::string_view initial_state = "initial_state";  ///< the section that names a run for its state
 
-/// Of a folder that the case stands in, which may hold results as well, the files alone.
+/// Of a folder that the case stands in the files, and as deep as said those of its folders, but for results, which may
+/// stand there too.
+std::uint64_t hash_around_case(const fs::path& folder, std::uint64_t hash, int deep) {
+  std::vector<fs::path> inside;
+  for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied))
+    inside.push_back(entry.path());
+  std::sort(inside.begin(), inside.end());
+  for (const fs::path& path : inside) {
+    if (fs::is_regular_file(path)) hash = hash_file(path, hash_text(path.filename().string(), hash));
+    if (fs::is_directory(path) && deep > 0 && !fs::exists(path / case_as_run))
+      hash = hash_around_case(path, hash, deep - 1);
+  }
+  return hash;
+}
+
 std::uint64_t content_for(const fs::path& path, const std::string& field, const fs::path& case_folder) {
   std::error_code none;
   if (field.starts_with(initial_state) && fs::is_directory(path / "checkpoint", none))
     return hash_state(path / "checkpoint");
   const fs::path from_it = fs::canonical(case_folder, none).lexically_relative(fs::canonical(path, none));
+  const bool is_mesh = field == "mesh" || field.starts_with("mesh.");
   const bool holds_case = fs::is_directory(path, none) && !from_it.empty() && *from_it.begin() != "..";
-  return holds_case ? hash_folder(path, begin_of_hash, 0) : hash_content(path);
+  return holds_case ? hash_around_case(path, begin_of_hash, is_mesh ? folders_deep : 0) : hash_content(path);
 }
 
 void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<InputFile>& found) {
@@ -141,6 +132,30 @@ std::string essence(const std::string& effective_case) {
 }
 
 }  // namespace
+
+/// Whatever text between two of some marks is the name of a file counts. A name may hold the other marks.
+std::set<fs::path> files_named_in(const fs::path& list) {
+  std::string kind = list.extension().string();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (kind != ".csv" && kind != ".pvd") return {};
+  std::set<fs::path> found;
+  const auto add_if_file = [&](const std::string& name) {
+    std::error_code none;
+    if (!name.empty() && !is_number(name) && fs::is_regular_file(list.parent_path() / name, none))
+      found.insert(list.parent_path() / name);
+  };
+  std::ifstream file(list);
+  for (std::string line; std::getline(file, line);)
+    for (const std::string_view marks : {",;\t\r", "\"", "'", ",\"'\t\r"})
+      for (std::size_t begin = 0; begin < line.size();) {
+        const std::size_t end = std::min(line.find_first_of(marks, begin), line.size());
+        const std::string text = bare(std::string_view(line).substr(begin, end - begin));
+        add_if_file(text);
+        if (text.find('&') != std::string::npos) add_if_file(with_xml_entities_read(text));
+        begin = end + 1;
+      }
+  return found;
+}
 
 std::uint64_t hash_content(const fs::path& path) {
   std::error_code none;

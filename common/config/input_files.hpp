@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,10 @@ namespace tether {
 /// A hash of what a file holds, and of what the files hold that a table (.csv) or series (.pvd) names; of a folder: of
 /// the names and contents of the files in it and in its folders. The hash of nothing if there is no such file.
 std::uint64_t hash_content(const std::filesystem::path& path);
+
+/// The files that a table (.csv) or series (.pvd) names, as far as its text shows them; none of other files. Who reads
+/// such a list refuses a name that is not among them: what that file holds would not count.
+std::set<std::filesystem::path> files_named_in(const std::filesystem::path& list);
 
 /// A file or folder that a value of a case names.
 struct InputFile {

@@ -22,16 +22,12 @@ bool is_empty_but_for_lock(const fs::path& folder) {
                      [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
 }
 
-/// A pipe in the place of a file would be waited for without end; through a link files elsewhere would be written and
-/// removed.
-void refuse_what_no_run_leaves(const fs::path& folder) {
+void refuse_pipes_and_links(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
     if (entry.is_fifo(none)) throw input_error("{}: is a pipe, not a file of results", entry.path().string());
     if (entry.is_symlink(none)) throw input_error("{}: is a link, not a file of results", entry.path().string());
   }
-  if (const fs::path plots = folder / "plots"; fs::exists(plots, none) && !fs::is_directory(plots, none))
-    throw input_error("{}: is not a folder", plots.string());
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -39,7 +35,7 @@ void refuse_what_no_run_leaves(const fs::path& folder) {
 void check_owner(const fs::path& folder, const std::string& name, const fs::path& case_file, bool goes_on) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
-  refuse_what_no_run_leaves(folder);
+  check_writable_through(folder);
   if (!fs::exists(folder / case_as_run)) {
     if (is_empty_but_for_lock(folder)) return;
     throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
@@ -56,6 +52,15 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
 }
 
 }  // namespace
+
+void check_writable_through(const fs::path& folder) {
+  std::error_code none;
+  refuse_pipes_and_links(folder);
+  const fs::path plots = folder / "plots";
+  if (fs::exists(plots, none) && !fs::is_directory(plots, none))
+    throw input_error("{}: is not a folder", plots.string());
+  refuse_pipes_and_links(plots);
+}
 
 std::optional<fs::path> owner_of(const fs::path& folder) {
   if (!fs::is_regular_file(folder / case_as_run)) return std::nullopt;
@@ -76,7 +81,7 @@ void hold_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, "cannot be made", error.value());
-  refuse_what_no_run_leaves(folder);
+  check_writable_through(folder);
   hold_folder(folder);
 }
 

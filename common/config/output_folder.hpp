@@ -12,6 +12,10 @@ inline constexpr const char* case_as_run = "case_as_run.yaml";
 /// The case file whose results a folder holds; nothing if it does not say. It need not exist any more.
 std::optional<std::filesystem::path> owner_of(const std::filesystem::path& folder);
 
+/// Throws InputError if a file of results, or of its plots, is a link, through which files elsewhere would be written
+/// and removed, or a pipe, which would be waited for without end.
+void check_writable_through(const std::filesystem::path& folder);
+
 /// Where a run's results are, or will be: --output, or out/NAME.
 std::filesystem::path output_of(const CommandLine& command, const CaseFile& file);
 

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int deepest = 40;
 constexpr std::size_t most_values = 100'000;         ///< an alias may stand for many: far beyond any case file
+constexpr std::size_t most_entries = 5'000;          ///< of one mapping: each is looked for among the others
 constexpr std::uintmax_t largest_file = 10'000'000;  // bytes
 
 int line_of(const YAML::Mark& mark) {
@@ -68,6 +69,8 @@ class Copier {
       for (const auto& item : from) to.items.push_back((*this)(item, depth + 1));
     } else if (from.IsMap()) {
       to.kind = YamlNode::Kind::map;
+      if (from.size() > most_entries)
+        throw input_error("{}: more than {} entries in one mapping", to.place.text(), most_entries);
       return map_of(from, std::move(to), depth);
     }
     return to;

@@ -69,8 +69,10 @@ PvdSeries PvdSeries::rescued(const std::filesystem::path& path, double last_time
     std::ifstream file(path);
     const std::regex entry("<DataSet timestep=\"([-+.e0-9]+)\" part=\"0\" file=\"([^\"]+)\"/>");
     std::smatch found;
+    std::error_code none;
     for (std::string line; std::getline(file, line);)
-      if (std::regex_match(line, found, entry) && std::stod(found[1]) <= last_time)
+      if (std::regex_match(line, found, entry) && std::stod(found[1]) <= last_time &&
+          std::filesystem::is_regular_file(path.parent_path() / found[2].str(), none))
         series.entries_.emplace_back(std::stod(found[1]), found[2]);
     fmt::print(stderr, "{}; it is written anew, with the {} files that it still names\n", error.what(),
                series.entries_.size());

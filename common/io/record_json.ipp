@@ -264,7 +264,7 @@ T record_of(const std::string& text, const std::string& from) {
 template <class T>
 T read_record(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw input_error("{}: cannot be read", path.string());
+  if (!file || std::filesystem::is_directory(path)) throw input_error("{}: cannot be read", path.string());
   return record_of<T>({std::istreambuf_iterator<char>(file), {}}, path.string());
 }
 

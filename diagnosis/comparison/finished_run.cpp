@@ -97,8 +97,7 @@ FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion
   if (fs::exists(output / "blood.velocity")) velocity.emplace(output / "blood.velocity");
   const RunSummary summary = summary_in(output);
   steps = static_cast<int>(summary.steps);
-  motion.check_has(steps);
-  if (velocity) velocity->check_has(steps);
+  check_is_whole(output, steps);
   if (summary.observer) observer_gain = summary.observer->gain;
 }
 

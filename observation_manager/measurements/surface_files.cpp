@@ -7,6 +7,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/config/input_files.hpp"
 #include "common/io/pvd.hpp"
 #include "observation_manager/measurements/stated_unit.hpp"
 #include "vessel/mesh_file.hpp"
@@ -50,11 +51,23 @@ std::vector<TimedFile> found_in_folder(const SurfacesCase& given) {
   return files;
 }
 
+/// A name that is written otherwise than it reads, as by &#95;: what results depend on would not be seen.
+std::vector<TimedFile> plainly_named(std::vector<TimedFile> files, const std::filesystem::path& list) {
+  const std::set<std::filesystem::path> seen = files_named_in(list);
+  std::error_code none;
+  for (const TimedFile& file : files)
+    if (std::filesystem::exists(file.file, none) && !seen.contains(file.file))
+      throw input_error(
+          "{}: the name of {} must be written as it is, in UTF-8, without quotes or &#...; of its characters",
+          file.where, file.file.string());
+  return files;
+}
+
 std::vector<TimedFile> listed(const SurfacesCase& given, const UnitSystem& units) {
   if (!given.folder.empty()) return found_in_folder(given);
   const std::string extension = lower_case(given.file.extension().string());
-  if (extension == ".pvd") return listed_in_series(given.file);
-  if (extension == ".csv") return listed_in_table(given.file, units);
+  if (extension == ".pvd") return plainly_named(listed_in_series(given.file), given.file);
+  if (extension == ".csv") return plainly_named(listed_in_table(given.file, units), given.file);
   return {{given.file, std::numeric_limits<double>::quiet_NaN(), given.file.string()}};
 }
 
@@ -72,12 +85,20 @@ void check_times(const std::vector<TimedFile>& files, double period) {
 
 }  // namespace
 
+/// The latest * takes one character more wherever what follows it does not fit: at most name times pattern steps.
 bool matches(std::string_view name, std::string_view pattern) {
-  if (pattern.empty()) return name.empty();
-  if (pattern.front() == '*')
-    return matches(name, pattern.substr(1)) || (!name.empty() && matches(name.substr(1), pattern));
-  return !name.empty() && (pattern.front() == '?' || pattern.front() == name.front()) &&
-         matches(name.substr(1), pattern.substr(1));
+  std::size_t n = 0, p = 0, star = std::string_view::npos, taken = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*')
+      star = p++, taken = n;
+    else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]))
+      ++p, ++n;
+    else if (star != std::string_view::npos)
+      p = star + 1, n = ++taken;
+    else
+      return false;
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 bool in_order_of_numbers(const std::string& a, const std::string& b) {

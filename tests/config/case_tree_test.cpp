@@ -170,6 +170,14 @@ TEST_F(CaseTree, RefusesBasesThatLeadNowhere) {
 }
 
 /// What marks a folder of results says all of the case, with paths that hold from the case's own folder.
+TEST_F(CaseTree, RefusesMoreEntriesThanAnyCaseHas) {
+  std::string text = "name: tube\nfluid:\n";
+  for (int i = 0; i <= 5000; ++i) text += "  k" + std::to_string(i) + ": 1\n";
+  const auto path = write_file("many.yaml", text);
+  EXPECT_NE(input_error_of([&] { read_case_tree(path); }).find("more than 5000 entries in one mapping"),
+            std::string::npos);
+}
+
 TEST_F(CaseTree, TheMarkOfResultsIsTheMergedCase) {
   CommandLine command;
   command.output = test_folder() / "results";

@@ -68,6 +68,22 @@ TEST_F(InputFiles, OfARunTheStateCountsWhereACaseBeginsFromIt) {
   EXPECT_NE(content(), before);
 }
 
+/// A mesh may stand beside its case, and results too.
+TEST_F(InputFiles, AroundACaseTheFilesOfItsMeshCountAndResultsDoNot) {
+  write_file("mesh/surfaces/inlet.vtp", "inlet");
+  const fs::path file = write_file("mesh/case.yaml", "name: tube\nmesh: {fluid: .}\n");
+  const auto content = [&] { return input_files(file).front().content; };
+  const std::uint64_t before = content();
+  fs::create_directories(test_folder() / "mesh/out/tube");
+  fs::create_directories(test_folder() / "mesh/results");
+  write_file("mesh/out/tube/summary.json", "results");
+  write_file("mesh/results/case_as_run.yaml", "name: tube");
+  write_file("mesh/results/summary.json", "results");
+  EXPECT_EQ(content(), before);
+  write_file("mesh/surfaces/inlet.vtp", "outlet");
+  EXPECT_NE(content(), before);
+}
+
 TEST_F(InputFiles, CountWithAllThatIsInAFolder) {
   write_file("mesh/mesh.vtu", "mesh");
   EXPECT_TRUE(changes("mesh", "mesh/surfaces/wall.vtp", "wall"));

@@ -104,6 +104,18 @@ TEST_F(OutputFolder, IsRefusedWhereALinkStandsForAFileOrAFolder) {
   }
 }
 
+TEST_F(OutputFolder, IsRefusedWhereAPlotIsALinkOrAPipe) {
+  EXPECT_EQ(claim("tube"), "no error");
+  std::filesystem::create_directories(test_folder() / "results/plots");
+  write_file("results/plots/kept.png", "a picture");
+  EXPECT_EQ(claim("tube"), "no error");
+  std::filesystem::create_symlink("../../precious", test_folder() / "results/plots/wall.png");
+  EXPECT_EQ(claim("tube"), "results/plots/wall.png: is a link, not a file of results");
+  std::filesystem::remove(test_folder() / "results/plots/wall.png");
+  ASSERT_EQ(mkfifo((test_folder() / "results/plots/plots.gp").c_str(), 0600), 0);
+  EXPECT_EQ(claim("tube"), "results/plots/plots.gp: is a pipe, not a file of results");
+}
+
 TEST_F(OutputFolder, IsRefusedBeforeTheRunWhereItsPlotsCannotBeAFolder) {
   EXPECT_EQ(claim("tube"), "no error");
   write_file("results/plots", "a file");

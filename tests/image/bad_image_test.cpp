@@ -164,6 +164,9 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
   expect_said(refusal("colour.mha"), {"colour.mha: has 3 values a voxel"});
   folder.text("cut.mha", "NDims = 3\nDimSize = 9 9 9\nElementType = MET_UCHAR\n", bytes);
   expect_said(refusal("cut.mha"), {"cut.mha: its voxels take 729 bytes, it has 27: cut short?"});
+  folder.text("huge.mha", "NDims = 3\nDimSize = 1000 1000 1500\nElementType = MET_SHORT\n", bytes);
+  fs::resize_file(folder.path / "huge.mha", 3'000'001'000);  // of zeros, of which few blocks are on the disk
+  expect_said(refusal("huge.mha"), {"huge.mha: its voxels take 3000 MB: more than the 1200 MB that are read here"});
   folder.text("sheared.mha",
               "NDims = 3\nDimSize = 3 3 3\nTransformMatrix = 1 0 0 0 1 0.3 0 0 1\nElementType = MET_UCHAR\n", bytes);
   expect_said(refusal("sheared.mha"), {"sheared.mha: the header's axes are not at right angles"});

@@ -63,8 +63,12 @@ TEST(PvdSeries, GrowsAndIsCutOnResuming) {
 /// As other programs write them: on one line, over several, in single quotes.
 TEST(PvdSeries, OfADamagedOneWhatItStillNamesIsKept) {
   const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "vtk");
   PvdSeries series(folder / "fluid.pvd");
-  for (const int i : {0, 10, 20}) series.add(0.1 * i, fmt::format("vtk/fluid_{:06}.vtu", i));
+  for (const int i : {0, 10, 20}) {
+    folder.file(fmt::format("vtk/fluid_{:06}.vtu", i), "a grid");
+    series.add(0.1 * i, fmt::format("vtk/fluid_{:06}.vtu", i));
+  }
   const auto whole = series.entries();
   std::filesystem::resize_file(folder / "fluid.pvd", std::filesystem::file_size(folder / "fluid.pvd") - 60);
   EXPECT_THROW(PvdSeries::resumed(folder / "fluid.pvd", 1e9), InputError);
@@ -73,6 +77,26 @@ TEST(PvdSeries, OfADamagedOneWhatItStillNamesIsKept) {
   rescued.add(whole[2].first, whole[2].second);
   EXPECT_EQ(PvdSeries::resumed(folder / "fluid.pvd", 1e9).entries(), whole);
   EXPECT_TRUE(PvdSeries::rescued(folder.file("wrong.pvd", "hello"), 1).entries().empty());
+}
+
+/// A name with a byte that is no text would make the collection unreadable once more.
+TEST(PvdSeries, OfADamagedOneNamesOfNoFileAreDropped) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "vtk");
+  PvdSeries series(folder / "fluid.pvd");
+  for (const int i : {0, 10, 20}) {
+    folder.file(fmt::format("vtk/fluid_{:06}.vtu", i), "a grid");
+    series.add(0.1 * i, fmt::format("vtk/fluid_{:06}.vtu", i));
+  }
+  const auto whole = series.entries();
+  std::ifstream file(folder / "fluid.pvd");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text[text.find("vtk/fluid") + 4] ^= '\x80';
+  std::ofstream(folder / "fluid.pvd") << text;
+  PvdSeries rescued = PvdSeries::rescued(folder / "fluid.pvd", 1e9);
+  EXPECT_EQ(rescued.entries(), decltype(whole)(whole.begin() + 1, whole.end()));
+  rescued.add(3, "vtk/fluid_000030.vtu");
+  EXPECT_EQ(PvdSeries::resumed(folder / "fluid.pvd", 1e9).entries().size(), 3U);
 }
 
 TEST(PvdSeries, IsReadAsXml) {

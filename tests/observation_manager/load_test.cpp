@@ -138,6 +138,41 @@ TEST_F(Load, ReadsSeriesFromATableAndFromParaView) {
   }
 }
 
+/// What its file holds would not count in what results depend on.
+TEST_F(Load, RefusesNamesThatAreWrittenOtherwiseThanTheyRead) {
+  folder.file("a_1.vtp", vtp(vessel(1.1)));
+  folder.file("'b.vtp", vtp(vessel(1.1)));
+  const auto series = [&](const std::string& name) {
+    return folder.file("frames.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=" + name +
+                                         "/></Collection></VTKFile>\n");
+  };
+  const auto said = [&](const std::string& list) {
+    return message("  surfaces: {ct: {file: " + list + ", unit: cm}}\n");
+  };
+  series("\"a&#95;1.vtp\"");
+  EXPECT_NE(said("frames.pvd").find("a_1.vtp must be written as it is, in UTF-8, without quotes or &#...;"),
+            std::string::npos)
+      << said("frames.pvd");
+  series("'a_1.vtp'");
+  EXPECT_NEAR(first_distance(load("  surfaces: {ct: {file: frames.pvd, unit: cm}}\n"), 0), 0.1, 2e-3);
+  folder.file("frames.csv", "file,time [s]\n'b.vtp,0\n");
+  EXPECT_NE(said("frames.csv").find("must be written as it is"), std::string::npos) << said("frames.csv");
+}
+
+TEST(Pattern, IsMatchedInATimeThatItsLengthBounds) {
+  EXPECT_TRUE(matches("wall_10.stl", "wall_*.stl"));
+  EXPECT_TRUE(matches("wall_10.stl", "*_1?.*"));
+  EXPECT_TRUE(matches("wall.stl.stl", "*.stl"));
+  EXPECT_TRUE(matches("", "**"));
+  EXPECT_FALSE(matches("wall_10.stl", "wall_?.stl"));
+  EXPECT_FALSE(matches("wall_10.stlx", "wall_*.stl"));
+  EXPECT_FALSE(matches("", "?"));
+  std::string pattern;
+  for (int i = 0; i < 40; ++i) pattern += "*a";
+  EXPECT_FALSE(matches(std::string(80, 'a') + "b", pattern)) << "tried in all ways it would take years";
+  EXPECT_TRUE(matches(std::string(80, 'a'), pattern));
+}
+
 TEST_F(Load, TakesOneSurfaceForAllTimes) {
   folder.file("a.stl", stl(vessel(1.1)));
   EXPECT_NEAR(first_distance(load("  surfaces: {ct: {file: a.stl, unit: cm}}\n"), 17), 0.1, 2e-3);

@@ -246,6 +246,16 @@ TEST_F(Compare, SimulatesWhatIsNotThere) {
       << "another wall moves otherwise";
 }
 
+TEST_F(Compare, SimulatesAnewWhereATableIsCutShort) {
+  const fs::path table = output / "timeseries.csv";
+  const std::string whole = content_of(table);
+  std::ofstream(table) << whole.substr(0, whole.find('\n', whole.size() / 2) + 1);
+  const ChildEnd end = compare();
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.output.find("timeseries.csv: is cut short"), std::string::npos) << end.output;
+  EXPECT_EQ(content_of(table), whole);
+}
+
 /// At the start, not after the whole run.
 TEST_F(Compare, RefusesATraceThatTheRunDoesNotHave) {
   std::ofstream(folder / "p.csv") << "time [s], pressure [mmHg]\n0, 80\n1, 90\n";

@@ -15,6 +15,7 @@
 #include <random>
 #include <vector>
 
+#include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "tests/io/less_memory.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -81,6 +82,18 @@ void expect_messages(const std::string& name, const std::string& good, const std
       EXPECT_NE(said.find(damage.message), std::string::npos) << said << "\nhas not: " << damage.message;
     }
   }
+}
+
+/// As broken downloads leave them: their length is there, and zeros.
+TEST(DamagedFiles, LargerThanAnyVesselAreNotRead) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.stl", "a.ply", "a.obj", "a.msh", "a.vtk", "a.vtp"}) {
+    std::filesystem::resize_file(folder.file(name, ""), 300'000'000);
+    EXPECT_EQ(message_of([&] { read_mesh_file(folder / name); }),
+              (folder / name).string() + ": has 300 MB: larger than any such file that is read here (200 MB)");
+  }
+  std::filesystem::resize_file(folder.file("a.csv", ""), 300'000'000);
+  EXPECT_NE(message_of([&] { CsvTable{folder / "a.csv"}; }).find("(100 MB)"), std::string::npos);
 }
 
 TEST(DamagedFiles, OfPlyAreNamed) {

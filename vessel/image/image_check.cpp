@@ -21,7 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Bytes of voxels: those of a tomography of a whole body, 512 x 512 x 2000 of two bytes, and some more.
+constexpr std::uint64_t largest_image = 1'200'000'000;
+
 void require(const fs::path& file, std::uint64_t wanted, std::uint64_t there) {
+  if (std::min(wanted, there) > largest_image)
+    throw input_error("{}: its voxels take {:.0f} MB: more than the {} MB that are read here; crop it", file.string(),
+                      static_cast<double>(wanted) / 1e6, largest_image / 1'000'000);
   if (there < wanted)
     throw input_error("{}: its voxels take {} bytes, it has {}: cut short?", file.string(), wanted, there);
 }
@@ -69,7 +75,8 @@ Place beside(const fs::path& file, const std::string& name) {
 
 using GzipFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
 
-/// What compressed bytes become, of zlib's form or gzip's: they are read to their end, which a header does not tell.
+/// What compressed bytes become, of zlib's form or gzip's: they are read to their end, which a header does not tell, or
+/// until they are more than are read here.
 std::uint64_t inflated_size(const Place& place) {
   std::ifstream in(place.file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(place.from));
@@ -91,7 +98,8 @@ std::uint64_t inflated_size(const Place& place) {
     stream.avail_out = static_cast<uInt>(to.size());
     state = inflate(&stream, Z_NO_FLUSH);
     size += to.size() - stream.avail_out;
-    whole |= state == Z_STREAM_END;
+    whole |= state == Z_STREAM_END || size > largest_image;
+    if (size > largest_image) break;  // of zeros a small file holds any number
     if (state == Z_STREAM_END && (stream.avail_in > 0 || in.peek() != EOF)) state = inflateReset(&stream);
   }
   inflateEnd(&stream);
@@ -225,12 +233,13 @@ class NiftiHeader {
   bool swapped_ = false;
 };
 
-/// ITK aborts on an orientation that is not finite.
+/// ITK aborts on an orientation that is not finite, and decomposes without end what has numbers below all others.
 void check_geometry(const fs::path& file, const NiftiHeader& header) {
   constexpr std::size_t spacing_at = 76, quaternion_at = 256, rows_end = 328;
   const auto check = [&](std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; at += sizeof(float))
-      if (const auto number = header.get<float>(at); !(std::abs(number) < 1e9F))
+      if (const auto number = header.get<float>(at);
+          !(std::abs(number) < 1e9F) || (number != 0 && std::abs(number) < 1e-30F))
         throw input_error("{}: its header states a place or an axis of {:g}", file.string(), number);
   };
   check(spacing_at, spacing_at + 4 * sizeof(float));
