@@ -25,8 +25,8 @@ std::string lower_case(std::string text) {
 
 namespace {
 
-/// Bytes: of a million nodes; a volume's may have twenty times as many.
-constexpr std::uintmax_t largest_surface = 200'000'000, largest_volume = 4'000'000'000;
+/// Bytes: of a million triangles in text; a volume may have more.
+constexpr std::uintmax_t largest_surface = 250'000'000, largest_volume = 4'000'000'000;
 
 std::uintmax_t largest(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".vtu" ? largest_volume : largest_surface;

@@ -260,7 +260,8 @@ class XmlCheck {
     const std::uint64_t values = tuples(array) * array.components;  // of most_ and most_components: no overflow
     const bool is_text = array.tag.attribute("format") == "ascii";
     if (array.type_size == 0 || values == 0) {
-      if (!is_text && !next_word_of(array).empty()) stated_bytes(array);  // VTK reads how long it is, needed or not
+      const bool is_there = array.tag.attribute("format") == "appended" || !next_word_of(array).empty();
+      if (!is_text && is_there) stated_bytes(array);  // VTK reads how long it is, needed or not
     } else if (is_text) {
       check_text(array, values);
     } else if (const std::uint64_t bytes = stated_bytes(array); bytes / array.type_size < values) {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -37,6 +38,12 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 }
 
 }  // namespace
+
+void Problems::add(const YamlPlace& place, std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c != '\n' && std::iscntrl(c) != 0; }, '?');
+  found_.emplace_back(place, std::move(text));
+}
 
 void Problems::throw_if_any() {
   std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {

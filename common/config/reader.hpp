@@ -11,7 +11,8 @@ namespace tether {
 /// What is wrong with a file, collected so that the user sees all of it at once.
 class Problems {
  public:
-  void add(const YamlPlace& place, const std::string& text) { found_.emplace_back(place, text); }
+  /// Control characters of what a file says are told as ?, lest a terminal obeys them.
+  void add(const YamlPlace& place, std::string text);
   bool empty() const { return found_.empty(); }
   /// More than anybody reads: only their number is told.
   bool are_many() const { return found_.size() > most_told; }
