@@ -76,6 +76,11 @@ TEST_F(FinishedRunTest, OneThatIsDamagedSaysWhere) {
   LumenMotionWriter writer(output / "lumen.motion", Points::Random(3, 4));
   writer.start();
   for (int step = 0; step <= 2; ++step) writer.append(0.1 * step, Points::Random(3, 4));
+  const std::string table = (output / "timeseries.csv").string();
+  EXPECT_EQ(damage_of(output).value_or("none"), table + ": has no rows");
+  folder.file("out/timeseries.csv", "time [s]\n0.1\n");
+  EXPECT_EQ(damage_of(output).value_or("none"), table + ": is cut short: it has 1 rows of a run of 2 steps");
+  folder.file("out/timeseries.csv", "time [s]\n0.1\n0.2\n");
   EXPECT_EQ(damage_of(output), std::nullopt);
   fs::resize_file(output / "lumen.motion", fs::file_size(output / "lumen.motion") - 1);
   EXPECT_EQ(damage_of(output).value_or("none"),
