@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "common/base/error.hpp"
 
@@ -46,8 +47,19 @@ bool lists(const std::string& text) {
   return false;
 }
 
-/// Values that no formula singles out.
-constexpr std::array tried{1.0, 0.7310585, -1.6487213, 14.134725};
+/// Of pressures, lengths and velocities alike; a formula may have a value for some of them only.
+constexpr std::array tried{0.0, 1.0, -1.0, 0.01, -0.01, 30.0, -30.0, 1e3, -1e3, 1e5, -1e5};
+constexpr int trials = 1000;
+
+/// For any values, tried together in an order that is the same each time.
+bool is_ever_finite(const mu::Parser& parser, std::vector<double>& values) {
+  std::minstd_rand order;
+  for (int k = 0; k < trials; ++k) {
+    for (double& value : values) value = tried[order() % tried.size()];
+    if (std::isfinite(parser.Eval())) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -61,11 +73,7 @@ Expression::Expression(std::string text, const std::vector<std::string>& names)
     parser_->parser.DefineConst("pi", std::numbers::pi);
     for (std::size_t i = 0; i < names.size(); ++i) parser_->parser.DefineVar(names[i], &parser_->values[i]);
     parser_->parser.SetExpr(text_);
-    for (std::size_t k = 0; k < tried.size() && !is_finite; ++k) {
-      for (std::size_t i = 0; i < names.size(); ++i)
-        parser_->values[i] = tried[k] + 0.1 * static_cast<double>(i * (k % 2));
-      is_finite = std::isfinite(parser_->parser.Eval());
-    }
+    is_finite = is_ever_finite(parser_->parser, parser_->values);
   } catch (const mu::Parser::exception_type& error) {
     throw input_error("\"{}\": {}", text_, error.GetMsg());
   }

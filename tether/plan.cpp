@@ -1,5 +1,7 @@
 #include "tether/plan.hpp"
 
+#include <algorithm>
+
 #include "common/base/child_process.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
@@ -91,6 +93,7 @@ std::string plan_of(JobVerb verb, const CommandLine& command) {
   const int here = std::min(usable_cores(), models_at_once(verb, command.case_file));
   PlannedRuns planned = planned_of(verb, command.case_file, command.processes > 0 ? command.processes : here);
   planned.cores = usable_cores();
+  if (command.steps) planned.model.of_case = *command.steps;
   return plan_text(verb, planned);
 }
 

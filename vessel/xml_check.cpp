@@ -21,6 +21,7 @@
 
 #include "common/base/error.hpp"
 #include "vessel/readers.hpp"
+#include "vessel/xml_bytes.hpp"
 #include "vessel/xml_tags.hpp"
 
 namespace tether {
@@ -47,63 +48,6 @@ std::optional<std::uint64_t> xml_count(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
-
-/// Bytes at one place of the file: as they are, or in base 64.
-class XmlBytes {
- public:
-  XmlBytes(std::string_view text, bool base64) : text_(text), base64_(base64) {}
-
-  /// No more than so many can follow.
-  std::uint64_t left() const { return base64_ ? text_.size() / 4 * 3 : text_.size(); }
-  /// The first ones, as many as are there.
-  std::string read(std::uint64_t bytes) const { return base64_ ? decode(bytes) : std::string(text_.substr(0, bytes)); }
-  /// How many there are, if less than so many.
-  std::uint64_t count(std::uint64_t bytes) const {
-    return base64_ ? decode(bytes).size() : std::min<std::uint64_t>(bytes, text_.size());
-  }
-  /// Goes behind so many, and to the next whole group of characters.
-  void skip(std::uint64_t bytes) { text_.remove_prefix(std::min(base64_ ? characters(bytes) : bytes, text_.size())); }
-
- private:
-  static std::uint64_t characters(std::uint64_t bytes) { return (bytes + 2) / 3 * 4; }
-
-  /// Ends before four characters that are no group of base 64, as VTK does, and behind one that is filled up with =.
-  std::string decode(std::uint64_t bytes) const {
-    std::string decoded;
-    for (std::string_view groups = text_.substr(0, characters(bytes)); groups.size() >= 4; groups.remove_prefix(4)) {
-      const std::string_view group = groups.substr(0, 4);
-      const std::size_t digits = std::min<std::size_t>(group.find('='), 4);
-      std::uint32_t bits = 0;
-      bool is_group = digits > 1 && group.find_first_not_of('=', digits) == std::string_view::npos;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const int digit = i < digits ? digit_of_base64(group[i]) : 0;
-        is_group = is_group && digit >= 0;
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
-      }
-      if (!is_group) break;
-      for (std::size_t i = 0; i + 1 < digits; ++i) decoded += static_cast<char>(bits >> (16 - 8 * i) & 0xff);
-      if (digits < 4) break;
-    }
-    return decoded.substr(0, bytes);
-  }
-
-  static int digit_of_base64(char c) {
-    static const std::array<int, 256> digits = digits_of_base64();
-    return digits[static_cast<unsigned char>(c)];
-  }
-
-  static std::array<int, 256> digits_of_base64() {
-    static constexpr std::string_view in_order = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::array<int, 256> digits;
-    digits.fill(-1);
-    for (std::size_t i = 0; i < in_order.size(); ++i)
-      digits[static_cast<unsigned char>(in_order[i])] = static_cast<int>(i);
-    return digits;
-  }
-
-  std::string_view text_;
-  bool base64_;
-};
 
 /// How many of everything a piece states.
 using XmlPiece = std::map<std::string, std::uint64_t, std::less<>>;

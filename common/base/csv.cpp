@@ -46,9 +46,9 @@ bool skipped(const std::string& line) {
 /// What spreadsheets write in front of UTF-8.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// One column whose heading has semicolons is a table of another dialect.
 constexpr std::uintmax_t largest_table = 100'000'000;  // bytes
 
+/// One column whose heading has semicolons is a table of another dialect.
 void check_separator(const std::string& file, int line, const std::vector<std::string>& headings) {
   if (headings.size() == 1 && headings.front().find_first_of(";\t") != std::string::npos)
     throw input_error("{}:{}: columns are separated by {}: must be commas, and numbers have points (0.5)", file, line,

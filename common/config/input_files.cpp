@@ -55,15 +55,30 @@ std::string bare(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(around) + 1 - begin));
 }
 
-std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) {
-  std::vector<fs::path> inside;
+std::vector<fs::path> inside(const fs::path& folder) {
+  std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied))
-    inside.push_back(entry.path());
-  std::sort(inside.begin(), inside.end());
-  for (const fs::path& path : inside) {
+    paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::uint64_t hash_folder(const fs::path& folder, std::uint64_t hash, int deep) {
+  for (const fs::path& path : inside(folder)) {
     hash = hash_text(path.filename().string(), hash);
     if (fs::is_regular_file(path)) hash = hash_file(path, hash);
     if (fs::is_directory(path) && deep > 0) hash = hash_folder(path, hash, deep - 1);
+  }
+  return hash;
+}
+
+/// Of a folder that the case stands in: the files, and as deep as said those of its folders, but not results, which may
+/// stand there too, nor that there are folders.
+std::uint64_t hash_around_case(const fs::path& folder, std::uint64_t hash, int deep) {
+  for (const fs::path& path : inside(folder)) {
+    if (fs::is_regular_file(path)) hash = hash_file(path, hash_text(path.filename().string(), hash));
+    if (fs::is_directory(path) && deep > 0 && !fs::exists(path / case_as_run))
+      hash = hash_around_case(path, hash, deep - 1);
   }
   return hash;
 }
@@ -75,21 +90,7 @@ std::uint64_t hash_state(const fs::path& checkpoint) {
 
 constexpr std::string_view initial_state = "initial_state";  ///< the section that names a run for its state
 
-/// Of a folder that the case stands in the files, and as deep as said those of its folders, but for results, which may
-/// stand there too.
-std::uint64_t hash_around_case(const fs::path& folder, std::uint64_t hash, int deep) {
-  std::vector<fs::path> inside;
-  for (const auto& entry : fs::directory_iterator(folder, fs::directory_options::skip_permission_denied))
-    inside.push_back(entry.path());
-  std::sort(inside.begin(), inside.end());
-  for (const fs::path& path : inside) {
-    if (fs::is_regular_file(path)) hash = hash_file(path, hash_text(path.filename().string(), hash));
-    if (fs::is_directory(path) && deep > 0 && !fs::exists(path / case_as_run))
-      hash = hash_around_case(path, hash, deep - 1);
-  }
-  return hash;
-}
-
+/// A mesh may stand beside its case, with its surfaces in a folder below.
 std::uint64_t content_for(const fs::path& path, const std::string& field, const fs::path& case_folder) {
   std::error_code none;
   if (field.starts_with(initial_state) && fs::is_directory(path / "checkpoint", none))

@@ -21,13 +21,16 @@ BloodVelocityWriter::BloodVelocityWriter(std::filesystem::path path, Points poin
 
 BloodVelocity::BloodVelocity(const std::filesystem::path& path) : PointSeries(velocity, path) {}
 
+void check_has_rows(const std::filesystem::path& table, std::int64_t steps) {
+  if (const std::size_t rows = CsvTable(table).rows(); rows < static_cast<std::size_t>(steps))
+    throw input_error("{}: is cut short: it has {} rows of a run of {} steps", table.string(), rows, steps);
+}
+
 void check_is_whole(const std::filesystem::path& folder, std::int64_t steps) {
   LumenMotion(folder / "lumen.motion").check_has(steps);
   if (const auto velocities = folder / "blood.velocity"; std::filesystem::exists(velocities))
     BloodVelocity(velocities).check_has(steps);
-  const std::filesystem::path table = folder / "timeseries.csv";
-  if (const std::size_t rows = CsvTable(table).rows(); rows < static_cast<std::size_t>(steps))
-    throw input_error("{}: is cut short: it has {} rows of a run of {} steps", table.string(), rows, steps);
+  check_has_rows(folder / "timeseries.csv", steps);
 }
 
 }  // namespace tether

@@ -36,6 +36,9 @@ struct BloodVelocity : PointSeries {
   explicit BloodVelocity(const std::filesystem::path& path);
 };
 
+/// Throws InputError if the run's table is missing, damaged or has fewer rows than steps.
+void check_has_rows(const std::filesystem::path& table, std::int64_t steps);
+
 /// Throws InputError if what a run of so many steps left in its folder (lumen.motion, timeseries.csv, and
 /// blood.velocity where there is one) is missing, damaged or cut short.
 void check_is_whole(const std::filesystem::path& folder, std::int64_t steps);

@@ -97,7 +97,9 @@ FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion
   if (fs::exists(output / "blood.velocity")) velocity.emplace(output / "blood.velocity");
   const RunSummary summary = summary_in(output);
   steps = static_cast<int>(summary.steps);
-  check_is_whole(output, steps);
+  motion.check_has(steps);
+  if (velocity) velocity->check_has(steps);
+  check_has_rows(output / "timeseries.csv", steps);
   if (summary.observer) observer_gain = summary.observer->gain;
 }
 

@@ -60,16 +60,21 @@ TEST(PvdSeries, GrowsAndIsCutOnResuming) {
   EXPECT_THROW(PvdSeries::resumed(folder.file("wrong.pvd", "hello"), 1), InputError);
 }
 
-/// As other programs write them: on one line, over several, in single quotes.
-TEST(PvdSeries, OfADamagedOneWhatItStillNamesIsKept) {
-  const TemporaryFolder folder;
+/// Of three files, which are there.
+PvdSeries series_of_three(const TemporaryFolder& folder) {
   std::filesystem::create_directory(folder / "vtk");
   PvdSeries series(folder / "fluid.pvd");
   for (const int i : {0, 10, 20}) {
-    folder.file(fmt::format("vtk/fluid_{:06}.vtu", i), "a grid");
-    series.add(0.1 * i, fmt::format("vtk/fluid_{:06}.vtu", i));
+    const std::string name = fmt::format("vtk/fluid_{:06}.vtu", i);
+    folder.file(name, "a grid");
+    series.add(0.1 * i, name);
   }
-  const auto whole = series.entries();
+  return series;
+}
+
+TEST(PvdSeries, OfADamagedOneWhatItStillNamesIsKept) {
+  const TemporaryFolder folder;
+  const auto whole = series_of_three(folder).entries();
   std::filesystem::resize_file(folder / "fluid.pvd", std::filesystem::file_size(folder / "fluid.pvd") - 60);
   EXPECT_THROW(PvdSeries::resumed(folder / "fluid.pvd", 1e9), InputError);
   PvdSeries rescued = PvdSeries::rescued(folder / "fluid.pvd", 1e9);
@@ -82,13 +87,7 @@ TEST(PvdSeries, OfADamagedOneWhatItStillNamesIsKept) {
 /// A name with a byte that is no text would make the collection unreadable once more.
 TEST(PvdSeries, OfADamagedOneNamesOfNoFileAreDropped) {
   const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "vtk");
-  PvdSeries series(folder / "fluid.pvd");
-  for (const int i : {0, 10, 20}) {
-    folder.file(fmt::format("vtk/fluid_{:06}.vtu", i), "a grid");
-    series.add(0.1 * i, fmt::format("vtk/fluid_{:06}.vtu", i));
-  }
-  const auto whole = series.entries();
+  const auto whole = series_of_three(folder).entries();
   std::ifstream file(folder / "fluid.pvd");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   text[text.find("vtk/fluid") + 4] ^= '\x80';
@@ -99,6 +98,7 @@ TEST(PvdSeries, OfADamagedOneNamesOfNoFileAreDropped) {
   EXPECT_EQ(PvdSeries::resumed(folder / "fluid.pvd", 1e9).entries().size(), 3U);
 }
 
+/// As other programs write them: on one line, over several, in single quotes.
 TEST(PvdSeries, IsReadAsXml) {
   const TemporaryFolder folder;
   const auto path = folder.file("a.pvd",

@@ -204,7 +204,7 @@ const Mistake mistakes[] = {
     {"FormulaWithAList", In::the_case, "solid:\n", "solid:\n  effects: {e: {type: expression, normal: \"(1,2)*un\"}}\n",
      "case.yaml:22: solid.effects.e: \"(1,2)*un\": numbers have points (0.5), and a formula is one, not a list"},
     {"TitleThatMovesTheCursor", In::the_case, "name: tube", "name: tube\ntitle: \"a\\e[2J\"",
-     "case.yaml:2: title: a?[2J: must be one line, without control characters"},
+     "case.yaml:2: title: a?[2J: must not hold control characters"},
     {"RegionNotOfTheMesh", In::the_case, "      spine: {stiffness", "      spin: {stiffness",
      "case.yaml:26: solid.support.regions.spin: the wall has no such part; it has: spine, rest"},
     {"OutletNotOfTheMesh", In::the_case, "    outlet: {", "    iliac: {",

@@ -258,10 +258,11 @@ TEST_F(Identify, BeginsWhereAnotherOneEnded) {
 }
 
 TEST_F(Identify, TellsBeforeItBeginsWhatItWouldTake) {
-  const ChildEnd plan = tether("identify", case_file, "planned", {"--plan", "--processes", "2"});
+  const ChildEnd plan = tether("identify", case_file, "planned", {"--plan", "--processes", "2"}, 7);
   ASSERT_EQ(plan.exit_code, 0) << plan.errors;
   EXPECT_NE(plan.output.find("3 particles"), std::string::npos) << plan.output;
   EXPECT_NE(plan.output.find("2 models at once"), std::string::npos) << plan.output;
+  EXPECT_NE(plan.output.find("7 steps of"), std::string::npos) << plan.output;
   EXPECT_FALSE(fs::exists(folder / "planned")) << "nothing has begun";
 }
 
