@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iostream>
 #include <sstream>
 
 #include "common/base/checked_file.hpp"
@@ -195,6 +196,16 @@ std::optional<RestState> rest_in(const fs::path& output) {
   return read_record<RestState>(output / "rest.json");
 }
 
+/// The wall's code writes it anew when it writes next.
+void drop_damaged_rest(const fs::path& output) {
+  try {
+    rest_in(output);
+  } catch (const InputError& error) {
+    std::cerr << fmt::format("{}\nit is written anew\n", error.what());
+    fs::remove(output / "rest.json");
+  }
+}
+
 /// A direct run.
 void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
@@ -214,6 +225,7 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<
   if (plan.resume) {
     mark_output(plan.output, master.file.path());
     remove_what_was_made_of_runs(plan.output);
+    drop_damaged_rest(plan.output);
   }
   simulation.run();
   RunFacts facts{

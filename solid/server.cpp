@@ -115,7 +115,8 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
 }
 
 protocol::Ready SolidServer::operator()(const protocol::Write& m) {
-  if (m.step == 0) write_record(output_ / "rest.json", rest_);
+  if (m.step == 0 || !rest_is_written_) write_record(output_ / "rest.json", rest_);  // a run that goes on may lack it
+  rest_is_written_ = true;
   series_->write(*model_, *solver_, static_cast<int>(m.step), m.time);
   return {};
 }

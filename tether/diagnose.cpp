@@ -18,23 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One run of each refined case, if the case wants them. cost: theirs is added.
-std::vector<RefinedRun> refined_runs(const DiagnosedCase& given, const CommandLine& command, const fs::path& candidates,
-                                     DiagnosisCost& cost) {
-  std::vector<RefinedRun> all;
-  if (!given.diagnosis.numerics) return all;
-  for (RefinedCase& refined : write_refined(candidates, given)) {
-    LivingRuns runs(command, refined.file, candidates.parent_path());
-    FinishedMotion run = runs.make({{(refined.file.stem() / "runs/refined").string(), {}}}).front();
-    cost.runs += runs.cost().runs;
-    cost.runs_made += runs.cost().made;
-    cost.cpu_seconds += runs.cost().cpu_seconds;
-    if (!run.failed()) run = NodeMap(given.lumen, lumen_in(refined.file))(run);
-    all.push_back({std::move(refined), std::move(run)});
-  }
-  return all;
-}
-
 /// The case and its coarser one with all candidates, and what makes their runs.
 class CandidateModels {
  public:
@@ -48,10 +31,15 @@ class CandidateModels {
   /// others: of a model that has grown that of the model as it is.
   std::unique_ptr<ModelRuns> coarse_runs(const std::vector<PlacedEffect>& effects, int grown) const {
     const fs::path file = write_coarse(written(effects, grown), given_);
-    auto runs = std::make_unique<CoarseRuns>(std::make_unique<LivingRuns>(command_, file, output_), given_.lumen,
+    auto runs = std::make_unique<MappedRuns>(std::make_unique<LivingRuns>(command_, file, output_), given_.lumen,
                                              lumen_in(file), file.stem().string());
     if (grown > 0) runs->make({base_run()});
     return runs;
+  }
+  /// Of a finer model.
+  std::unique_ptr<ModelRuns> refined_runs(const RefinedCase& refined) const {
+    return std::make_unique<MappedRuns>(std::make_unique<LivingRuns>(command_, refined.file, output_), given_.lumen,
+                                        lumen_in(refined.file), refined.file.stem().string());
   }
   /// The case with these candidates: candidates.yaml, and with more of them candidates_2.yaml, ...
   fs::path written(const std::vector<PlacedEffect>& effects, int grown) const {
@@ -64,6 +52,33 @@ class CandidateModels {
   const DiagnosedCase& given_;
   const CommandLine& command_;
   fs::path output_;
+};
+
+/// One run of each refined case, if the case wants them. On a finer mesh more can be made, where no coarser one tells
+/// what the mesh changes.
+class RefinedModels {
+ public:
+  RefinedModels(const DiagnosedCase& given, const CandidateModels& models, const std::vector<PlacedEffect>& effects) {
+    if (!given.diagnosis.numerics) return;
+    const std::vector<RefinedCase> cases = write_refined(models.written(effects, 0), given);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      runs_.push_back(std::make_unique<GrowingRuns>(effects, [&given, &models, k](const auto& all, int grown) {
+        return models.refined_runs(write_refined(models.written(all, grown), given)[k]);
+      }));
+      FinishedMotion run = runs_.back()->make({base_run()}).front();
+      all_.push_back(
+          {cases[k], std::move(run), runs_.back().get(), cases[k].changes_mesh && !has_coarser_mesh(given.mesh)});
+      if (!all_.back().tells_effects) runs_.back()->rest();
+    }
+  }
+  void add(const std::vector<PlacedEffect>& more) {
+    for (const auto& runs : runs_) runs->add(more);
+  }
+  const std::vector<RefinedRun>& all() const { return all_; }
+
+ private:
+  std::vector<std::unique_ptr<GrowingRuns>> runs_;
+  std::vector<RefinedRun> all_;
 };
 
 /// Null where the case does not want a coarser model, or that does not come to its end.
@@ -101,19 +116,16 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
                     const DiagnosisSettings& settings, std::vector<std::string>& pictures) {
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   const CandidateModels models(given, command, output);
-  DiagnosisCost of_refined;
-  const std::vector<RefinedRun> refined = refined_runs(given, command, models.written(effects, 0), of_refined);
+  RefinedModels refined(given, models, effects);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
   runs.parameters();  // a case that is refused is refused before anything else runs
   std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
   const auto extend = [&](const std::vector<PlacedEffect>& more) {
     runs.add(more);
     if (coarse) coarse->add(more);
+    refined.add(more);
   };
-  DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined, extend}, settings);
-  report.cost.runs += of_refined.runs;
-  report.cost.runs_made += of_refined.runs_made;
-  report.cost.cpu_seconds += of_refined.cpu_seconds;
+  DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined.all(), extend}, settings);
   if (write_corrected(output / "corrected.yaml", given, report)) report.corrected = "corrected.yaml";
   if (write_suggested(output / "suggested.yaml", given, report)) report.suggested = "suggested.yaml";
   Diagnosis diagnosis = diagnosis_of(report);

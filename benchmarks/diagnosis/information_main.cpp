@@ -73,7 +73,7 @@ FinishedMotion base_of(const DiagnosedCase& given, const std::filesystem::path& 
 /// What each number does, on the coarser model.
 Sensitivities sensitivities_in(const DiagnosedCase& given, const std::filesystem::path& folder) {
   const auto file = write_coarse(folder / "candidates.yaml", given);
-  CoarseRuns coarse(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
+  MappedRuns coarse(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
                     file.stem().string());
   Sensitivities all = sensitivities_of(coarse, varied_numbers(coarse.parameters(), given.diagnosis, given.file));
   all.is_coarse = true;

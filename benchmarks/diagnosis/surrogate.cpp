@@ -29,7 +29,7 @@ CommandLine quiet() {
 std::unique_ptr<ModelRuns> runs_in(const std::filesystem::path& folder, const DiagnosedCase& given) {
   if (!exists(folder / "coarse.yaml")) return std::make_unique<LivingRuns>(quiet(), folder / "candidates.yaml", folder);
   const auto file = write_coarse(folder / "candidates.yaml", given);
-  return std::make_unique<CoarseRuns>(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
+  return std::make_unique<MappedRuns>(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
                                       file.stem().string());
 }
 

@@ -52,6 +52,13 @@ std::vector<AmplitudeCurve::Share> AmplitudeCurve::at(double size) const {
   return all;
 }
 
+std::vector<AmplitudeCurve::Share> AmplitudeCurve::from_coarse() const {
+  std::vector<Share> all{{&fine_.back(), 1}};
+  for (const Share& instead : along(coarse_, fine_.back().size))
+    all.push_back({instead.point, -instead.share / coarse_times_});
+  return all;
+}
+
 void AmplitudeCurve::settle(const MatrixXd& columns, const VectorXd& precision) {
   for (const Point& point : points_) (point.is_coarse ? coarse_ : fine_).push_back(point);
   note_saturation(coarse_.size() > 1 ? coarse_ : points_, columns, precision);
@@ -83,8 +90,8 @@ void AmplitudeCurve::scale_coarse(const MatrixXd& columns, const VectorXd& preci
     both += point.factor * columns.col(point.column).dot(precision.cwiseProduct(seen));
     own += seen.dot(precision.cwiseProduct(seen));
   }
-  for (Point& point : coarse_)
-    if (both > 0) point.factor *= both / own;
+  if (both > 0) coarse_times_ = both / own;
+  for (Point& point : coarse_) point.factor *= coarse_times_;
 }
 
 }  // namespace tether

@@ -39,6 +39,13 @@ class AmplitudeCurve {
   /// from that, between them, and as at the last beyond. Empty if no run was made.
   std::vector<Share> at(double size) const;
 
+  /// Whether both models were run.
+  bool differs_from_coarse() const { return !fine_.empty(); }
+  /// Of the largest run of the model itself.
+  double largest() const { return fine_.back().size; }
+  /// What that run showed less what the coarser model shows at its size, as it is.
+  std::vector<Share> from_coarse() const;
+
  private:
   using Points = std::vector<Point>;
 
@@ -49,6 +56,7 @@ class AmplitudeCurve {
 
   Points points_;
   Points coarse_, fine_;       ///< where both models were run
+  double coarse_times_ = 1;    ///< so many times what the coarser model shows is taken for what the effect does
   double half_at_ = infinite;  ///< s, at which the effect does half of what it ever does; infinite: in proportion
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/config/overlay.hpp"
+#include "diagnosis/evidence/numerics.hpp"
 
 namespace tether {
 namespace {
@@ -29,9 +30,7 @@ double longer_step(const TimeCase& time) {
 }  // namespace
 
 std::filesystem::path write_coarse(const std::filesystem::path& candidates, const DiagnosedCase& given) {
-  std::string name = candidates.stem().string();
-  name.replace(0, std::string("candidates").size(), "coarse");
-  const std::filesystem::path file = candidates.parent_path() / (name + ".yaml");
+  const std::filesystem::path file = candidates.parent_path() / (beside_candidates(candidates, "coarse") + ".yaml");
   const CommonCase& common = given.file.common();
   const double step = longer_step(common.time), end = common.time.start + duration(common.time);
   std::vector<Overlay::Value> values{{"time.step", number_text(step)}};
@@ -44,17 +43,32 @@ std::filesystem::path write_coarse(const std::filesystem::path& candidates, cons
   return file;
 }
 
-CoarseRuns::CoarseRuns(std::unique_ptr<ModelRuns> runs, const LumenSurface& lumen, const LumenSurface& other,
+/// Of the mesh the direction that is coarsened least; where none is, the step's.
+double coarser_by(const MeshCase& mesh) {
+  constexpr double of_step = 2;
+  if (mesh.source != "swept") return of_step;
+  const auto ratio = [](int elements, int least) { return static_cast<double>(elements) / halved(elements, least); };
+  const double around = ratio(mesh.swept.around, least_around), along = ratio(mesh.swept.along, least_along);
+  const double least = std::min(around, along), most = std::max(around, along);
+  return least > 1 ? least : most > 1 ? most : of_step;
+}
+
+bool has_coarser_mesh(const MeshCase& mesh) {
+  return mesh.source == "swept" && (halved(mesh.swept.around, least_around) < mesh.swept.around ||
+                                    halved(mesh.swept.along, least_along) < mesh.swept.along);
+}
+
+MappedRuns::MappedRuns(std::unique_ptr<ModelRuns> runs, const LumenSurface& lumen, const LumenSurface& other,
                        std::string folder)
     : runs_(std::move(runs)), to_nodes_(lumen, other), folder_(std::move(folder)) {}
 
-std::vector<FinishedMotion> CoarseRuns::make(const std::vector<WantedRun>& wanted) {
-  std::vector<WantedRun> coarse;
+std::vector<FinishedMotion> MappedRuns::make(const std::vector<WantedRun>& wanted) {
+  std::vector<WantedRun> elsewhere;
   for (const WantedRun& run : wanted) {
     const std::string name = run.folder.substr(run.folder.find('/') + 1);
-    coarse.push_back({folder_ + "/" + name, run.values});
+    elsewhere.push_back({folder_ + "/" + name, run.values});
   }
-  std::vector<FinishedMotion> motions = runs_->make(coarse);
+  std::vector<FinishedMotion> motions = runs_->make(elsewhere);
   for (FinishedMotion& motion : motions)
     if (!motion.failed()) motion = to_nodes_(motion);
   return motions;

@@ -12,11 +12,16 @@ namespace tether {
 /// beside it: what each number does to first order is much the same, at a fraction of the cost.
 std::filesystem::path write_coarse(const std::filesystem::path& candidates, const DiagnosedCase& given);
 
-/// Runs of a coarser model of the same vessel, as the nodes of the model's own lumen move in them.
-class CoarseRuns : public ModelRuns {
+/// How many times as coarse that model is.
+double coarser_by(const MeshCase& mesh);
+/// Whether its mesh is another one: not of a mesh that is as coarse as one may be, or that is read.
+bool has_coarser_mesh(const MeshCase& mesh);
+
+/// Runs of the same vessel on another mesh, as the nodes of the model's own lumen move in them.
+class MappedRuns : public ModelRuns {
  public:
-  /// runs: of the coarse model, whose lumen `other` is. The folders of the runs begin with `folder`.
-  CoarseRuns(std::unique_ptr<ModelRuns> runs, const LumenSurface& lumen, const LumenSurface& other, std::string folder);
+  /// runs: of the model whose lumen `other` is. The folders of the runs begin with `folder`.
+  MappedRuns(std::unique_ptr<ModelRuns> runs, const LumenSurface& lumen, const LumenSurface& other, std::string folder);
 
   const std::vector<protocol::ParameterInfo>& parameters() const override { return runs_->parameters(); }
   std::vector<std::string> columns() const override { return runs_->columns(); }

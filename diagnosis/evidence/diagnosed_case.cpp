@@ -1,6 +1,7 @@
 #include "diagnosis/evidence/diagnosed_case.hpp"
 
 #include "common/base/error.hpp"
+#include "diagnosis/evidence/coarse_runs.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
 #include "diagnosis/evidence/numerics.hpp"
 #include "diagnosis/evidence/patterns.hpp"
@@ -43,6 +44,7 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, c
   for (const FinishedMotion& motion : sensitivities.motions) all.push_back(&motion);
   const MatrixXd residuals = evidence.residuals(all);
   add_model_changes(problem, {sensitivities.varied, residuals, sensitivities.is_coarse}, effects, given.diagnosis);
+  problem.left_by_refinement = left_by_refinement(coarser_by(given.mesh));
   if (sensitivities.is_coarse) allow_numerics(problem, residuals.col(0));
   add_data_errors(problem, evidence, base, allowed, units);
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);

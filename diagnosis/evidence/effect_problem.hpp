@@ -93,6 +93,7 @@ struct EffectProblem {
   std::vector<Candidate> candidates;
   MatrixXd allowed;                        ///< N [n x k]
   VectorXd allowed_deviation;              ///< [k]
+  double left_by_refinement = 0;           ///< of what a coarser model differs by, what is wrong still (D.8)
   std::vector<std::string> allowed_names;  ///< of those that a person may look after, else empty [k]
   std::vector<AllowedRun> allowed_runs;
   MatrixXd patterns;                           ///< [n x g]

@@ -13,10 +13,14 @@ GrowingRuns::GrowingRuns(std::vector<PlacedEffect> effects, Make make)
     : effects_(std::move(effects)), make_(std::move(make)) {}
 
 void GrowingRuns::add(const std::vector<PlacedEffect>& more) {
-  before_ = cost();
-  now_.reset();
+  rest();
   ++grown_;
   effects_.insert(effects_.end(), more.begin(), more.end());
+}
+
+void GrowingRuns::rest() {
+  before_ = cost();
+  now_.reset();
 }
 
 RunsCost GrowingRuns::cost() const {

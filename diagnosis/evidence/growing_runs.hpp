@@ -17,6 +17,8 @@ class GrowingRuns : public ModelRuns {
   GrowingRuns(std::vector<PlacedEffect> effects, Make make);
 
   void add(const std::vector<PlacedEffect>& more);
+  /// What makes them ends until more are wanted.
+  void rest();
 
   const std::vector<protocol::ParameterInfo>& parameters() const override { return now().parameters(); }
   std::vector<std::string> columns() const override { return now().columns(); }

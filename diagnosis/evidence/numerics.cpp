@@ -1,5 +1,7 @@
 #include "diagnosis/evidence/numerics.hpp"
 
+#include <cmath>
+
 #include "common/config/overlay.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
 
@@ -8,19 +10,22 @@ namespace {
 
 /// Refined once more and again: the sum of the steps to the limit, of the first; at least first order.
 constexpr double limit = 2;
-/// Of what half as fine a model differs by, the deviation of what is wrong still: between a third and all.
-constexpr double left_by_refinement = 0.6;
 
 RefinedCase write(const std::filesystem::path& candidates, const DiagnosedCase& given, const std::string& name,
                   const std::string& meaning, std::vector<Overlay::Value> values) {
   const std::string suffix = "_" + name;
-  const std::filesystem::path file = candidates.parent_path() / ("refined" + suffix + ".yaml");
+  const std::filesystem::path file =
+      candidates.parent_path() / (beside_candidates(candidates, "refined") + suffix + ".yaml");
   const CommonCase& common = given.file.common();
   write_overlay(file, {candidates, common.name + suffix, common.title + ", refined", values});
   return {name, meaning, file};
 }
 
 }  // namespace
+
+std::string beside_candidates(const std::filesystem::path& candidates, const std::string& kind) {
+  return kind + candidates.stem().string().substr(std::string("candidates").size());
+}
 
 std::vector<RefinedCase> write_refined(const std::filesystem::path& candidates, const DiagnosedCase& given) {
   std::vector<RefinedCase> all{write(candidates, given, "long_step",
@@ -31,6 +36,7 @@ std::vector<RefinedCase> write_refined(const std::filesystem::path& candidates, 
                         "share of what twice the elements around and along change: their limit is at most 2",
                         {{"mesh.swept.around", std::to_string(2 * given.mesh.swept.around)},
                          {"mesh.swept.along", std::to_string(2 * given.mesh.swept.along)}}));
+  if (all.size() > 1) all.back().changes_mesh = true;
   return all;
 }
 
@@ -50,9 +56,18 @@ void add_numerics(EffectProblem& problem, const RefinedCase& refined, const Vect
   append_columns(problem.changes, change);
 }
 
+double left_by_refinement(double ratio) {
+  return 1 / std::sqrt((ratio - 1) * (ratio * ratio - 1));
+}
+
+double wrong_before_refinement(double ratio) {
+  return std::pow(ratio, 1.5) * left_by_refinement(ratio);
+}
+
 void allow_numerics(EffectProblem& problem, const VectorXd& coarse) {
   const VectorXd difference = problem.residual - coarse;
-  if (difference.allFinite()) allow(problem, difference, left_by_refinement, "error of the model's step and mesh");
+  if (difference.allFinite())
+    allow(problem, difference, problem.left_by_refinement, "error of the model's step and mesh");
 }
 
 }  // namespace tether

@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "common/base/error.hpp"
+#include "diagnosis/evidence/data_errors.hpp"
+#include "diagnosis/evidence/numerics.hpp"
+#include "diagnosis/evidence/set_integrand.hpp"
 
 namespace tether {
 namespace {
@@ -36,11 +39,6 @@ double normal_density(double size, double deviation) {
   return std::exp(-0.5 * std::pow(size / deviation, 2)) / (std::sqrt(2 * std::numbers::pi) * deviation);
 }
 
-double log_sum(const VectorXd& logs) {
-  const double most = logs.maxCoeff();
-  return std::isfinite(most) ? most + std::log((logs.array() - most).exp().sum()) : most;
-}
-
 /// I + D G D = L L': what errors of deviations D along some of the columns leave of the others.
 struct Taken {
   MatrixXd gram;
@@ -51,6 +49,10 @@ Taken take_out(const MatrixXd& gram, const MatrixXd& among, const MatrixXd& acro
   const Eigen::LLT<MatrixXd> factor(one + deviations.asDiagonal() * among * deviations.asDiagonal());
   const MatrixXd along = factor.matrixL().solve(deviations.asDiagonal() * across);
   return {gram - along.transpose() * along, factor.matrixLLT().diagonal().array().log().sum()};
+}
+
+bool shows_alone(const ShownRun& run, Index amplitude) {
+  return run.amplitudes(amplitude) != 0 && (run.amplitudes.array() != 0).count() == 1 && run.residual.allFinite();
 }
 
 std::vector<DiscrepancySize> sizes_of(bool may_differ) {
@@ -76,10 +78,7 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
       discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)),
       curves_(problem.candidates.size()) {
   MatrixXd columns = problem.changes(rows, Eigen::all);
-  const auto append = [&](const VectorXd& column) {
-    columns.conservativeResize(columns.rows(), columns.cols() + 1);
-    columns.rightCols(1) = column(rows);
-  };
+  const auto append = [&](const VectorXd& column) { append_columns(columns, column(rows)); };
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (!is_scalar(c)) continue;
     const Index own = problem.candidates[c].amplitudes.front();
@@ -88,11 +87,14 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     if (const Amplitude& amplitude = amplitude_of({c}); amplitude.step != 0)
       add({amplitude.step, own, amplitude.step, amplitude.is_coarse});
     for (const ShownRun& run : runs)
-      if (run.amplitudes(own) != 0 && (run.amplitudes.array() != 0).count() == 1 && run.residual.allFinite()) {
-        add({run.amplitudes(own), columns.cols(), 1, run.is_coarse});
+      if (run.of != RunOf::finer && shows_alone(run, own)) {
+        add({run.amplitudes(own), columns.cols(), 1, run.of == RunOf::coarser});
         append(problem.residual - run.residual);
       }
     for (AmplitudeCurve& side : curves_[c]) side.settle(columns, problem.precision(rows));
+    std::optional<ShownNumerics> numerics = add_refined(c, runs, rows, columns);
+    if (!numerics) numerics = add_coarse(c, columns);
+    if (numerics) numerics_.push_back(std::move(*numerics));
   }
   append(problem.residual);
 
@@ -117,6 +119,69 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     deviations.tail(patterns) = assumed.discrepancy * discrepancy.size * problem.pattern_deviation;
     Taken taken = take_out(gram, among, across, deviations);
     products_.push_back({std::move(taken.gram), taken.log_norm});
+  }
+  settle_numerics();
+}
+
+/// By a run of the finer model and one of the model itself, of the same size.
+std::optional<SetEvidence::ShownNumerics> SetEvidence::add_refined(std::size_t candidate,
+                                                                   const std::vector<ShownRun>& runs,
+                                                                   const std::vector<Index>& rows,
+                                                                   MatrixXd& columns) const {
+  constexpr double finer_by = 2, same = 1 + 1e-6;
+  const Index own = problem_.candidates[candidate].amplitudes.front();
+  for (const ShownRun& finer : runs) {
+    if (finer.of != RunOf::finer || !shows_alone(finer, own)) continue;
+    const double size = finer.amplitudes(own);
+    for (const AmplitudeCurve& side : curves_[candidate])
+      for (const AmplitudeCurve::Point& point : side.points()) {
+        if (point.is_coarse || !(point.size / size > 1 / same) || !(point.size / size < same)) continue;
+        const VectorXd changes = (problem_.residual - finer.residual)(rows);
+        append_columns(columns,
+                       wrong_before_refinement(finer_by) * (changes - point.factor * columns.col(point.column)));
+        return ShownNumerics{candidate, size, columns.cols() - 1};
+      }
+  }
+  return std::nullopt;
+}
+
+std::optional<SetEvidence::ShownNumerics> SetEvidence::add_coarse(std::size_t candidate, MatrixXd& columns) const {
+  for (const AmplitudeCurve& side : curves_[candidate]) {
+    if (!side.differs_from_coarse()) continue;
+    VectorXd difference = VectorXd::Zero(columns.rows());
+    for (const AmplitudeCurve::Share& part : side.from_coarse())
+      difference += part.share * part.point->factor * columns.col(part.point->column);
+    append_columns(columns, problem_.left_by_refinement * difference);
+    return ShownNumerics{candidate, side.largest(), columns.cols() - 1};
+  }
+  return std::nullopt;
+}
+
+/// Null of what does not err.
+const SetEvidence::ShownNumerics* SetEvidence::numerics_of(std::size_t candidate) const {
+  if (errs_as_.empty() || errs_as_[candidate] < 0) return nullptr;
+  return &numerics_[static_cast<std::size_t>(errs_as_[candidate])];
+}
+
+/// Each candidate errs as that does that was run with both models and moves the data most alike.
+void SetEvidence::settle_numerics() {
+  const MatrixXd& gram = products_.front().gram;
+  for (ShownNumerics& one : numerics_) {
+    const std::vector<Index> columns = columns_of({one.candidate});
+    const VectorXd mix = mix_at({one.candidate}, one.size, columns);
+    one.seen = gram(Eigen::all, columns) * mix;
+    one.square = mix.dot(one.seen(columns));
+  }
+  std::erase_if(numerics_, [](const ShownNumerics& one) { return !(one.square > 0); });
+  errs_as_.assign(problem_.candidates.size(), -1);
+  for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
+    double most = -1;
+    if (!is_scalar(c) || !problem_.candidates[c].takes_runs()) continue;
+    for (std::size_t k = 0; k < numerics_.size(); ++k) {
+      const std::size_t other = numerics_[k].candidate;
+      const double alike = other == c ? 2 : std::pow(cosine(c, other), 2);
+      if (alike > most) most = alike, errs_as_[c] = static_cast<int>(k);
+    }
   }
 }
 
@@ -143,6 +208,8 @@ std::vector<Index> SetEvidence::columns_of(const Members& members) const {
       for (const AmplitudeCurve::Point& point : side.points())
         if (point.column != own.front()) columns.push_back(point.column);
   }
+  for (const std::size_t c : members)
+    if (const ShownNumerics* numerics = numerics_of(c)) columns.push_back(numerics->column);
   columns.push_back(products_.front().gram.cols() - 1);
   return columns;
 }
@@ -167,7 +234,8 @@ SetEvidence::Grid SetEvidence::grid_of(const Summand& summand, const std::vector
                                        const VectorXd& places) const {
   const Amplitude& amplitude = amplitude_of(summand);
   const double assumed = scale_of(amplitude), scale = assumed / assumed_.sizes, between = places(1) - places(0);
-  Grid grid{VectorXd(places.size()), VectorXd(places.size()), MatrixXd(places.size(), columns.size())};
+  const Index count = places.size();
+  Grid grid{VectorXd(count), VectorXd(count), MatrixXd(count, columns.size()), MatrixXd::Zero(count, columns.size())};
   for (Index g = 0; g < places.size(); ++g) {
     const double size = scale * seen_from * std::sinh(places(g)), way = scale * seen_from * std::cosh(places(g));
     const bool admissible = size != 0 && std::abs(amplitude.limited(size) - size) <= 1e-9 * std::abs(size);
@@ -177,6 +245,11 @@ SetEvidence::Grid SetEvidence::grid_of(const Summand& summand, const std::vector
     grid.sizes(g) = size;
     grid.log_weight(g) = admissible ? std::log(density * way * between) : -infinite;
     grid.mix.row(g) = mix_at(summand, admissible ? size : scale, columns);
+  }
+  if (const ShownNumerics* numerics = numerics_of(summand.candidate)) {
+    const auto column = std::find(columns.begin(), columns.end(), numerics->column) - columns.begin();
+    grid.error.col(column) = grid.mix * numerics->seen(columns) / numerics->square;
+    grid.errs = true;
   }
   return grid;
 }
@@ -203,47 +276,31 @@ VectorXd where_it_counts(const VectorXd& places, const VectorXd& logs) {
   return VectorXd::LinSpaced(across, places(first) - between, places(last) + between);
 }
 
-/// Of up to three amplitudes: the logarithm of the integrand summed over all, and over all others for each.
-struct Summed {
-  double all;
-  std::vector<VectorXd> each;
-};
-
-Summed summed(const std::vector<VectorXd>& alone, const std::vector<std::vector<MatrixXd>>& together) {
-  const std::size_t n = alone.size();
-  if (n == 1) return {log_sum(alone[0]), {alone[0]}};
-  const MatrixXd pair = (-together[0][1]).colwise() + alone[0];
-  if (n == 2) {
-    const MatrixXd both = pair.rowwise() + alone[1].transpose();
-    const double most = both.maxCoeff();
-    if (!std::isfinite(most)) return {most, {alone[0], alone[1]}};
-    const MatrixXd weights = (both.array() - most).exp();
-    const VectorXd first = weights.rowwise().sum().array().log() + most,
-                   second = weights.colwise().sum().transpose().array().log() + most;
-    return {most + std::log(weights.sum()), {first, second}};
-  }
-  VectorXd first = VectorXd::Constant(alone[0].size(), -infinite);
-  MatrixXd rest(alone[1].size(), alone[2].size());
-  double most = -infinite;
-  std::vector<MatrixXd> slices;
-  for (Index i = 0; i < alone[0].size(); ++i) {
-    rest = (-together[1][2]).colwise() + (alone[1] - together[0][1].row(i).transpose());
-    rest.rowwise() += (alone[2] - together[0][2].row(i).transpose()).transpose();
-    rest.array() += alone[0](i);
-    most = std::max(most, rest.maxCoeff());
-    slices.push_back(rest);
-  }
-  VectorXd second = VectorXd::Zero(alone[1].size()), third = VectorXd::Zero(alone[2].size());
-  for (Index i = 0; i < alone[0].size(); ++i) {
-    const MatrixXd weights = (slices[static_cast<std::size_t>(i)].array() - most).exp();
-    first(i) = most + std::log(weights.sum());
-    second += weights.rowwise().sum();
-    third += weights.colwise().sum().transpose();
-  }
-  return {log_sum(first), {first, (second.array().log() + most).matrix(), (third.array().log() + most).matrix()}};
-}
-
 }  // namespace
+
+SetIntegrand SetEvidence::integrand_of(const std::vector<Grid>& grids, const MatrixXd& gram) {
+  const std::size_t n = grids.size();
+  const Index r = gram.cols() - 1;
+  const auto sums = [](const MatrixXd& a, const MatrixXd& b) -> VectorXd { return a.cwiseProduct(b).rowwise().sum(); };
+  const auto none = std::vector<std::vector<MatrixXd>>(n, std::vector<MatrixXd>(n));
+  SetIntegrand all{{{}, none}, {{}, none}, {{}, none}};
+  const bool errs = std::any_of(grids.begin(), grids.end(), [](const Grid& grid) { return grid.errs; });
+  for (std::size_t i = 0; i < n; ++i) {
+    const Grid& grid = grids[i];
+    const MatrixXd seen = grid.mix * gram;
+    all.density.alone.push_back(grid.log_weight + seen.col(r) - 0.5 * sums(seen, grid.mix));
+    for (std::size_t j = 0; j < i; ++j) all.density.pairs[j][i] = -grids[j].mix * seen.transpose();
+    if (!errs) continue;
+    const MatrixXd seen_error = grid.error * gram;
+    all.along.alone.push_back(seen_error.col(r) - sums(seen_error, grid.mix));
+    all.size.alone.push_back(sums(seen_error, grid.error));
+    for (std::size_t j = 0; j < i; ++j) {
+      all.along.pairs[j][i] = -grids[j].error * seen.transpose() - grids[j].mix * seen_error.transpose();
+      all.size.pairs[j][i] = 2 * grids[j].error * seen_error.transpose();
+    }
+  }
+  return all;
+}
 
 /// Of those of one amplitude, in their order.
 SetFit SetEvidence::over_scalars(const Summands& scalars, const Products& products,
@@ -256,16 +313,9 @@ SetFit SetEvidence::over_scalars(const Summands& scalars, const Products& produc
   for (const Summand& s : scalars) places.push_back(all_places(amplitude_of(s), scalars.size() > 2));
   Summed found;
   for (int round = 0; round < most_rounds; ++round) {
-    std::vector<VectorXd> alone;
     std::vector<Grid> grids;
-    std::vector<std::vector<MatrixXd>> together(scalars.size(), std::vector<MatrixXd>(scalars.size()));
-    for (std::size_t i = 0; i < scalars.size(); ++i) {
-      grids.push_back(grid_of(scalars[i], columns, places[i]));
-      const MatrixXd &mix = grids[i].mix, seen = mix * products.gram;
-      alone.push_back(grids[i].log_weight + seen.col(r) - 0.5 * (seen.array() * mix.array()).rowwise().sum().matrix());
-      for (std::size_t j = 0; j < i; ++j) together[j][i] = grids[j].mix * seen.transpose();
-    }
-    found = summed(alone, together);
+    for (std::size_t i = 0; i < scalars.size(); ++i) grids.push_back(grid_of(scalars[i], columns, places[i]));
+    found = summed(integrand_of(grids, products.gram));
     if (!std::isfinite(found.all)) break;
     const bool is_last = round > 0 && std::all_of(found.each.begin(), found.each.end(), is_resolved);
     for (std::size_t i = 0; i < scalars.size(); ++i) {
@@ -376,6 +426,16 @@ double SetEvidence::beyond_runs(std::size_t candidate, double amplitude, bool co
       if (point.size * amplitude > 0 && (coarse || !point.is_coarse))
         least = std::min(least, std::exp(std::abs(std::log(amplitude / point.size))));
   return least;
+}
+
+std::optional<double> SetEvidence::closest_run(std::size_t candidate, double amplitude) const {
+  std::optional<double> closest;
+  const auto apart = [&](double size) { return std::abs(std::log(amplitude / size)); };
+  for (const AmplitudeCurve& side : curves_[candidate])
+    for (const AmplitudeCurve::Point& point : side.points())
+      if (!point.is_coarse && point.size / amplitude > 0 && (!closest || apart(point.size) < apart(*closest)))
+        closest = point.size;
+  return closest;
 }
 
 bool SetEvidence::is_beyond_all(std::size_t candidate, double amplitude) const {

@@ -1,14 +1,22 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "diagnosis/evidence/amplitude_curve.hpp"
 #include "diagnosis/evidence/effect_problem.hpp"
+#include "diagnosis/evidence/set_integrand.hpp"
 
 namespace tether {
 
-/// What a run showed: amplitudes of all candidates [q] and the residual with them [n].
+/// Which model a run is of: that of the case, or one of coarser or finer mesh and step.
+enum class RunOf { model, coarser, finer };
+
+/// What a run showed: amplitudes of all candidates [q] and the residual with them [n]; of another than the model itself
+/// less what that model differs by as it is.
 struct ShownRun {
   VectorXd amplitudes, residual;
-  bool is_coarse = false;  ///< of a coarser model
+  RunOf of = RunOf::model;
 };
 
 /// How large what the model itself cannot do is, over what it is allowed, and how probable that is beforehand.
@@ -71,6 +79,8 @@ class SetEvidence {
   /// How far that is from the closest of its runs, as a factor; infinite if none was made. coarse: whether those of a
   /// coarser model count.
   double beyond_runs(std::size_t candidate, double amplitude, bool coarse) const;
+  /// Of its runs of the model itself that size which is closest; none if there is none on that side.
+  std::optional<double> closest_run(std::size_t candidate, double amplitude) const;
   /// Whether no run of it was as large, on that side.
   bool is_beyond_all(std::size_t candidate, double amplitude) const;
   /// Of what two candidates do to first order.
@@ -80,6 +90,17 @@ class SetEvidence {
   struct Grid {
     VectorXd sizes, log_weight;  ///< [g]
     MatrixXd mix;                ///< of the set's columns [g x c]
+    MatrixXd error;              ///< the same of what mesh and step may be wrong by: one deviation [g x c]
+    bool errs = false;           ///< whether that is anything
+  };
+  /// What a candidate does in the model itself less what it does in a coarser or finer one, times what that tells of
+  /// the model's own error (D.8).
+  struct ShownNumerics {
+    std::size_t candidate;
+    double size;
+    Eigen::Index column;  ///< of that
+    VectorXd seen = {};   ///< products of all columns with what the candidate does at that size
+    double square = 0;    ///< of what it does
   };
   /// Products of a set's columns, the residual last, in M; what is known of their errors grows by `augment`.
   struct Products {
@@ -106,6 +127,13 @@ class SetEvidence {
   SetFit over_scalars(const Summands& scalars, const Products& products,
                       const std::vector<Eigen::Index>& columns) const;
 
+  static SetIntegrand integrand_of(const std::vector<Grid>& grids, const MatrixXd& gram);
+  std::optional<ShownNumerics> add_refined(std::size_t candidate, const std::vector<ShownRun>& runs,
+                                           const std::vector<Eigen::Index>& rows, MatrixXd& columns) const;
+  std::optional<ShownNumerics> add_coarse(std::size_t candidate, MatrixXd& columns) const;
+  void settle_numerics();
+  const ShownNumerics* numerics_of(std::size_t candidate) const;
+
   double scale_of(const Amplitude& amplitude) const;
 
   const EffectProblem& problem_;
@@ -113,6 +141,8 @@ class SetEvidence {
   std::vector<DiscrepancySize> discrepancies_;
   std::vector<Products> products_;                   ///< of all columns, for each discrepancy
   std::vector<std::vector<AmplitudeCurve>> curves_;  ///< of each candidate, upward and downward
+  std::vector<ShownNumerics> numerics_;
+  std::vector<int> errs_as_;  ///< each candidate as one of these; -1: not at all
 };
 
 }  // namespace tether

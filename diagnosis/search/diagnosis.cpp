@@ -1,5 +1,7 @@
 #include "diagnosis/search/diagnosis.hpp"
 
+#include <optional>
+
 #include "common/base/error.hpp"
 #include "diagnosis/evidence/noise_factors.hpp"
 #include "diagnosis/noise/noise_of_evidence.hpp"
@@ -19,9 +21,10 @@ SearchSettings search_settings(const DiagnosisCase& d, const DiagnosisSettings& 
 }
 
 void add_refined(EffectProblem& problem, const Evidence& evidence, const std::vector<RefinedRun>& refined) {
-  for (const auto& [of, motion] : refined)
-    if (!motion.failed())
-      add_numerics(problem, of, problem.residual - residuals_of(evidence, {motion}, problem.residual).col(0));
+  for (const RefinedRun& one : refined)
+    if (!one.motion.failed())
+      add_numerics(problem, one.refined,
+                   problem.residual - residuals_of(evidence, {one.motion}, problem.residual).col(0));
 }
 
 /// The same runs of a problem that has more amplitudes.
@@ -169,7 +172,9 @@ FinishedMotion base_of(ModelRuns& runs) {
 
 DiagnosisCost cost_of(const DiagnosedModel& model, const Sensitivities& sensitivities) {
   DiagnosisCost cost;
-  for (const ModelRuns* runs : {&model.runs, model.coarse}) {
+  std::vector<const ModelRuns*> all{&model.runs, model.coarse};
+  for (const RefinedRun& refined : model.refined) all.push_back(refined.runs);
+  for (const ModelRuns* runs : all) {
     if (runs == nullptr) continue;
     cost.runs += runs->cost().runs;
     cost.runs_made += runs->cost().made;
@@ -206,7 +211,14 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   const SearchSettings how = search_settings(given.diagnosis, settings);
   const ResidualAt residual_at = [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); };
   const ResidualAt first_at = [&](const MatrixXd& amplitudes) { return first_trials.residual_at(amplitudes); };
-  const ShowingRuns exploring{sensitivities.is_coarse ? first_at : residual_at, sensitivities.is_coarse};
+  const ShowingRuns exploring{sensitivities.is_coarse ? first_at : residual_at,
+                              sensitivities.is_coarse ? RunOf::coarser : RunOf::model};
+  std::optional<Trials> finer_trials;
+  for (const RefinedRun& refined : model.refined)
+    if (refined.tells_effects && !refined.motion.failed())
+      finer_trials.emplace(report.problem, evidence, whitening, refined.motion, *refined.runs);
+  ResidualAt finer_at;
+  if (finer_trials) finer_at = [&](const MatrixXd& amplitudes) { return finer_trials->residual_at(amplitudes); };
   Weighing weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring);
   const auto explore = [&](const std::vector<VariedNumber>& more) {
     std::vector<FinishedMotion> motions{sensitivities.motions.front()};
@@ -226,7 +238,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
   const MisfitMap map = misfit_map(report.problem, given, evidence, whitening);
   PatchSearch patches(effects, given.lumen, given.file.units().symbol(dimension::length));
   const auto tell = [&] {
-    weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown));
+    weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown), finer_at);
   };
   tell();
   std::vector<Ball> starts;

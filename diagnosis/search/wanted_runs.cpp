@@ -58,11 +58,30 @@ class Wanted {
   /// run at another size, or of a coarser model, may be wrong by. At the end all that do very much the same, so that
   /// their moments can be compared, unless runs have shown that they explain less than half of it.
   void add_alternatives() {
-    constexpr double probable = 0.05;
-    for (const EffectSet& set : posterior_.sets) {
-      if (set.probability + set.with_more < probable) break;
-      const double best = evidence_.fit(set.members, 0).log_evidence;
-      for (const std::size_t member : set.members) add_alternatives(set, member, best);
+    for (const EffectSet& set : probable_sets())
+      for (const std::size_t member : set.members)
+        for (const Alternative& other : alternatives(set, member)) {
+          const bool is_compared = !exploring_ && other.alike > much_alike && set.all() > leads && other.explains_half;
+          if ((is_compared || other.may_be_it) && can_be_run(other.candidate, other.size) &&
+              is_far_from_runs(other.candidate, other.size))
+            wanted_.emplace(other.candidate, other.size);
+        }
+  }
+
+  /// On a finer mesh: of probable sets the members and what may be in place of one, and the most probable that explains
+  /// the data by itself; each at the size of the closest run of the model itself.
+  void add_refined(const std::vector<ShownRun>& shown) {
+    const auto alone = std::find_if(posterior_.sets.begin(), posterior_.sets.end(),
+                                    [](const EffectSet& set) { return set.members.size() == 1; });
+    std::vector<EffectSet> sets = probable_sets();
+    if (alone != posterior_.sets.end()) sets.push_back(*alone);
+    for (const EffectSet& set : sets) {
+      const SetFit fit = evidence_.fit(set.members, 0);
+      for (std::size_t k = 0; k < set.members.size(); ++k) {
+        refine(set.members[k], fit.amplitudes[k], shown);
+        for (const Alternative& other : alternatives(set, set.members[k]))
+          if (other.may_be_it) refine(other.candidate, other.size, shown);
+      }
     }
   }
 
@@ -75,21 +94,47 @@ class Wanted {
   }
 
  private:
-  void add_alternatives(const EffectSet& set, std::size_t member, double best) {
-    std::vector<std::size_t> rest = set.members;
-    std::erase(rest, member);
-    const double without = evidence_.fit(rest, 0).log_evidence;
-    rest.push_back(0);
+  /// What may stand in place of a member of a set: it does much the same.
+  struct Alternative {
+    std::size_t candidate;
+    double size, alike;             ///< squared cosine
+    bool explains_half, may_be_it;  ///< of what the member explains; even if a run at its size is off
+  };
+
+  std::vector<EffectSet> probable_sets() const {
+    constexpr double probable = 0.05;
+    std::vector<EffectSet> sets;
+    for (const EffectSet& set : posterior_.sets)
+      if (set.probability + set.with_more >= probable) sets.push_back(set);
+    return sets;
+  }
+
+  std::vector<Alternative> alternatives(const EffectSet& set, std::size_t member) const {
+    const double best = evidence_.fit(set.members, 0).log_evidence;
+    std::vector<std::size_t> with = set.members;
+    std::erase(with, member);
+    const double without = evidence_.fit(with, 0).log_evidence;
+    with.push_back(0);
+    std::vector<Alternative> all;
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
       const double alike = std::pow(evidence_.cosine(c, member), 2);
       if (alike <= 0.5 || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
-      rest.back() = c;
-      const SetFit fit = evidence_.fit(rest, 0);
-      const double size = fit.amplitudes.back(), gain = fit.log_evidence - without, hope = gain + wrong * gain;
-      const bool is_compared = !exploring_ && alike > much_alike && set.all() > leads && gain > (best - without) / 2;
-      const bool may_be_it = is_compared || hope > best - without - matters_still;
-      if (may_be_it && can_be_run(c, size) && is_far_from_runs(c, size)) wanted_.emplace(c, size);
+      with.back() = c;
+      const SetFit fit = evidence_.fit(with, 0);
+      const double gain = fit.log_evidence - without, hope = gain + wrong * gain;
+      all.push_back(
+          {c, fit.amplitudes.back(), alike, gain > (best - without) / 2, hope > best - without - matters_still});
     }
+    return all;
+  }
+
+  void refine(std::size_t c, double size, const std::vector<ShownRun>& shown) {
+    if (!can_be_run(c, size)) return;
+    const Eigen::Index own = problem_.candidates[c].amplitudes.front();
+    const bool is_there = std::any_of(shown.begin(), shown.end(), [&](const ShownRun& run) {
+      return run.of == RunOf::finer && run.amplitudes(own) != 0;
+    });
+    if (const auto closest = evidence_.closest_run(c, size); closest && !is_there) wanted_.emplace(c, *closest);
   }
 
   bool is_far_from_runs(std::size_t c, double size) const {
@@ -124,6 +169,13 @@ class Wanted {
 };
 
 }  // namespace
+
+MatrixXd wanted_refined(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
+                        const std::vector<ShownRun>& shown) {
+  Wanted wanted(problem, evidence, posterior, RunsFor::telling);
+  wanted.add_refined(shown);
+  return wanted.runs();
+}
 
 MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
                      RunsFor purpose) {

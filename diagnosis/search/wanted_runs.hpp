@@ -15,4 +15,10 @@ enum class RunsFor {
 MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
                      RunsFor purpose);
 
+/// Runs of a finer model that are wanted of what leads: of members of probable sets and of what may stand in place of
+/// one, and of the most probable that explains the data by itself, at the size of the closest run of the model itself
+/// [q x m]; each once. shown: runs that were made.
+MatrixXd wanted_refined(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
+                        const std::vector<ShownRun>& shown);
+
 }  // namespace tether

@@ -11,6 +11,11 @@ using Index = Eigen::Index;
 
 constexpr int rounds = 5;  ///< of runs, before what they tell is taken as it is
 
+void add_shown(std::vector<ShownRun>& shown, const MatrixXd& wanted, const ShowingRuns& runs) {
+  const MatrixXd residuals = runs.residual_at(wanted);
+  for (Index k = 0; k < wanted.cols(); ++k) shown.push_back({wanted.col(k), residuals.col(k), runs.of});
+}
+
 }  // namespace
 
 std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings& settings) {
@@ -24,13 +29,19 @@ std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings&
 }
 
 Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
-                       RunsFor purpose, std::vector<ShownRun> shown) {
+                       RunsFor purpose, std::vector<ShownRun> shown, const ResidualAt& finer) {
   const std::vector<bool> left_out = refused_in(problem, settings);
   for (int round = 0; true; ++round) {
     const SetEvidence evidence(problem, shown);
     const Posterior posterior = posterior_of(problem, evidence, left_out);
     const MatrixXd wanted = wanted_runs(problem, evidence, posterior, purpose);
-    if (wanted.cols() == 0 || round == rounds) {
+    const bool is_settled = wanted.cols() == 0 || round >= rounds;
+    const MatrixXd refined = is_settled && finer ? wanted_refined(problem, evidence, posterior, shown) : MatrixXd();
+    if (refined.cols() > 0) {
+      add_shown(shown, refined, {finer, RunOf::finer});
+    } else if (!is_settled) {
+      add_shown(shown, wanted, runs);
+    } else {
       Weighing weighing{weighed(problem, evidence, posterior), std::move(shown)};
       if (purpose == RunsFor::telling) {
         weigh_otherwise(weighing.weighed, problem, weighing.shown, posterior);
@@ -39,8 +50,6 @@ Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& setti
       }
       return weighing;
     }
-    const MatrixXd residuals = runs.residual_at(wanted);
-    for (Index k = 0; k < wanted.cols(); ++k) shown.push_back({wanted.col(k), residuals.col(k), runs.is_coarse});
   }
 }
 

@@ -29,11 +29,12 @@ struct Weighing {
 /// What shows what amplitudes do.
 struct ShowingRuns {
   const ResidualAt& residual_at;
-  bool is_coarse = false;  ///< they are of a coarser model
+  RunOf of = RunOf::model;
 };
-/// Weighs; what matters and was not run at its size is run and weighed again. shown: runs that were made before.
+/// Weighs; what matters and was not run at its size is run and weighed again. shown: runs that were made before. finer:
+/// runs of a finer model, if there is one, for what the numerics change in what leads.
 Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
-                       RunsFor purpose, std::vector<ShownRun> shown = {});
+                       RunsFor purpose, std::vector<ShownRun> shown = {}, const ResidualAt& finer = {});
 /// Explored and told with the same runs.
 Weighing weighed_fully(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at);
 

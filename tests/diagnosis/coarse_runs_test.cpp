@@ -44,5 +44,26 @@ TEST_F(CoarseCase, EndsWhereTheModelsLastStepDoes) {
   EXPECT_LE(values.at("time.step"), 8e-3);
 }
 
+/// The direction that is coarsened least counts; where none is, the step's.
+TEST(CoarseMesh, IsCoarserByWhatItsLeastDirectionIs) {
+  const auto mesh = [](int around, int along) {
+    MeshCase made;
+    made.source = "swept";
+    made.swept.around = around;
+    made.swept.along = along;
+    return made;
+  };
+  EXPECT_DOUBLE_EQ(coarser_by(mesh(32, 20)), 2);
+  EXPECT_DOUBLE_EQ(coarser_by(mesh(16, 12)), 16.0 / 12);
+  EXPECT_DOUBLE_EQ(coarser_by(mesh(12, 16)), 2) << "around there are as few as may be";
+  EXPECT_DOUBLE_EQ(coarser_by(mesh(12, 8)), 2) << "the step's";
+  EXPECT_TRUE(has_coarser_mesh(mesh(12, 16)));
+  EXPECT_FALSE(has_coarser_mesh(mesh(12, 8)));
+  MeshCase read = mesh(32, 20);
+  read.source = "files";
+  EXPECT_FALSE(has_coarser_mesh(read));
+  EXPECT_DOUBLE_EQ(coarser_by(read), 2);
+}
+
 }  // namespace
 }  // namespace tether

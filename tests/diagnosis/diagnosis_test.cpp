@@ -258,5 +258,32 @@ TEST_F(WholeDiagnosis, NeedsTheModelItselfOnlyForWhatIsProbable) {
   EXPECT_LE(trials(), 4);
 }
 
+/// What leads is run with a finer mesh too, once: so much as that changes in it, its amplitude may be off.
+TEST_F(WholeDiagnosis, AsksAFinerMeshWhatItChangesInWhatLeads) {
+  const auto found_with = [&](FakeRuns& finer) {
+    FakeRuns own(given.lumen, regions);
+    return diagnose(given, effects(),
+                    {own, nullptr, {{{"coarse_mesh", "share", {}, true}, finer.motion({}), &finer, true}}});
+  };
+  const auto width = [](const DiagnosisReport& report) {
+    const TestedEffect& first = report.found.effects.front();
+    EXPECT_TRUE(first.accepted);
+    EXPECT_EQ(report.problem.candidates[first.candidate].where, "spine");
+    return first.intervals.front()->most - first.intervals.front()->least;
+  };
+  FakeRuns alike(given.lumen, regions), stiffer(given.lumen, regions), failing(given.lumen, regions);
+  stiffer.strength = 1.3;
+  failing.fails = {"trials/runs/trial_001", "trials/runs/trial_002", "trials/runs/trial_003"};
+  const double known = width(found_with(alike)), wider = width(found_with(stiffer)),
+               unknown = width(found_with(failing));
+  EXPECT_GT(wider, 2 * known);
+  EXPECT_DOUBLE_EQ(unknown, known) << "a run that fails tells nothing, and is not asked for again";
+  for (const FakeRuns* finer : {&alike, &stiffer, &failing}) {
+    EXPECT_FALSE(finer->made.empty());
+    EXPECT_EQ(std::set<std::string>(finer->made.begin(), finer->made.end()).size(), finer->made.size());
+    EXPECT_LE(finer->made.size(), 3U);
+  }
+}
+
 }  // namespace diagnosis_test
 }  // namespace tether::testing

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/observation_manager/lumens.hpp"
@@ -40,12 +41,13 @@ TEST(Numerics, AFinerRunMovesTheNodesOfACoarserMesh) {
   EXPECT_GT(std::log2(error / finer), 1.7) << "second order";
 }
 
-/// What the model differs by from a coarser one is an error that may be 0.6 of it; not where a run has no data.
+/// What the model differs by from a coarser one is an error that may be as much of it; not where a run has no data.
 TEST(Numerics, WhatACoarserModelDiffersByIsAllowed) {
   EffectProblem problem;
   problem.residual = (VectorXd(3) << 4, 5, 6).finished();
   problem.allowed.resize(3, 0);
   const VectorXd coarse = (VectorXd(3) << 1, 7, 6).finished();
+  problem.left_by_refinement = 0.6;
   allow_numerics(problem, coarse);
   ASSERT_EQ(problem.allowed.cols(), 1);
   EXPECT_EQ(problem.allowed.col(0), (VectorXd(3) << 3, -2, 0).finished());
@@ -53,6 +55,19 @@ TEST(Numerics, WhatACoarserModelDiffersByIsAllowed) {
   EXPECT_FALSE(problem.allowed_names[0].empty()) << "a person may look after it";
   allow_numerics(problem, VectorXd::Constant(3, undefined));
   EXPECT_EQ(problem.allowed.cols(), 1);
+}
+
+/// Of errors that fall as a power of the mesh's width the truth lies between those of first and of second order.
+TEST(Numerics, WhatIsLeftByRefinementIsBetweenFirstAndSecondOrder) {
+  for (const double ratio : {1.25, 4.0 / 3, 2.0, 3.0}) {
+    std::array<double, 2> left{}, before{};
+    for (const int order : {1, 2}) {
+      const double coarse = std::pow(ratio, order), fine = 1, apart = coarse - fine;
+      left[order - 1] = fine / apart, before[order - 1] = coarse / apart;
+    }
+    EXPECT_NEAR(std::log(left_by_refinement(ratio)), (std::log(left[0]) + std::log(left[1])) / 2, 1e-12);
+    EXPECT_NEAR(std::log(wrong_before_refinement(ratio)), (std::log(before[0]) + std::log(before[1])) / 2, 1e-12);
+  }
 }
 
 TEST(Numerics, RefiningCompetesAsAnAmplitude) {

@@ -183,6 +183,77 @@ TEST(SetEvidence, FollowsWhatRunsShowed) {
   EXPECT_TRUE(std::isinf(evidence.beyond_runs(1, 6, true)));
 }
 
+/// What two numbers do in the model itself is not what a coarser one says: that of the difference, as much as a finer
+/// model may change still, is an error that data may have where the numbers do something.
+class SetEvidenceOfTwoModels : public ::testing::Test {
+ protected:
+  SetEvidenceOfTwoModels() {
+    p.left_by_refinement = 0.6;
+    for (const Index c : {0, 1}) {
+      p.amplitudes[static_cast<std::size_t>(c)].step = 1;
+      p.amplitudes[static_cast<std::size_t>(c)].is_coarse = true;
+      own.push_back(p.changes.col(c) + 0.8 * VectorXd::Unit(data, 5 + c) - 0.5 * VectorXd::Unit(data, 9));
+      VectorXd amplitudes = VectorXd::Zero(p.changes.cols());
+      amplitudes(c) = largest;
+      runs.push_back({amplitudes, p.residual - largest * own.back()});
+    }
+  }
+
+  /// As the coarser model beyond the run of the model itself, and on the side that was not run.
+  VectorXd does(Index c, double a) const {
+    if (a < 0) return a * p.changes.col(c);
+    const double within = std::min(a, largest), scaled = own[c].dot(p.changes.col(c)) / p.changes.col(c).squaredNorm();
+    return within * own[c] + (a - within) * scaled * p.changes.col(c);
+  }
+  VectorXd error(Index c, double a) const {
+    const VectorXd y = does(c, a), shown = largest * own[c], seen = precision * shown;
+    return 0.6 * largest * (own[c] - p.changes.col(c)) * y.dot(seen) / shown.dot(seen);
+  }
+
+  static constexpr double largest = 3;
+  EffectProblem p = problem(12);
+  std::vector<VectorXd> own;
+  std::vector<ShownRun> runs;
+  MatrixXd precision = errors(p, 0.1).inverse();
+};
+
+TEST_F(SetEvidenceOfTwoModels, AllowsForWhatAFinerOneWouldChange) {
+  const SetEvidence evidence(p, runs);
+  ASSERT_EQ(evidence.discrepancies()[0].size, 0.1);
+  const MatrixXd covariance = errors(p, evidence.discrepancies()[2].size);
+  const double step = 0.05;
+  double one = 0, both = 0;
+  const auto likely = [&](const VectorXd& does, const VectorXd& error) {
+    return std::exp(log_density(p.residual - does, covariance + error * error.transpose()));
+  };
+  for (double a = step / 2; a < 20; a += step) one += step * half_cauchy(a, 2) * likely(does(0, a), error(0, a));
+  EXPECT_NEAR(evidence.fit({0}, 2).log_evidence, std::log(one), 0.02);
+  const double wide = 0.2;
+  for (double a = wide / 2; a < 12; a += wide)
+    for (double b = -12 + wide / 2; b < 12; b += wide)
+      both += wide * wide * half_cauchy(a, 2) * half_cauchy(b, 2) / 2 *
+              likely(does(0, a) + does(1, b), error(0, a) + error(1, b));
+  EXPECT_NEAR(evidence.fit({0, 1}, 2).log_evidence, std::log(both), 0.05);
+}
+
+/// No run of the model itself with it was made: it errs as what moves the data alike.
+TEST_F(SetEvidenceOfTwoModels, TakesAnErrorFromWhatMovesTheDataAlike) {
+  p.changes.col(1) = 1.2 * p.changes.col(0) + 0.1 * VectorXd::Unit(data, 3);
+  own[1] = p.changes.col(1);
+  runs.pop_back();
+  const SetEvidence evidence(p, runs);
+  const MatrixXd covariance = errors(p, evidence.discrepancies()[2].size);
+  const VectorXd shown = largest * own[0], seen = precision * shown;
+  const double step = 0.05;
+  double sum = 0;
+  for (double a = -20 + step / 2; a < 20; a += step) {
+    const VectorXd error = 0.6 * largest * (own[0] - p.changes.col(0)) * a * own[1].dot(seen) / shown.dot(seen);
+    sum += step * half_cauchy(a, 2) / 2 *
+           std::exp(log_density(p.residual - a * own[1], covariance + error * error.transpose()));
+  }
+  EXPECT_NEAR(evidence.fit({1}, 2).log_evidence, std::log(sum), 0.02);
+}
+
 /// A coarser model's spring is a fifth too weak throughout: one run of the model says so.
 TEST(AmplitudeCurve, TakesItsFormFromACoarserModelAndItsSizeFromTheModel) {
   const auto seen = [](double a) -> VectorXd { return VectorXd::LinSpaced(5, 1, 2) * (a / (1 + a)); };

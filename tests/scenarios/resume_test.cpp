@@ -123,6 +123,21 @@ TEST_F(ResumedRun, TakesALongerCase) {
   EXPECT_NEAR(after["seconds_per_step"], after["wall_seconds"].get<double>() / all_steps, 1e-12);
 }
 
+/// How the wall rests is written once, at the beginning, and read at the end: cut in between, it costs no run.
+TEST_F(ResumedRun, WritesADamagedRestStateAnew) {
+  ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
+  ASSERT_EQ(simulate("stopped", 6).exit_code, 0);
+  const fs::path rest = folder / "stopped/rest.json";
+  fs::resize_file(rest, fs::file_size(rest) / 2);
+  const ChildEnd end = simulate("stopped", all_steps, {"--resume"});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.errors.find("rest.json"), std::string::npos) << end.errors;
+  EXPECT_NE(end.errors.find("written anew"), std::string::npos) << end.errors;
+  expect_same_results("whole", "stopped");
+  std::ifstream again(rest), first(folder / "whole/rest.json");
+  EXPECT_EQ(nlohmann::json::parse(again), nlohmann::json::parse(first));
+}
+
 INSTANTIATE_TEST_SUITE_P(Coupling, Resume, ::testing::Values("newton_krylov", "iqn_ils", "observed"),
                          [](const auto& info) { return std::string(info.param); });
 
