@@ -201,7 +201,7 @@ void drop_damaged_rest(const fs::path& output) {
   try {
     rest_in(output);
   } catch (const InputError& error) {
-    std::cerr << fmt::format("{}\nit is written anew\n", error.what());
+    std::cerr << fmt::format("{}\nit is left out, and written anew with the wall's next output\n", error.what());
     fs::remove(output / "rest.json");
   }
 }

@@ -115,8 +115,8 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
 }
 
 protocol::Ready SolidServer::operator()(const protocol::Write& m) {
-  if (m.step == 0 || !rest_is_written_) write_record(output_ / "rest.json", rest_);  // a run that goes on may lack it
-  rest_is_written_ = true;
+  const auto rest = output_ / "rest.json";
+  if (m.step == 0 || !std::filesystem::exists(rest)) write_record(rest, rest_);  // a run that goes on may lack it
   series_->write(*model_, *solver_, static_cast<int>(m.step), m.time);
   return {};
 }

@@ -51,7 +51,6 @@ class SolidServer {
   std::string effective_case_;
   std::vector<std::string> notices_;
   RestState rest_;
-  bool rest_is_written_ = false;  ///< by this process
   std::filesystem::path output_;
   std::unique_ptr<WallSeries> series_;
 };

@@ -54,11 +54,23 @@ class CandidateModels {
   fs::path output_;
 };
 
+/// Null where the case does not want a coarser model, or that does not come to its end.
+std::unique_ptr<GrowingRuns> coarse_runs(const DiagnosedCase& given, const CandidateModels& models,
+                                         const std::vector<PlacedEffect>& effects, bool quiet) {
+  if (!given.diagnosis.coarse) return nullptr;
+  auto runs = std::make_unique<GrowingRuns>(
+      effects, [&models](const auto& all, int grown) { return models.coarse_runs(all, grown); });
+  if (!runs->make({base_run()}).front().failed()) return runs;
+  if (!quiet) std::cout << "The coarser model does not come to its end: all runs are of the model itself.\n";
+  return nullptr;
+}
+
 /// One run of each refined case, if the case wants them. On a finer mesh more can be made, where no coarser one tells
 /// what the mesh changes.
 class RefinedModels {
  public:
-  RefinedModels(const DiagnosedCase& given, const CandidateModels& models, const std::vector<PlacedEffect>& effects) {
+  RefinedModels(const DiagnosedCase& given, const CandidateModels& models, const std::vector<PlacedEffect>& effects,
+                bool has_coarse) {
     if (!given.diagnosis.numerics) return;
     const std::vector<RefinedCase> cases = write_refined(models.written(effects, 0), given);
     for (std::size_t k = 0; k < cases.size(); ++k) {
@@ -66,9 +78,9 @@ class RefinedModels {
         return models.refined_runs(write_refined(models.written(all, grown), given)[k]);
       }));
       FinishedMotion run = runs_.back()->make({base_run()}).front();
-      all_.push_back(
-          {cases[k], std::move(run), runs_.back().get(), cases[k].changes_mesh && !has_coarser_mesh(given.mesh)});
-      if (!all_.back().tells_effects) runs_.back()->rest();
+      const bool tells_effects = cases[k].changes_mesh && !(has_coarse && has_coarser_mesh(given.mesh));
+      all_.push_back({cases[k], std::move(run), runs_.back().get(), tells_effects});
+      runs_.back()->rest();
     }
   }
   void add(const std::vector<PlacedEffect>& more) {
@@ -80,17 +92,6 @@ class RefinedModels {
   std::vector<std::unique_ptr<GrowingRuns>> runs_;
   std::vector<RefinedRun> all_;
 };
-
-/// Null where the case does not want a coarser model, or that does not come to its end.
-std::unique_ptr<GrowingRuns> coarse_runs(const DiagnosedCase& given, const CandidateModels& models,
-                                         const std::vector<PlacedEffect>& effects, bool quiet) {
-  if (!given.diagnosis.coarse) return nullptr;
-  auto runs = std::make_unique<GrowingRuns>(
-      effects, [&models](const auto& all, int grown) { return models.coarse_runs(all, grown); });
-  if (!runs->make({base_run()}).front().failed()) return runs;
-  if (!quiet) std::cout << "The coarser model does not come to its end: all runs are of the model itself.\n";
-  return nullptr;
-}
 
 std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis,
                               const std::vector<std::string>& pictures) {
@@ -116,10 +117,10 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
                     const DiagnosisSettings& settings, std::vector<std::string>& pictures) {
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   const CandidateModels models(given, command, output);
-  RefinedModels refined(given, models, effects);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
   runs.parameters();  // a case that is refused is refused before anything else runs
   std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
+  RefinedModels refined(given, models, effects, coarse != nullptr);
   const auto extend = [&](const std::vector<PlacedEffect>& more) {
     runs.add(more);
     if (coarse) coarse->add(more);

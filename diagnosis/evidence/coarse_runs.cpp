@@ -11,10 +11,12 @@ namespace {
 
 constexpr int least_around = 12, least_along = 8;
 
-/// Half as many, but not fewer than a tube needs to be one; even.
+/// Half as many, but not fewer than a tube needs to be one; even. As many as there are where that is hardly fewer: what
+/// they differ by then would say nothing of what is left.
 int halved(int elements, int least) {
-  const int half = std::max(elements / 2, std::min(elements, least));
-  return half + half % 2;
+  constexpr double hardly = 1.3;
+  const int half = std::max(elements / 2, std::min(elements, least)), even = half + half % 2;
+  return elements >= hardly * even ? even : elements;
 }
 
 /// Of the model's run, whose last step may end behind time.end: data may lie there.
@@ -43,7 +45,7 @@ std::filesystem::path write_coarse(const std::filesystem::path& candidates, cons
   return file;
 }
 
-/// Of the mesh the direction that is coarsened least; where none is, the step's.
+/// Of the directions of the mesh that are coarsened that which is least; where none is, the step's.
 double coarser_by(const MeshCase& mesh) {
   constexpr double of_step = 2;
   if (mesh.source != "swept") return of_step;
@@ -54,8 +56,8 @@ double coarser_by(const MeshCase& mesh) {
 }
 
 bool has_coarser_mesh(const MeshCase& mesh) {
-  return mesh.source == "swept" && (halved(mesh.swept.around, least_around) < mesh.swept.around ||
-                                    halved(mesh.swept.along, least_along) < mesh.swept.along);
+  return mesh.source == "swept" && halved(mesh.swept.around, least_around) < mesh.swept.around &&
+         halved(mesh.swept.along, least_along) < mesh.swept.along;
 }
 
 MappedRuns::MappedRuns(std::unique_ptr<ModelRuns> runs, const LumenSurface& lumen, const LumenSurface& other,

@@ -14,7 +14,7 @@ std::filesystem::path write_coarse(const std::filesystem::path& candidates, cons
 
 /// How many times as coarse that model is.
 double coarser_by(const MeshCase& mesh);
-/// Whether its mesh is another one: not of a mesh that is as coarse as one may be, or that is read.
+/// Whether it is coarser around and along: not of a mesh that is about as coarse as one may be, or that is read.
 bool has_coarser_mesh(const MeshCase& mesh);
 
 /// Runs of the same vessel on another mesh, as the nodes of the model's own lumen move in them.

@@ -139,22 +139,23 @@ std::optional<SetEvidence::ShownNumerics> SetEvidence::add_refined(std::size_t c
         const VectorXd changes = (problem_.residual - finer.residual)(rows);
         append_columns(columns,
                        wrong_before_refinement(finer_by) * (changes - point.factor * columns.col(point.column)));
-        return ShownNumerics{candidate, size, columns.cols() - 1};
+        return ShownNumerics{candidate, size, columns.cols() - 1, RunOf::finer};
       }
   }
   return std::nullopt;
 }
 
 std::optional<SetEvidence::ShownNumerics> SetEvidence::add_coarse(std::size_t candidate, MatrixXd& columns) const {
-  for (const AmplitudeCurve& side : curves_[candidate]) {
-    if (!side.differs_from_coarse()) continue;
-    VectorXd difference = VectorXd::Zero(columns.rows());
-    for (const AmplitudeCurve::Share& part : side.from_coarse())
-      difference += part.share * part.point->factor * columns.col(part.point->column);
-    append_columns(columns, problem_.left_by_refinement * difference);
-    return ShownNumerics{candidate, side.largest(), columns.cols() - 1};
-  }
-  return std::nullopt;
+  const AmplitudeCurve* largest = nullptr;
+  for (const AmplitudeCurve& side : curves_[candidate])
+    if (side.differs_from_coarse() && (!largest || std::abs(side.largest()) > std::abs(largest->largest())))
+      largest = &side;
+  if (!largest) return std::nullopt;
+  VectorXd difference = VectorXd::Zero(columns.rows());
+  for (const AmplitudeCurve::Share& part : largest->from_coarse())
+    difference += part.share * part.point->factor * columns.col(part.point->column);
+  append_columns(columns, problem_.left_by_refinement * difference);
+  return ShownNumerics{candidate, largest->largest(), columns.cols() - 1, RunOf::coarser};
 }
 
 /// Null of what does not err.
@@ -163,8 +164,12 @@ const SetEvidence::ShownNumerics* SetEvidence::numerics_of(std::size_t candidate
   return &numerics_[static_cast<std::size_t>(errs_as_[candidate])];
 }
 
-/// Each candidate errs as that does that was run with both models and moves the data most alike.
+/// Each candidate errs as that does that was run with two models and moves the data most alike. Where a finer model
+/// was run a coarser one tells less: its mesh may be the model's own.
 void SetEvidence::settle_numerics() {
+  const auto is_of_finer = [](const ShownNumerics& one) { return one.told_by == RunOf::finer; };
+  if (std::any_of(numerics_.begin(), numerics_.end(), is_of_finer))
+    std::erase_if(numerics_, [&](const ShownNumerics& one) { return !is_of_finer(one); });
   const MatrixXd& gram = products_.front().gram;
   for (ShownNumerics& one : numerics_) {
     const std::vector<Index> columns = columns_of({one.candidate});

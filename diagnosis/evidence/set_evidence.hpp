@@ -93,16 +93,18 @@ class SetEvidence {
     MatrixXd error;              ///< the same of what mesh and step may be wrong by: one deviation [g x c]
     bool errs = false;           ///< whether that is anything
   };
-  /// What a candidate does in the model itself less what it does in a coarser or finer one, times what that tells of
-  /// the model's own error (D.8).
+  /// What a candidate does in the finer of two models less what it does in the other, times what that tells of the
+  /// error of the model itself (D.8).
   struct ShownNumerics {
     std::size_t candidate;
     double size;
     Eigen::Index column;  ///< of that
-    VectorXd seen = {};   ///< products of all columns with what the candidate does at that size
-    double square = 0;    ///< of what it does
+    RunOf told_by;
+    VectorXd seen = {};  ///< products of all columns with what the candidate does at that size
+    double square = 0;   ///< of what it does
   };
-  /// Products of a set's columns, the residual last, in M; what is known of their errors grows by `augment`.
+  /// Products of a set's columns, the residual last, in M; what errors along others leave of them is what `take_out`
+  /// tells.
   struct Products {
     MatrixXd gram;
     double log_norm = 0;

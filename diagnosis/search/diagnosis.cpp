@@ -256,7 +256,7 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
     report.patch = patches.place();
     tell();
   }
-  report.found = search_effects(report.problem, how, residual_at, weighing);
+  report.found = search_effects(report.problem, how, residual_at, weighing, finer_at);
   locate_misfit(report, given, map);
   report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
   report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());

@@ -21,7 +21,7 @@ struct DiagnosedModel {
   ModelRuns& runs;                       ///< of the case with all candidates at zero
   ModelRuns* coarse = nullptr;           ///< of a coarser model, for what numbers do to first order; null: `runs`
   std::vector<RefinedRun> refined = {};  ///< that tell what mesh and time step cost, or none
-  /// Makes both models have these effects as well, at zero; none: effects act in regions and their parts only.
+  /// Makes all models have these effects as well, at zero; none: effects act in regions and their parts only.
   std::function<void(const std::vector<PlacedEffect>& more)> extend = {};
 };
 

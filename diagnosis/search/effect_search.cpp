@@ -456,12 +456,12 @@ bool shows_more(const std::vector<ShownRun>& runs, const EffectProblem& problem,
 }  // namespace
 
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-                            const Weighing& weighing) {
+                            const Weighing& weighing, const ResidualAt& finer) {
   SearchResult result = Search(problem, settings, residual_at, weighing.weighed).run();
   if (shows_more(result.runs, problem, weighing.shown)) {
     std::vector<ShownRun> shown = weighing.shown;
     shown.insert(shown.end(), result.runs.begin(), result.runs.end());
-    const Weighing again = weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(shown));
+    const Weighing again = weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(shown), finer);
     std::vector<ShownRun> earlier = std::move(result.runs);
     result = Search(problem, settings, residual_at, again.weighed).run();
     set_intervals(result, problem, settings, again.shown);

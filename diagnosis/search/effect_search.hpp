@@ -37,9 +37,10 @@ struct SearchResult {
 };
 
 /// Tests every candidate, finds the amplitudes of the strongest with runs, accepts one effect at a time as long as the
-/// data at hand and those held out ask for it, and judges what is left. (D.8-D.13)
+/// data at hand and those held out ask for it, and judges what is left. finer: of a finer model, if there is one.
+/// (D.8-D.13)
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-                            const Weighing& weighing);
+                            const Weighing& weighing, const ResidualAt& finer = {});
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings,
                             const ResidualAt& residual_at);
 

@@ -71,8 +71,9 @@ class Wanted {
   /// On a finer mesh: of probable sets the members and what may be in place of one, and the most probable that explains
   /// the data by itself; each at the size of the closest run of the model itself.
   void add_refined(const std::vector<ShownRun>& shown) {
-    const auto alone = std::find_if(posterior_.sets.begin(), posterior_.sets.end(),
-                                    [](const EffectSet& set) { return set.members.size() == 1; });
+    const auto alone = std::find_if(posterior_.sets.begin(), posterior_.sets.end(), [&](const EffectSet& set) {
+      return set.members.size() == 1 && problem_.candidates[set.members.front()].takes_runs();
+    });
     std::vector<EffectSet> sets = probable_sets();
     if (alone != posterior_.sets.end()) sets.push_back(*alone);
     for (const EffectSet& set : sets) {

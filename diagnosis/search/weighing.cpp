@@ -31,7 +31,7 @@ std::vector<bool> refused_in(const EffectProblem& problem, const SearchSettings&
 Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& settings, const ShowingRuns& runs,
                        RunsFor purpose, std::vector<ShownRun> shown, const ResidualAt& finer) {
   const std::vector<bool> left_out = refused_in(problem, settings);
-  for (int round = 0; true; ++round) {
+  for (int round = 0; true;) {
     const SetEvidence evidence(problem, shown);
     const Posterior posterior = posterior_of(problem, evidence, left_out);
     const MatrixXd wanted = wanted_runs(problem, evidence, posterior, purpose);
@@ -41,6 +41,7 @@ Weighing weigh_effects(const EffectProblem& problem, const SearchSettings& setti
       add_shown(shown, refined, {finer, RunOf::finer});
     } else if (!is_settled) {
       add_shown(shown, wanted, runs);
+      ++round;
     } else {
       Weighing weighing{weighed(problem, evidence, posterior), std::move(shown)};
       if (purpose == RunsFor::telling) {

@@ -44,7 +44,7 @@ TEST_F(CoarseCase, EndsWhereTheModelsLastStepDoes) {
   EXPECT_LE(values.at("time.step"), 8e-3);
 }
 
-/// The direction that is coarsened least counts; where none is, the step's.
+/// Of those that are coarsened the direction which is least counts; where none is, the step's.
 TEST(CoarseMesh, IsCoarserByWhatItsLeastDirectionIs) {
   const auto mesh = [](int around, int along) {
     MeshCase made;
@@ -57,7 +57,11 @@ TEST(CoarseMesh, IsCoarserByWhatItsLeastDirectionIs) {
   EXPECT_DOUBLE_EQ(coarser_by(mesh(16, 12)), 16.0 / 12);
   EXPECT_DOUBLE_EQ(coarser_by(mesh(12, 16)), 2) << "around there are as few as may be";
   EXPECT_DOUBLE_EQ(coarser_by(mesh(12, 8)), 2) << "the step's";
-  EXPECT_TRUE(has_coarser_mesh(mesh(12, 16)));
+  EXPECT_DOUBLE_EQ(coarser_by(mesh(24, 9)), 2) << "along it stays: 8 would hardly be fewer";
+  EXPECT_DOUBLE_EQ(coarser_by(mesh(14, 7)), 2);
+  EXPECT_TRUE(has_coarser_mesh(mesh(16, 12)));
+  EXPECT_FALSE(has_coarser_mesh(mesh(12, 16))) << "what twelve around do wrong it does not tell";
+  EXPECT_FALSE(has_coarser_mesh(mesh(24, 9)));
   EXPECT_FALSE(has_coarser_mesh(mesh(12, 8)));
   MeshCase read = mesh(32, 20);
   read.source = "files";

@@ -236,6 +236,27 @@ TEST_F(SetEvidenceOfTwoModels, AllowsForWhatAFinerOneWouldChange) {
   EXPECT_NEAR(evidence.fit({0, 1}, 2).log_evidence, std::log(both), 0.05);
 }
 
+/// A finer model says more than a coarser one, of both: "other", which was not run with it, errs as "one" does.
+TEST_F(SetEvidenceOfTwoModels, TakesTheErrorThatAFinerModelShows) {
+  const VectorXd finer = largest * own[0] + 0.9 * VectorXd::Unit(data, 17), shown = largest * own[0],
+                 seen = precision * shown, shift = finer - shown;
+  runs.push_back({runs[0].amplitudes, p.residual - finer, RunOf::finer});
+  const SetEvidence evidence(p, runs);
+  const MatrixXd covariance = errors(p, evidence.discrepancies()[2].size);
+  const double deviation = std::pow(2, 1.5) / std::sqrt(3), step = 0.05, wide = 0.2;
+  const auto likely = [&](const VectorXd& does) {
+    const VectorXd error = deviation * shift * does.dot(seen) / shown.dot(seen);
+    return std::exp(log_density(p.residual - does, covariance + error * error.transpose()));
+  };
+  double one = 0, both = 0;
+  for (double a = step / 2; a < 20; a += step) one += step * half_cauchy(a, 2) * likely(does(0, a));
+  EXPECT_NEAR(evidence.fit({0}, 2).log_evidence, std::log(one), 0.02);
+  for (double a = wide / 2; a < 12; a += wide)
+    for (double b = -12 + wide / 2; b < 12; b += wide)
+      both += wide * wide * half_cauchy(a, 2) * half_cauchy(b, 2) / 2 * likely(does(0, a) + does(1, b));
+  EXPECT_NEAR(evidence.fit({0, 1}, 2).log_evidence, std::log(both), 0.05);
+}
+
 /// No run of the model itself with it was made: it errs as what moves the data alike.
 TEST_F(SetEvidenceOfTwoModels, TakesAnErrorFromWhatMovesTheDataAlike) {
   p.changes.col(1) = 1.2 * p.changes.col(0) + 0.1 * VectorXd::Unit(data, 3);
