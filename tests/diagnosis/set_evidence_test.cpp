@@ -189,10 +189,12 @@ class SetEvidenceOfTwoModels : public ::testing::Test {
  protected:
   SetEvidenceOfTwoModels() {
     p.left_by_refinement = 0.6;
+    p.residual +=
+        3 * p.changes.col(0) + 2 * p.changes.col(1) - 4 * VectorXd::Unit(data, 9) + 4 * VectorXd::Unit(data, 17);
     for (const Index c : {0, 1}) {
       p.amplitudes[static_cast<std::size_t>(c)].step = 1;
       p.amplitudes[static_cast<std::size_t>(c)].is_coarse = true;
-      own.push_back(p.changes.col(c) + 0.8 * VectorXd::Unit(data, 5 + c) - 0.5 * VectorXd::Unit(data, 9));
+      own.push_back(p.changes.col(c) + 0.8 * VectorXd::Unit(data, 5 + c) - 0.9 * VectorXd::Unit(data, 9));
       VectorXd amplitudes = VectorXd::Zero(p.changes.cols());
       amplitudes(c) = largest;
       runs.push_back({amplitudes, p.residual - largest * own.back()});
@@ -238,7 +240,7 @@ TEST_F(SetEvidenceOfTwoModels, AllowsForWhatAFinerOneWouldChange) {
 
 /// A finer model says more than a coarser one, of both: "other", which was not run with it, errs as "one" does.
 TEST_F(SetEvidenceOfTwoModels, TakesTheErrorThatAFinerModelShows) {
-  const VectorXd finer = largest * own[0] + 0.9 * VectorXd::Unit(data, 17), shown = largest * own[0],
+  const VectorXd finer = largest * own[0] + 3 * VectorXd::Unit(data, 17), shown = largest * own[0],
                  seen = precision * shown, shift = finer - shown;
   runs.push_back({runs[0].amplitudes, p.residual - finer, RunOf::finer});
   const SetEvidence evidence(p, runs);
