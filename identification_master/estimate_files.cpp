@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "common/base/error.hpp"
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
-#include "common/base/write_error.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/io/record_file.hpp"
 #include "identification_master/identifiability.hpp"
 #include "identification_master/results/estimate.hpp"
@@ -17,15 +16,6 @@ namespace tether {
 namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;
-
-void write_whole(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text << std::flush;
-  if (!file) throw write_error(part);
-  file.close();
-  std::filesystem::rename(part, path);
-}
 
 std::string headings(const IdentifiedParameters& parameters) {
   const auto& list = parameters.list();

@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/name.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/case_tree.hpp"
 
@@ -97,15 +98,11 @@ fs::path claim_output(const CommandLine& command, const CaseFile& file) {
 }
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {
-  const fs::path text = folder / case_as_run, copy = folder / (std::string(case_as_run) + ".new");
-  std::error_code none;
-  fs::remove(copy, none);  // whatever is there in its place, a link to another file
-  std::ofstream to(copy);
-  to << case_file_key << fs::absolute(case_file).lexically_normal().string()
-     << "\n# A copy of it as it was when the run started, with what it builds on; paths are relative to it.\n"
-     << case_text(case_file);
-  if (!to.flush()) throw write_error(text);
-  fs::rename(copy, text);
+  write_whole(
+      folder / case_as_run,
+      std::string(case_file_key) + fs::absolute(case_file).lexically_normal().string() +
+          "\n# A copy of it as it was when the run started, with what it builds on; paths are relative to it.\n" +
+          case_text(case_file));
 }
 
 fs::path claim_and_mark_output(const CommandLine& command, const CaseFile& file) {

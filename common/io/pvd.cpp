@@ -11,7 +11,7 @@
 #include <regex>
 
 #include "common/base/error.hpp"
-#include "common/base/write_error.hpp"
+#include "common/base/whole_file.hpp"
 
 namespace tether {
 
@@ -82,15 +82,10 @@ PvdSeries PvdSeries::rescued(const std::filesystem::path& path, double last_time
 
 void PvdSeries::add(double time, const std::string& file) {
   entries_.emplace_back(time, file);
-  const std::filesystem::path partial = path_.string() + ".part";
-  std::ofstream out(partial);
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (const auto& [at, name] : entries_)
-    out << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", at, name);
-  out << "</Collection>\n</VTKFile>\n";
-  out.close();
-  if (!out) throw write_error(partial);
-  std::filesystem::rename(partial, path_);
+    text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", at, name);
+  write_whole(path_, text + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace tether

@@ -10,7 +10,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/types.hpp"
-#include "common/base/write_error.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/io/record.hpp"
 #include "common/io/record_file.hpp"
 
@@ -246,10 +246,7 @@ std::string json_of(const T& record) {
 
 template <class T>
 void write_record(const std::filesystem::path& path, const T& record) {
-  const std::string json = json_of(record);  // first: what else fails between opening and telling hides the cause
-  std::ofstream file(path, std::ios::binary);
-  file << json << std::endl;
-  if (!file) throw write_error(path);
+  write_whole(path, json_of(record) + "\n");
 }
 
 template <class T>

@@ -99,6 +99,23 @@ std::vector<SupportPoint> probes(double length) {
   return all;
 }
 
+/// A wall begins at rest, and some of its points stay there: 1/un would end every run.
+void check_rest(const ExpressionLaw& law, const std::vector<double>& values) {
+  const ExpressionTraction traction(law, values);
+  const auto holds_at_rest = [&](SupportPoint p) {
+    p.displacement = p.velocity = Vec3::Zero();
+    try {
+      traction.at(p);
+    } catch (const RunError&) {
+      return false;
+    }
+    return true;
+  };
+  const std::vector<SupportPoint> all = probes(law.length);
+  if (std::none_of(all.begin(), all.end(), holds_at_rest))
+    throw input_error("the formula has no finite value where the wall is at rest (displacement and velocity zero)");
+}
+
 /// A model without the effect is one in which the parameters that can be absent are.
 void check_absent(const ExpressionLaw& law, std::vector<double> values) {
   std::string absent;
@@ -132,6 +149,7 @@ const std::vector<std::string>& expression_names() {
 }
 
 Configured<Support> configure(const ExpressionLaw& law, std::vector<double> values) {
+  check_rest(law, values);
   check_absent(law, values);
   auto declaration = std::make_shared<EffectDeclaration>(EffectDeclaration{
       "expression", "A traction as the case file writes it", Place::outer_wall, law.parameters, EffectRole::loads});

@@ -108,7 +108,10 @@ TEST(ExpressionTraction, IsAbsentWithItsParametersAndRefusesWhatIsNoFormula) {
   EXPECT_THROW(configure({"-k*un - 300", {}, {k}, size}, {1}), InputError) << "something is left where it is absent";
   EXPECT_THROW(configure({"-un", {}, {k}, size}, {0}), InputError) << "its parameter does nothing";
   const SupportPoint p{Vec3(-1, 0, 0), Vec3::Zero(), Vec3(1, 0, 0)};
-  EXPECT_THROW(configure({"sqrt(un)", {}, {}, size}, {})->at(p), RunError);
+  EXPECT_THROW(configure({"sqrt(un + 0.5)", {}, {}, size}, {})->at(p), RunError);
+  EXPECT_THROW(configure({"k/un", {}, {k}, size}, {1}), InputError) << "no value at rest";
+  EXPECT_THROW(configure({"sqrt(un)", {}, {}, size}, {}), InputError) << "no slope at rest";
+  EXPECT_FALSE(configure({"-k*un/(abs(x) + y*y)", {}, {k}, size}, {1}).is_absent());
 }
 
 /// A wall's surface as the effect sees it, in one step of theta dt = 0.5.

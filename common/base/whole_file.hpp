@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace tether {
+
+/// Writes a file so that whoever reads it finds the old one or the new one whole, also after a kill in between: beside
+/// its place ("FILE.part"), then renamed. Throws RunError as write_error says; nothing is left beside then.
+void write_whole(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace tether
