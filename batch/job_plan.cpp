@@ -48,8 +48,11 @@ std::string steps_text(const MeasuredSteps& measured) {
 
 /// "207 steps of 0.02 s, 92 MB a model; of the coarser model 104 steps of 0.009 s"
 std::string steps_text(const PlannedRuns& planned) {
-  return fmt::format("{}, {:.0f} MB a model", steps_text(planned.model), planned.model.memory_mb) +
-         (planned.coarser ? "; of the coarser model " + steps_text(*planned.coarser) : "");
+  std::string text = fmt::format("{}, {:.0f} MB a model", steps_text(planned.model), planned.model.memory_mb);
+  if (planned.coarser) text += "; of the coarser model " + steps_text(*planned.coarser);
+  for (const MeasuredSteps& finer : planned.finer)
+    text += fmt::format("; of a finer one {}, {:.0f} MB", steps_text(finer), finer.memory_mb);
+  return text;
 }
 
 std::string runs_text(JobVerb verb, const PlannedRuns& planned) {
@@ -121,12 +124,15 @@ PlannedRuns planned_runs(JobVerb verb, int parameters) {
 ExpectedTime expected_time(const PlannedRuns& planned) {
   const int at_once = planned.cores > 0 ? std::min(planned.cores, planned.processes) : planned.processes;
   const double run = seconds_of(planned.model);
-  const double first_order = rounds(planned.first_order, at_once) * seconds_of(planned.coarser.value_or(planned.model));
+  double first_order = rounds(planned.first_order, at_once) * seconds_of(planned.coarser.value_or(planned.model));
+  for (const MeasuredSteps& finer : planned.finer) first_order += seconds_of(finer);
   return {first_order + rounds(planned.least, at_once) * run, first_order + rounds(planned.most, at_once) * run};
 }
 
 double expected_memory(const PlannedRuns& planned, int nodes) {
-  return 1.25 * planned.model.memory_mb * planned.processes / nodes + beside_models;
+  double of_one = planned.model.memory_mb;
+  for (const MeasuredSteps& finer : planned.finer) of_one = std::max(of_one, finer.memory_mb);
+  return 1.25 * of_one * planned.processes / nodes + beside_models;
 }
 
 void fill_from(const PlannedRuns& planned, JobResources& resources) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "batch/job.hpp"
 
@@ -10,6 +11,7 @@ namespace tether {
 struct PlannedRuns {
   MeasuredSteps model;
   std::optional<MeasuredSteps> coarser;  ///< of a diagnosis that has a coarser model
+  std::vector<MeasuredSteps> finer;      ///< of a diagnosis that asks what numerics do: each runs once, at the least
   int first_order = 0;      ///< of a diagnosis: as it is, and one for each number, of the coarser model if there is one
   int least = 1, most = 1;  ///< what else takes as long as so many runs of the model
   int processes = 1;        ///< models at once

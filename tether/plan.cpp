@@ -11,6 +11,7 @@
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/coarse_runs.hpp"
 #include "diagnosis/evidence/living_runs.hpp"
+#include "diagnosis/evidence/numerics.hpp"
 #include "diagnosis/evidence/sensitivities.hpp"
 #include "diagnosis/search/division.hpp"
 #include "tether/verbs.hpp"
@@ -43,7 +44,7 @@ int parameters_of(const fs::path& case_file) {
   return parameters == nullptr ? 0 : static_cast<int>(parameters->entries.size());
 }
 
-/// The runs that show what each number does, of those that the programs announce, and the coarser model.
+/// The runs that show what each number does, of those that the programs announce, and the models beside it.
 void add_first_order(const fs::path& case_file, PlannedRuns& planned) {
   const DiagnosedCase given(case_file);
   const ScratchFolder scratch("tether_planned");
@@ -57,6 +58,8 @@ void add_first_order(const fs::path& case_file, PlannedRuns& planned) {
   const Division division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file));
   planned.first_order = 1 + static_cast<int>(division.undivided().size());
   if (given.diagnosis.coarse) planned.coarser = measured(write_coarse(candidates, given));
+  if (!given.diagnosis.numerics) return;
+  for (const RefinedCase& refined : write_refined(candidates, given)) planned.finer.push_back(measured(refined.file));
 }
 
 /// A diagnosis' runs of each number are some dozens, those that confirm come in rounds of few.

@@ -121,6 +121,10 @@ TEST_F(Jobs, AskForTwiceTheTimeThatAFewStepsFortell) {
   EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 800 + 2000) << "and 40 of each number";
   diagnosis.coarser = coarser;
   EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 800 + 200) << "of the coarser model";
+  EXPECT_DOUBLE_EQ(expected_memory(diagnosis, 1), 1.25 * 4 * 1000 + 400);
+  diagnosis.finer = {{3, 800, 0.5, 1000}, {3, 400, 2, 3000}};
+  EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 800 + 200 + 400 + 800) << "and each finer model once";
+  EXPECT_DOUBLE_EQ(expected_memory(diagnosis, 1), 1.25 * 4 * 3000 + 400) << "whose processes are as many";
   EXPECT_GT(expected_time(planned(JobVerb::explain, 4, 0)).most, 3400);
   JobResources asked{2, 4, 2, "", "", "", "", {}};
   fill_from(identification, asked);
