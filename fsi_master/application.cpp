@@ -23,6 +23,7 @@
 #include "fsi_master/periodicity.hpp"
 #include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
+#include "fsi_master/untold.hpp"
 #include "observation_manager/measurements/flow_observations.hpp"
 
 namespace tether {
@@ -171,23 +172,22 @@ void check_columns(const FlowObservations& data, const std::vector<Column>& colu
     for (const NeededColumn& needed : source->columns()) check_column(needed, source->facts().field(), columns, file);
 }
 
-/// What a run and its continuation have in common: the programs' effective cases, how an observer uses its data, and
-/// what the files hold that the programs' sections name, since a foreign program need not tell.
-std::vector<std::string> cases_of(std::span<Partner> processes, const CaseFile& file) {
+/// What a run and its continuation have in common: what the programs tell of their cases and what they need not, and
+/// how an observer uses its data.
+std::vector<std::string> cases_of(std::span<Partner> processes, const MasterCase& master) {
   std::vector<std::string> all;
   for (Partner& process : processes) all.push_back(process.hello().effective_case);
-  if (file.common().observer.is_on()) all.push_back(echo_json("observer", file.common().observer));
-  for (const InputFile& input : input_files(file.path()))
-    for (const char* section : {"mesh.", "fluid.", "solid."})
-      if (input.field.starts_with(section)) all.push_back(fmt::format("{} {:x}", input.field, input.content));
+  const ObserverCase& observer = master.file.common().observer;
+  if (observer.is_on()) all.push_back(echo_json("observer", observer));
+  all.push_back(untold_json(master, processes));
   return all;
 }
 
-/// The same with the state that the run began with.
-std::uint64_t with_initial_state(std::uint64_t model, const fs::path& case_file) {
-  for (const InputFile& input : input_files(case_file))
+/// The same with the state that the run began with, and the points that it follows.
+std::uint64_t of_run(std::uint64_t model, const CaseFile& file) {
+  for (const InputFile& input : input_files(file.path()))
     if (input.field.starts_with("initial_state.")) model = hash_bytes(&input.content, sizeof input.content, model);
-  return model;
+  return hash_case(followed_json(file.common().output), model);
 }
 
 /// What the wall's code has written of how it rests, if it does.
@@ -210,8 +210,8 @@ void drop_damaged_rest(const fs::path& output) {
 void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
-  const std::uint64_t model = fingerprint(cases_of(processes, master.file), plan.dt, codes.interface().points);
-  plan.fingerprint = with_initial_state(model, master.file.path());
+  const std::uint64_t model = fingerprint(cases_of(processes, master), plan.dt, codes.interface().points);
+  plan.fingerprint = of_run(model, master.file);
   plan.origin = origin_of(master.file, codes.interface().points, model);
   if (master.initial_state) plan.initial = initial_state_of(*master.initial_state, master.file, plan.origin);
   const std::vector<std::string> notices = notices_of(codes, plan);

@@ -108,11 +108,21 @@ Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   Checkpoint checkpoint = newest_in(output);
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
-        "{}: is a checkpoint of another case, step or mesh; give the case as it was, or start anew without --resume, "
+        "{}: is a checkpoint of another case, step, mesh or code; give the case as it was, or start anew without "
+        "--resume, "
         "or let the case begin with that state (initial_state)",
         (output / "checkpoint").string());
   check_has_states(checkpoint, output);
   return checkpoint;
+}
+
+std::optional<Checkpoint> checkpoint_before(const fs::path& output, std::uint64_t fingerprint) {
+  try {
+    Checkpoint before = read_folder(output / "checkpoint.previous");
+    if (before.fingerprint == fingerprint && before.without_state.empty()) return before;
+  } catch (const InputError&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace tether

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "fsi_master/statistics.hpp"
@@ -41,6 +42,8 @@ void write_checkpoint(const std::filesystem::path& output, const Checkpoint& che
 /// The newest whole checkpoint in OUTPUT, or the one before if that is damaged. Throws InputError: none, both damaged,
 /// of another case, step or mesh (fingerprint), or without a code's state.
 Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
+/// The one before the newest, if it is whole and of this case.
+std::optional<Checkpoint> checkpoint_before(const std::filesystem::path& output, std::uint64_t fingerprint);
 /// The newest of any case. Throws InputError also if it is damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& output);
 

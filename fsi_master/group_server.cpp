@@ -7,6 +7,7 @@
 #include "common/base/process.hpp"
 #include "fsi_master/run_guide.hpp"
 #include "fsi_master/summary.hpp"
+#include "fsi_master/untold.hpp"
 
 namespace tether {
 namespace {
@@ -100,6 +101,9 @@ protocol::Hello GroupServer::hello() const {
     for (const protocol::ObservableInfo& info : of_partner.observables)
       hello.observables.push_back({partner.role() + "." + info.name, info.unit});
   }
+  cases.push_back(untold_json(*master_, codes_->processes()));
+  if (const OutputCase& output = master_->file.common().output; !output.points.empty())
+    cases.push_back(followed_json(output));
   if (plan_.velocity_points.cols() > 0) cases.push_back(recorded_points(plan_.velocity_points));
   if (plan_.initial) {
     cases.push_back(begun_from(plan_.initial->snapshot));

@@ -63,7 +63,7 @@ void Simulation::begin() {
     record_fields(plan_.start);
     return write_files(0);
   }
-  const Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
+  const Checkpoint checkpoint = taken_up();
   if (!checkpoint.refused.empty())
     fmt::print(stderr, "{}: the run goes on from the checkpoint before, step {}\n", checkpoint.refused,
                checkpoint.step);
@@ -73,9 +73,26 @@ void Simulation::begin() {
   coupled_otherwise_ = checkpoint.coupling != plan_.coupling;
   saved_step_ = first_step_ = checkpoint.step;
   plan_.last_step = std::max(plan_.last_step, first_step_);
-  series_.resume(checkpoint.step);
-  motion_.resume(checkpoint.step + 1);
-  if (velocity_) velocity_->resume(checkpoint.step + 1);
+}
+
+Checkpoint Simulation::taken_up() {
+  const auto take_up_tables = [&](std::int64_t step) {
+    series_.resume(step);
+    motion_.resume(step + 1);
+    if (velocity_) velocity_->resume(step + 1);
+  };
+  Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
+  try {
+    take_up_tables(checkpoint.step);
+  } catch (const InputError& error) {
+    std::optional<Checkpoint> before;
+    if (checkpoint.refused.empty()) before = checkpoint_before(plan_.output, plan_.fingerprint);
+    if (!before) throw input_error("{}: start anew without --resume", error.what());
+    take_up_tables(before->step);
+    checkpoint = std::move(*before);
+    checkpoint.refused = error.what();
+  }
+  return checkpoint;
 }
 
 void Simulation::advance(std::int64_t step) {
@@ -203,6 +220,9 @@ void Simulation::save(std::int64_t step) {
   const std::string coupling = coupled_otherwise_ ? "several" : plan_.coupling;
   StateOrigin origin = plan_.origin;
   origin.time = plan_.time_at(step);
+  series_.flush();
+  motion_.flush();
+  if (velocity_) velocity_->flush();
   write_checkpoint(plan_.output,
                    {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling, origin});
   saved_step_ = step;

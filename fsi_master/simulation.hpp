@@ -86,6 +86,8 @@ class Simulation {
   void note_fluid(const std::vector<double>& observables);
   void write_files(std::int64_t step);
   void save(std::int64_t step);
+  /// The newest checkpoint that the tables reach, which go on behind it.
+  Checkpoint taken_up();
   /// Adds what the processes have cost since the last time.
   void count_costs(bool of_steps);
   /// For a person whose run has ended early.

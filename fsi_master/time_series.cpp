@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 
 namespace tether {
@@ -48,19 +49,15 @@ void TimeSeries::resume(std::int64_t rows) {
   std::ifstream old(path_);
   std::string line, kept;
   if (!std::getline(old, line) || line != headings())
-    throw input_error(
-        "{}: is not the table that the checkpoint belongs to (other headings, or no file): start anew without "
-        "--resume",
-        path_.string());
+    throw input_error("{}: is not the table that the checkpoint belongs to (other headings, or no file)",
+                      path_.string());
   kept = line + "\n";
   for (std::int64_t row = 0; row < rows; ++row) {
-    if (!std::getline(old, line))
-      throw input_error("{}: has {} rows, the checkpoint {}: start anew without --resume", path_.string(), row, rows);
+    if (!std::getline(old, line)) throw input_error("{}: has {} rows, the checkpoint {}", path_.string(), row, rows);
     kept += line + "\n";
   }
-  old.close();
-  open(std::ios::trunc);
-  file_ << kept << std::flush;
+  write_whole(path_, kept);
+  open(std::ios::app);
 }
 
 void TimeSeries::append(const std::vector<double>& values) {

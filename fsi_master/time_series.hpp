@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/units.hpp"
 
 namespace tether {
@@ -24,10 +25,12 @@ class TimeSeries {
   /// A new file with its headings.
   void start();
   /// Goes on behind the first `rows` rows of the file; later ones are dropped. Throws InputError if the file has other
-  /// headings or fewer rows.
+  /// headings or fewer rows; it is as it was then.
   void resume(std::int64_t rows);
-  /// On the disk when this returns. Throws RunError if it cannot be written.
+  /// To be read by others when this returns. Throws RunError if it cannot be written.
   void append(const std::vector<double>& values);
+  /// To the disk: what a checkpoint counts on must outlast a loss of power. Throws RunError.
+  void flush() const { flush_to_disk(path_); }
 
  private:
   struct Copy {

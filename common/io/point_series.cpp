@@ -58,11 +58,10 @@ void PointSeriesWriter::start() {
 }
 
 void PointSeriesWriter::resume(std::int64_t records) {
-  const PointSeries found(kind_, path_);
+  const PointSeries found(kind_, path_, records);
   if (found.points() != points_) throw input_error("{}: is the {} of another case", path_.string(), kind_.what);
   if (static_cast<std::int64_t>(found.times().size()) < records)
-    throw input_error("{}: has {} records; the run to resume made {}: start anew without --resume", path_.string(),
-                      found.times().size(), records);
+    throw input_error("{}: has {} records; the run to resume made {}", path_.string(), found.times().size(), records);
   checksum_ = found.checksum_after(records);
   std::filesystem::resize_file(
       path_, header_size(kind_, points_.cols()) + static_cast<std::uintmax_t>(records) * record_size(points_.cols()));
@@ -80,14 +79,15 @@ void PointSeriesWriter::append(double time, const Points& vectors) {
   if (!file_) throw write_error(path_);
 }
 
-PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path) : path_(path) {
+PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path, std::int64_t most)
+    : path_(path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw input_error("{}: no such file", path.string());
   std::string found(first_line(kind).size(), ' ');
   std::int64_t count = 0;
-  const auto most = static_cast<std::int64_t>(std::filesystem::file_size(path) / (3 * sizeof(double)));
+  const auto fitting = static_cast<std::int64_t>(std::filesystem::file_size(path) / (3 * sizeof(double)));
   if (!get(file, found.data(), found.size()) || found != first_line(kind) || !get(file, &count, 1) || count <= 0 ||
-      count > most || header_size(kind, count) > std::filesystem::file_size(path))
+      count > fitting || header_size(kind, count) > std::filesystem::file_size(path))
     throw input_error("{}: is not the {}", path.string(), kind.what);
   points_.resize(3, count);
   get(file, points_.data(), static_cast<std::size_t>(points_.size()));
@@ -97,7 +97,8 @@ PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::pat
   if (stated != checksums_.back()) throw input_error("{}: its points are damaged (checksum)", path.string());
   std::vector<float> record(static_cast<std::size_t>(points_.size()));
   double time = 0;
-  while (get(file, &time, 1) && get(file, record.data(), record.size()) && get(file, &stated, 1)) {
+  while (static_cast<std::int64_t>(times_.size()) < most && get(file, &time, 1) &&
+         get(file, record.data(), record.size()) && get(file, &stated, 1)) {
     checksums_.push_back(checksum_of(time, record.data(), record.size(), checksums_.back()));
     if (stated != checksums_.back())
       throw input_error("{}: record {} is damaged (checksum)", path.string(), times_.size());

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/types.hpp"
 
 /// A vector at each of some points over a run: after a line of text that says what it is, the number of points and
@@ -25,11 +27,13 @@ class PointSeriesWriter {
 
   /// A new file.
   void start();
-  /// Goes on behind the first `records` records of the file; later ones are dropped. Throws InputError if the file is
-  /// of other points, has fewer or is damaged.
+  /// Goes on behind the first `records` records of the file; later ones are dropped, damaged or not. Throws InputError
+  /// if the file is of other points, has fewer or these are damaged; it is as it was then.
   void resume(std::int64_t records);
-  /// On the disk when this returns. Throws RunError if it cannot be written.
+  /// To be read by others when this returns. Throws RunError if it cannot be written.
   void append(double time, const Points& vectors);
+  /// To the disk: what a checkpoint counts on must outlast a loss of power. Throws RunError.
+  void flush() const { flush_to_disk(path_); }
   const Points& points() const { return points_; }
 
  private:
@@ -43,8 +47,11 @@ class PointSeriesWriter {
 /// Such a file, read back.
 class PointSeries {
  public:
-  /// Throws InputError for a file that is none, or damaged. What a run that was killed has half written is no record.
-  PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path);
+  static constexpr auto all_records = std::numeric_limits<std::int64_t>::max();
+
+  /// Of at most so many records. Throws InputError for a file that is none, or of which these are damaged. What a run
+  /// that was killed has half written is no record.
+  PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path, std::int64_t most = all_records);
   /// Throws InputError if the file holds fewer than the state at the start and those after so many steps: it was cut.
   void check_has(std::int64_t steps) const;
 

@@ -45,6 +45,22 @@ std::string first_difference(const YamlNode& one, const YamlNode& other) {
   return {};
 }
 
+const YamlNode* points_of(const YamlNode& tree) {
+  const YamlNode* output = tree.find("output");
+  return output == nullptr ? nullptr : output->find("points");
+}
+
+/// The first point that is followed and was not, or elsewhere; empty if there is none.
+std::string first_other_point(const YamlNode& now, const YamlNode& then) {
+  const YamlNode *asked = points_of(now), *followed = points_of(then);
+  if (asked == nullptr) return {};
+  for (const auto& entry : asked->entries) {
+    const YamlNode* before = followed == nullptr ? nullptr : followed->find(entry.key);
+    if (before == nullptr || !same(entry.value, *before)) return entry.key;
+  }
+  return {};
+}
+
 std::string section_of(const InputFile& input) {
   return input.field.substr(0, input.field.find('.'));
 }
@@ -76,6 +92,9 @@ std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& f
   const YamlNode now = as_one_file(read_case_tree(file.path())), then = yaml_value(summary.made_from.case_text);
   if (const std::string section = first_difference(now, then); !section.empty())
     return fmt::format("the run in {} had another '{}'", output.string(), section);
+  if (const std::string point = first_other_point(now, then); !point.empty())
+    return fmt::format("the run in {} did not follow the point '{}' of output.points, or elsewhere", output.string(),
+                       point);
   if (summary.made_from.coupled_otherwise)
     return fmt::format("the run in {} was continued with another 'coupling'", output.string());
   if (const std::string changed = first_changed_file(input_files(file.path()), summary.made_from.files, now);

@@ -55,6 +55,16 @@ TEST_F(FinishedRunTest, IsTheCaseApartFromWhatDoesNotChangeARun) {
   EXPECT_EQ(why_not(with_solid, 1), "it can") << "longer than asked for";
 }
 
+TEST_F(FinishedRunTest, FollowedThePointsOfTheCase) {
+  write_summary("case.yaml", with_solid + "output: {points: {a: [0, 0, 1], b: [0, 0, 2]}}\n");
+  EXPECT_EQ(why_not(with_solid + "output: {write_every: 3, points: {b: [0, 0, 2]}}\n"), "it can");
+  EXPECT_EQ(why_not(with_solid), "it can");
+  EXPECT_EQ(why_not(with_solid + "output: {points: {a: [0, 0, 1], b: [0, 0, 3]}}\n"),
+            said(" did not follow the point 'b' of output.points, or elsewhere"));
+  EXPECT_EQ(why_not(with_solid + "output: {points: {c: [0, 0, 1]}}\n"),
+            said(" did not follow the point 'c' of output.points, or elsewhere"));
+}
+
 TEST_F(FinishedRunTest, IsNotThatOfAnotherCase) {
   EXPECT_EQ(why_not(std::string(common) + "fluid: {flow: flow.csv}\nsolid: {young: 2, regions: [1, 2]}\n"),
             said(" had another 'solid'"));

@@ -103,7 +103,7 @@ TEST_F(Output, RefusedCheckpointsSayWhy) {
   write_checkpoint(folder, stateless);
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("the fluid (box 1) announced no state"),
             std::string::npos);
-  EXPECT_NE(error_of([&] { read_checkpoint(folder, 78); }).find("another case, step or mesh"), std::string::npos);
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 78); }).find("another case, step, mesh or code"), std::string::npos);
 }
 
 TEST_F(Output, DamagedCheckpointsAreNoticed) {

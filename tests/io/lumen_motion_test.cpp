@@ -54,7 +54,13 @@ TEST(LumenMotion, GoesOnAfterAResumeAsIfNeverStopped) {
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   EXPECT_EQ(bytes(whole.path), bytes(resumed.path));
+  std::fstream(resumed.path, std::ios::binary | std::ios::in | std::ios::out).seekp(-20, std::ios::end) << "damaged";
+  EXPECT_THROW(writer.resume(6), InputError);
+  const std::string before = bytes(resumed.path);
   EXPECT_THROW(writer.resume(7), InputError);
+  EXPECT_EQ(bytes(resumed.path), before);
+  LumenMotionWriter(resumed.path, resumed.x).resume(5);
+  EXPECT_EQ(LumenMotion(resumed.path).times().size(), 5) << "what is dropped may be damaged";
   EXPECT_THROW(LumenMotionWriter(resumed.path, imaged().array() + 1).resume(3), InputError);
 }
 

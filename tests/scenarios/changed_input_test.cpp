@@ -27,7 +27,7 @@ class ChangedInput : public ::testing::Test {
         TETHER_PROGRAM,        "simulate", case_file.string(), "--output", (folder / "out").string(), "--steps",
         std::to_string(steps), "--quiet"};
     words.insert(words.end(), options.begin(), options.end());
-    return capture({words, {}});
+    return capture({words, {{"PYTHONPATH", TETHER_SOURCE "/tools/python"}, {"PYTHONDONTWRITEBYTECODE", "1"}}});
   }
   /// Writes the inflow anew, as of an hour ago.
   void write_flow(const std::string& text) const {
@@ -44,7 +44,8 @@ TEST_F(ChangedInput, IsNoContinuation) {
   write_flow(flow + "# a remark\n");
   const ChildEnd refused = simulate(4, {"--resume"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("is a checkpoint of another case, step or mesh"), std::string::npos) << refused.errors;
+  EXPECT_NE(refused.errors.find("is a checkpoint of another case, step, mesh or code"), std::string::npos)
+      << refused.errors;
   write_flow(flow);
   const ChildEnd resumed = simulate(4, {"--resume"});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
@@ -60,6 +61,46 @@ TEST_F(ChangedInput, LeavesNoComparisonOfTheRunBefore) {
   EXPECT_FALSE(fs::exists(folder / "out/plots/comparison_ct.png"));
   EXPECT_TRUE(fs::exists(folder / "out/plots/estimate.png"));
   EXPECT_TRUE(fs::exists(folder / "out/estimate.json"));
+}
+
+TEST_F(ChangedInput, IsAnotherPlaceOfAPoint) {
+  const std::string base = case_file.string();
+  case_file = folder / "case/followed.yaml";
+  const auto follow = [&](const char* place) {
+    folder.file("case/followed.yaml",
+                fmt::format("base: {}\nname: followed\noutput: {{points: {{p: {}}}}}\n", base, place));
+  };
+  follow("[-2, 0, 5]");
+  ASSERT_EQ(simulate(2).exit_code, 0);
+  follow("[2, 0, 5]");
+  EXPECT_EQ(simulate(4, {"--resume"}).exit_code, 2);
+  follow("[-2, 0, 5]");
+  EXPECT_EQ(simulate(4, {"--resume"}).exit_code, 0);
+}
+
+/// A wall of somebody else's, which tells nothing of what it reads.
+TEST_F(ChangedInput, IsWhatACodeOfSomebodyElseReads) {
+  const fs::path examples = fs::path(TETHER_SOURCE) / "docs/examples";
+  std::string code = content_of(examples / "ring_solid.py"), text = content_of(examples / "ring_tube.yaml");
+  text.replace(text.find("../../configs"), 13, TETHER_SOURCE "/configs");
+  text += "output: {checkpoint_every: 1}\nmesh: {swept: {around: 12, along: 8}}\n";
+  const auto replaced = [](std::string in, const std::string& what, const std::string& by) {
+    EXPECT_NE(in.find(what), std::string::npos);
+    return in.replace(in.find(what), what.size(), by);
+  };
+  const auto write = [&](const std::string& program, const std::string& of_case) {
+    fs::permissions(folder.file("case/ring_solid.py", program), fs::perms::owner_all);
+    case_file = folder.file("case/case.yaml", of_case);
+  };
+  write(code, text);
+  ASSERT_EQ(simulate(1).exit_code, 0);
+  write(code, replaced(text, "stiffness: 1e5", "stiffness: 2e5"));
+  EXPECT_NE(simulate(2, {"--resume"}).errors.find("is a checkpoint of another case"), std::string::npos);
+  write(replaced(code, "/ 6", "/ 5"), text);
+  EXPECT_NE(simulate(2, {"--resume"}).errors.find("mesh or code"), std::string::npos);
+  write(code, replaced(text, "title: Straight", "title: Another"));
+  const ChildEnd resumed = simulate(2, {"--resume"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
 }
 
 TEST_F(ChangedInput, TwoRunsDoNotShareAFolder) {

@@ -138,6 +138,31 @@ TEST_F(ResumedRun, WritesADamagedRestStateAnew) {
   EXPECT_EQ(nlohmann::json::parse(again), nlohmann::json::parse(first));
 }
 
+/// What a loss of power may leave, or a flipped bit: the newest checkpoint is further than the tables.
+TEST_F(ResumedRun, GoesOnFromTheCheckpointThatItsTablesReach) {
+  ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
+  ASSERT_EQ(simulate("stopped", 6).exit_code, 0);
+  const fs::path motion = folder / "stopped/lumen.motion", table = folder / "stopped/timeseries.csv";
+  fs::copy(folder / "stopped", folder / "fewer_rows", fs::copy_options::recursive);
+  const std::string rows = content_of(table);
+  fs::resize_file(folder / "fewer_rows/timeseries.csv", rows.rfind('\n', rows.size() - 2) + 1);
+  fs::resize_file(motion, fs::file_size(motion) - 1);
+  for (const auto& [name, told] : {std::pair("stopped", "lumen.motion: has 6 records; the run to resume made 7"),
+                                   {"fewer_rows", "timeseries.csv: has 5 rows, the checkpoint 6"}}) {
+    const ChildEnd end = simulate(name, all_steps, {"--resume"});
+    ASSERT_EQ(end.exit_code, 0) << end.errors;
+    EXPECT_NE(end.errors.find(std::string(told) + ": the run goes on from the checkpoint before, step 4"),
+              std::string::npos)
+        << end.errors;
+    expect_same_results("whole", name);
+  }
+  fs::remove_all(folder / "stopped/checkpoint.previous");
+  fs::resize_file(motion, fs::file_size(motion) - 1);
+  const ChildEnd refused = simulate("stopped", all_steps + 1, {"--resume"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("start anew without --resume"), std::string::npos) << refused.errors;
+}
+
 INSTANTIATE_TEST_SUITE_P(Coupling, Resume, ::testing::Values("newton_krylov", "iqn_ils", "observed"),
                          [](const auto& info) { return std::string(info.param); });
 
