@@ -49,21 +49,24 @@ Checkpoint read_folder(const fs::path& folder) {
   return c;
 }
 
+constexpr const char *newest = "checkpoint", *before = "checkpoint.previous";
+constexpr const char* fresh = "checkpoint.new";  ///< not put in its place yet; whole if the run was killed just then
+
 /// The newest that is whole.
 Checkpoint newest_in(const fs::path& output) {
-  const fs::path newest = output / "checkpoint", before = output / "checkpoint.previous";
-  if (!fs::exists(newest) && !fs::exists(before))
-    throw input_error("{}: holds no checkpoint to resume from", output.string());
-  if (!fs::exists(newest)) return read_folder(before);  // stopped between the two renames
-  try {
-    return read_folder(newest);
-  } catch (const InputError& error) {
-    if (!fs::exists(before))
-      throw input_error("{}; there is none before it: start anew without --resume", error.what());
-    Checkpoint checkpoint = read_folder(before);
-    checkpoint.refused = error.what();
-    return checkpoint;
+  std::string damage;
+  for (const char* name : {fresh, newest, before}) {
+    if (!fs::exists(output / name)) continue;
+    try {
+      Checkpoint checkpoint = read_folder(output / name);
+      checkpoint.refused = damage;
+      return checkpoint;
+    } catch (const InputError& error) {
+      if (name != fresh && damage.empty()) damage = error.what();
+    }
   }
+  if (damage.empty()) throw input_error("{}: holds no checkpoint to resume from", output.string());
+  throw input_error("{}; there is none before it: start anew without --resume", damage);
 }
 
 void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
@@ -75,25 +78,24 @@ void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
 }  // namespace
 
 void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
-  const fs::path current = output / "checkpoint", fresh = output / "checkpoint.new",
-                 previous = output / "checkpoint.previous";
+  const fs::path current = output / newest, next = output / fresh, previous = output / before;
   std::vector<double> numbers;
   RunStatistics statistics = checkpoint.statistics;
   statistics.numbers([&](double& value) { numbers.push_back(value); });
   const Snapshot& s = checkpoint.snapshot;
-  fs::remove_all(fresh);
-  make_folder(fresh);
+  fs::remove_all(next);
+  make_folder(next);
   const auto write = [&](const char* name, const Bytes& bytes) {
-    write_checked(fresh / name, checkpoint.fingerprint, checkpoint.step, bytes);
+    write_checked(next / name, checkpoint.fingerprint, checkpoint.step, bytes);
   };
   write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state,
                              checkpoint.coupling, checkpoint.origin));
   write("fluid.bin", packed(s.fluid));
   write("solid.bin", packed(s.solid));
-  flush_to_disk(fresh);
+  flush_to_disk(next);
   fs::remove_all(previous);
   if (fs::exists(current)) fs::rename(current, previous);
-  fs::rename(fresh, current);
+  fs::rename(next, current);
   flush_to_disk(output);
 }
 
@@ -116,12 +118,12 @@ Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   return checkpoint;
 }
 
-std::optional<Checkpoint> checkpoint_before(const fs::path& output, std::uint64_t fingerprint) {
-  try {
-    Checkpoint before = read_folder(output / "checkpoint.previous");
-    if (before.fingerprint == fingerprint && before.without_state.empty()) return before;
-  } catch (const InputError&) {
-  }
+std::optional<Checkpoint> checkpoint_before(const fs::path& output, const Checkpoint& later) {
+  for (const char* name : {newest, before}) try {
+      Checkpoint earlier = read_folder(output / name);
+      if (earlier.step < later.step && earlier.fingerprint == later.fingerprint) return earlier;
+    } catch (const InputError&) {
+    }
   return std::nullopt;
 }
 

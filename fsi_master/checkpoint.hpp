@@ -36,14 +36,15 @@ struct Checkpoint {
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed
-/// to the disk and renamed; the one before stays as checkpoint.previous. Throws RunError if the disk refuses.
+/// to the disk and renamed; the one before stays as checkpoint.previous. At each moment a whole one is there. Throws
+/// RunError if the disk refuses.
 void write_checkpoint(const std::filesystem::path& output, const Checkpoint& checkpoint);
 
 /// The newest whole checkpoint in OUTPUT, or the one before if that is damaged. Throws InputError: none, both damaged,
 /// of another case, step or mesh (fingerprint), or without a code's state.
 Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
-/// The one before the newest, if it is whole and of this case.
-std::optional<Checkpoint> checkpoint_before(const std::filesystem::path& output, std::uint64_t fingerprint);
+/// The newest before that one, of the same case and whole; nothing if there is none.
+std::optional<Checkpoint> checkpoint_before(const std::filesystem::path& output, const Checkpoint& later);
 /// The newest of any case. Throws InputError also if it is damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& output);
 

@@ -85,8 +85,7 @@ Checkpoint Simulation::taken_up() {
   try {
     take_up_tables(checkpoint.step);
   } catch (const InputError& error) {
-    std::optional<Checkpoint> before;
-    if (checkpoint.refused.empty()) before = checkpoint_before(plan_.output, plan_.fingerprint);
+    std::optional<Checkpoint> before = checkpoint_before(plan_.output, checkpoint);
     if (!before) throw input_error("{}: start anew without --resume", error.what());
     take_up_tables(before->step);
     checkpoint = std::move(*before);

@@ -36,7 +36,7 @@ std::string TimeSeries::headings() const {
 }
 
 void TimeSeries::open(std::ios::openmode mode) {
-  file_.open(path_, mode);
+  file_ = std::ofstream(path_, mode);
   if (!file_) throw write_error(path_);
 }
 

@@ -81,6 +81,10 @@ fs::path newest_in(const fs::path& folder) {
 fs::path before_in(const fs::path& folder) {
   return folder / "identification.previous";
 }
+/// Not put in its place yet; whole if the identification was killed just then.
+fs::path fresh_in(const fs::path& folder) {
+  return folder / "identification.new";
+}
 
 IdentificationCheckpoint unpacked(const CheckedContent& content) {
   IdentificationCheckpoint checkpoint;
@@ -117,17 +121,20 @@ std::pair<std::uint64_t, IdentificationCheckpoint> read_file(const fs::path& pat
 
 /// The newest that is whole, and the fingerprint of its case.
 std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::path& folder) {
-  const fs::path newest = newest_in(folder), before = before_in(folder);
-  if (!fs::exists(newest)) return read_file(before);  // stopped between the two renames
-  try {
-    return read_file(newest);
-  } catch (const InputError& error) {
-    if (!fs::exists(before))
-      throw input_error("{}; there is none before it: start anew without --resume", error.what());
-    auto found = read_file(before);
-    found.second.refused = error.what();
-    return found;
+  std::string damage;
+  for (const fs::path& file : {fresh_in(folder), newest_in(folder), before_in(folder)}) {
+    if (!fs::exists(file)) continue;
+    try {
+      auto found = read_file(file);
+      found.second.refused = damage;
+      return found;
+    } catch (const InputError& error) {
+      if (file != fresh_in(folder) && damage.empty()) damage = error.what();
+    }
   }
+  if (damage.empty())
+    throw input_error("{}: holds no checkpoint of an identification to resume from", folder.parent_path().string());
+  throw input_error("{}; there is none before it: start anew without --resume", damage);
 }
 
 }  // namespace
@@ -143,7 +150,7 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
          PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),
          std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
                              static_cast<double>(cost.moved_values)});
-  const fs::path folder = output / "checkpoint", fresh = folder / "identification.new";
+  const fs::path folder = output / "checkpoint", fresh = fresh_in(folder);
   make_folder(folder);
   write_checked(fresh, fingerprint, state.step, writer.take());
   if (const fs::path newest = newest_in(folder); fs::exists(newest)) fs::rename(newest, before_in(folder));
@@ -153,8 +160,6 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
 
 IdentificationCheckpoint read_identification_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   const fs::path folder = output / "checkpoint";
-  if (!fs::exists(newest_in(folder)) && !fs::exists(before_in(folder)))
-    throw input_error("{}: holds no checkpoint of an identification to resume from", output.string());
   auto [of_case, checkpoint] = newest_whole_in(folder);
   if (of_case != fingerprint)
     throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",

@@ -11,7 +11,7 @@ namespace tether {
 std::optional<MadeRun> made_run_in(const std::filesystem::path& folder);
 
 /// Writes that record.
-void write_made_run(const std::filesystem::path& folder, const MadeRun& run);
+void write_made_run(const std::filesystem::path& folder, MadeRun run);
 
 /// A folder of runs that several diagnoses share, each under a name that is made of all it depends on. A run comes in
 /// as a whole (one rename) and is not changed from then on, so that any number of processes may use the folder at once;

@@ -16,11 +16,16 @@ namespace {
 /// At the beginning of each file; all members are 8 bytes.
 struct Header {
   std::array<char, 8> magic{'T', 'E', 'T', 'H', 'E', 'R', 'C', 'P'};
-  std::uint64_t version = 6;
+  std::uint64_t version = 7;
   std::uint64_t fingerprint = 0;
   std::int64_t step = 0;
-  std::uint64_t size = 0, checksum = 0;  ///< of the bytes that follow
+  std::uint64_t size = 0;      ///< of the bytes that follow
+  std::uint64_t checksum = 0;  ///< of these, and of what stands before it
 };
+
+std::uint64_t checksum_of(const Header& header, std::span<const std::byte> bytes) {
+  return hash_bytes(bytes.data(), bytes.size(), hash_bytes(&header, offsetof(Header, checksum)));
+}
 
 }  // namespace
 
@@ -45,10 +50,8 @@ void flush_to_disk(const std::filesystem::path& path) {
 
 void write_checked(const std::filesystem::path& path, std::uint64_t fingerprint, std::int64_t step,
                    std::span<const std::byte> bytes) {
-  const Header header{.fingerprint = fingerprint,
-                      .step = step,
-                      .size = bytes.size(),
-                      .checksum = hash_bytes(bytes.data(), bytes.size())};
+  Header header{.fingerprint = fingerprint, .step = step, .size = bytes.size()};
+  header.checksum = checksum_of(header, bytes);
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -68,7 +71,7 @@ CheckedContent read_checked(const std::filesystem::path& path) {
     throw input_error("{}: is cut short", path.string());
   CheckedContent content{header.fingerprint, header.step, std::vector<std::byte>(header.size)};
   file.read(reinterpret_cast<char*>(content.bytes.data()), static_cast<std::streamsize>(content.bytes.size()));
-  if (!file || hash_bytes(content.bytes.data(), content.bytes.size()) != header.checksum)
+  if (!file || checksum_of(header, content.bytes) != header.checksum)
     throw input_error("{}: is damaged (checksum)", path.string());
   return content;
 }

@@ -130,14 +130,18 @@ void forward(int signal) {
   if (foreground_child > 0) kill(foreground_child, signal);
 }
 
-/// While this lives, the signals that end a program go to the child.
+/// While this lives, the signals that end a program go to the child; that of a terminal that is closed does not where
+/// it is ignored (nohup).
 class Forwarding {
  public:
   Forwarding() {
     handed_on = 0;
     struct sigaction action {};
     action.sa_handler = forward;
-    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &before_[i]);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+      sigaction(signals[i], &action, &before_[i]);
+      if (signals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+    }
   }
   ~Forwarding() {
     foreground_child = 0;
@@ -185,13 +189,15 @@ ForegroundEnd run_in_foreground(const Command& command) {
   const Forwarding forwarding;
   const pid_t pid = start(command, detach_from_terminal);
   foreground_child = pid;
-  const StoppedChildren children(pid, command.words.front());
+  const StoppedChildren children(pid, command.words.front(), [] { return handed_on != 0; });
   const int status = end_of(pid, command.words.front());
   return {exit_code_in(status), WIFSIGNALED(status), handed_on, children.were_killed()};
 }
 
 RunningProgram::RunningProgram(const Command& command)
-    : name_(command.words.front()), pid_(start(command, detach_from_terminal)), children_(pid_, name_) {}
+    : name_(command.words.front()),
+      pid_(start(command, detach_from_terminal)),
+      children_(pid_, name_, [] { return false; }) {}
 
 RunningProgram::~RunningProgram() {
   if (exit_code()) return;

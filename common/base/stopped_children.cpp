@@ -28,8 +28,11 @@ bool are_all_stopped(const std::vector<pid_t>& processes) {
 
 }  // namespace
 
-StoppedChildren::StoppedChildren(pid_t program, std::string name)
-    : program_(program), name_(std::move(name)), thread_([this] { look_now_and_then(); }) {}
+StoppedChildren::StoppedChildren(pid_t program, std::string name, std::function<bool()> is_to_end)
+    : program_(program),
+      name_(std::move(name)),
+      is_to_end_(std::move(is_to_end)),
+      thread_([this] { look_now_and_then(); }) {}
 
 StoppedChildren::~StoppedChildren() {
   {
@@ -42,14 +45,17 @@ StoppedChildren::~StoppedChildren() {
 
 void StoppedChildren::look_now_and_then() {
   constexpr std::chrono::seconds between_looks{1};
-  constexpr double soon = 2;  // one that is stopped and let go on at once is no matter
-  double stopped = 0;
+  constexpr double soon = 2;        // one that is stopped and let go on at once is no matter
+  constexpr double long_alone = 3;  // its programs have ended: nothing is left to wait for
+  double stopped = 0, alone = 0;
   bool is_told = false;
   std::unique_lock lock(mutex_);
   while (!ended_.wait_for(lock, between_looks, [this] { return is_over_; })) {
     const std::vector<pid_t> children = children_of(program_);
     stopped = are_all_stopped(children) ? stopped + between_looks.count() : 0;
     if (stopped == 0) is_told = false;
+    alone = children.empty() && is_to_end_() ? alone + between_looks.count() : 0;
+    if (alone >= long_alone) return void(kill(program_, SIGKILL));
     if (stopped >= soon && !is_told) {
       fmt::print(
           stderr,

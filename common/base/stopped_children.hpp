@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -11,10 +12,13 @@
 namespace tether {
 
 /// While this lives, a thread looks after a program that runs others (mpirun): processes watch each other, but not when
-/// all of them are stopped. That is told on stderr; when it lasts longer than `stopped_limit`, they are killed.
+/// all of them are stopped. That is told on stderr; when it lasts longer than `stopped_limit`, they are killed. So is
+/// the program itself where it was told to end, and all that it ran have, but it does not: it writes into a pipe that
+/// nobody empties.
 class StoppedChildren {
  public:
-  StoppedChildren(pid_t program, std::string name);
+  /// is_to_end: whether the program was told to end.
+  StoppedChildren(pid_t program, std::string name, std::function<bool()> is_to_end);
   ~StoppedChildren();
   StoppedChildren(const StoppedChildren&) = delete;
   StoppedChildren& operator=(const StoppedChildren&) = delete;
@@ -26,6 +30,7 @@ class StoppedChildren {
 
   pid_t program_;
   std::string name_;
+  std::function<bool()> is_to_end_;
   std::atomic<bool> were_killed_ = false;
   std::mutex mutex_;
   std::condition_variable ended_;

@@ -48,7 +48,7 @@ PointSeriesWriter::PointSeriesWriter(PointSeriesKind kind, std::filesystem::path
     : kind_(std::move(kind)), path_(std::move(path)), points_(std::move(points)) {}
 
 void PointSeriesWriter::start() {
-  file_.open(path_, std::ios::binary | std::ios::trunc);
+  file_ = std::ofstream(path_, std::ios::binary | std::ios::trunc);
   file_ << first_line(kind_);
   const std::int64_t count = points_.cols();
   put(file_, &count, 1);
@@ -65,7 +65,7 @@ void PointSeriesWriter::resume(std::int64_t records) {
   checksum_ = found.checksum_after(records);
   std::filesystem::resize_file(
       path_, header_size(kind_, points_.cols()) + static_cast<std::uintmax_t>(records) * record_size(points_.cols()));
-  file_.open(path_, std::ios::binary | std::ios::app);
+  file_ = std::ofstream(path_, std::ios::binary | std::ios::app);
 }
 
 void PointSeriesWriter::append(double time, const Points& vectors) {

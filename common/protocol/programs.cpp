@@ -1,5 +1,6 @@
 #include "common/protocol/programs.hpp"
 
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <iostream>
 #include <string_view>
 
+#include "common/base/circumstances.hpp"
 #include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
@@ -90,9 +92,28 @@ NoteOfFailure& note_of_failure() {
   return note;
 }
 
+/// Where Open MPI keeps its files of a run on this machine: gone with this process, while an mpirun that is killed
+/// leaves 57 MB in TMPDIR. The user's own place stands.
+void add_session_folder(Command& run) {
+  constexpr const char* variable = "OMPI_MCA_orte_tmpdir_base";
+  if (std::getenv(variable) != nullptr || !protocol::nodes_of_job().empty()) return;
+  static const ScratchFolder folder("tether_mpi");
+  run.environment.emplace_back(variable, folder.path().string());
+}
+
+/// The folder of the results; nothing where the case, which says it, cannot be read any more.
+std::filesystem::path known_output(const CommandLine& command) {
+  try {
+    return command.output.empty() ? output_of(command, CaseFile(command.case_file)) : command.output;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// How to go on from the last state saved; nothing if there is none.
 std::string way_on(const char* verb, const CommandLine& command) {
-  const std::filesystem::path output = output_of(command, CaseFile(command.case_file));
+  const std::filesystem::path output = known_output(command);
+  if (output.empty()) return {};
   const auto is_saved = [&](const char* folder) {
     std::error_code error;
     const std::filesystem::directory_iterator files(output / folder, error);
@@ -109,12 +130,19 @@ std::string lost_nodes() {
   return fmt::to_string(fmt::join(protocol::silent_nodes(protocol::nodes_of_job(), patience), ", "));
 }
 
+/// Whether what this process writes is lost: its reader has left (`| head`).
+bool is_output_closed() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
 /// Of a run of which no program said a word. Beyond the signals stand mpirun's own numbers.
 std::string how_it_failed(const ForegroundEnd& end, const std::string& master) {
   if (end.exit_code >= 128 + NSIG)
     return fmt::format("mpirun broke off ({}): a node of the job was lost, or the job was ended from outside",
                        end.exit_code);
   const std::string how = fmt::format("{} {}", end.was_killed ? "mpirun" : master.c_str(), how_it_ended(end.exit_code));
+  if (is_output_closed()) return "nobody reads what the run says any more (a pipe whose reader has ended)";
   if (end.exit_code == 128 + SIGKILL) return how + ": out of memory?";
   return end.exit_code > 128 ? how : how + " and without a word: was mpirun interrupted?";
 }
@@ -128,11 +156,13 @@ std::filesystem::path sibling(const std::string& name) {
 }
 
 Command parallel_run(const std::string& master, const CommandLine& command) {
+  check_circumstances();
   Command run{{"mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n",
                "1", sibling(master).string(), command.case_file.string()},
               {}};
   add_options(run.words, command);
   add_nodes(run);
+  add_session_folder(run);
   add_terminal(run.environment);
   note_of_failure().take();
   run.environment.emplace_back(protocol::told_variable, note_of_failure().path());

@@ -129,6 +129,37 @@ TEST_F(Output, TheCheckpointBeforeIsTakenIfTheNewestIsDamaged) {
   EXPECT_EQ(read_checkpoint(folder, 77).refused, "");
 }
 
+/// A bit of any byte: version, case, step, size and checksum stand in the first 48.
+TEST_F(Output, NoByteOfACheckpointsHeaderCanBeAnother) {
+  write_checkpoint(folder, some_checkpoint(7));
+  write_checkpoint(folder, some_checkpoint(8));
+  const fs::path file = folder / "checkpoint/master.bin";
+  const std::string whole = content("checkpoint/master.bin");
+  for (std::size_t i = 0; i < 48; ++i) {
+    std::string flipped = whole;
+    flipped[i] = static_cast<char>(flipped[i] ^ 0x10);
+    std::ofstream(file, std::ios::binary) << flipped;
+    const Checkpoint taken = read_checkpoint(folder, 77);
+    EXPECT_EQ(taken.step, 7) << "byte " << i;
+    EXPECT_NE(taken.refused.find("checkpoint/master.bin: "), std::string::npos) << taken.refused;
+  }
+}
+
+TEST_F(Output, ACheckpointThatWasNotPutInItsPlaceIsTaken) {
+  const auto damage = [&](const char* name) {
+    fs::resize_file(folder / name / "solid.bin", fs::file_size(folder / name / "solid.bin") - 3);
+  };
+  write_checkpoint(folder, some_checkpoint(9));
+  fs::rename(folder / "checkpoint", folder / "checkpoint.new");
+  fs::create_directory(folder / "other");
+  write_checkpoint(folder / "other", some_checkpoint(8));
+  fs::rename(folder / "other/checkpoint", folder / "checkpoint");
+  damage("checkpoint");  // and the one before it had to make room: killed just then
+  EXPECT_EQ(read_checkpoint(folder, 77).step, 9);
+  damage("checkpoint.new");
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("there is none before it"), std::string::npos);
+}
+
 TEST(Fingerprint, CountsPhysicsAndMeshButNotWhereAndHowLong) {
   const auto of = [](const std::string& text, double x = 1) {
     return fingerprint({text}, 0.1, Points::Constant(3, 2, x));

@@ -354,6 +354,9 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
   std::filesystem::remove(newest);
   std::filesystem::resize_file(folder / "checkpoint/identification.previous", 9);
   EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError);
+  write_checkpoint(folder.path(), 7, state, {}, {});
+  std::filesystem::rename(newest, folder / "checkpoint/identification.new");
+  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1) << "killed between the two renames";
 }
 
 TEST(Observations, TheirContentNamesWhatWasMeasured) {

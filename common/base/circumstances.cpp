@@ -1,0 +1,48 @@
+#include "common/base/circumstances.hpp"
+
+#include <sys/resource.h>
+
+#include <array>
+
+#include "common/base/error.hpp"
+#include "common/base/temporary_folder.hpp"
+
+namespace tether {
+namespace {
+
+constexpr double mb = 1e6;
+constexpr double needed_space = 4 * mb;  // what Open MPI keeps in TMPDIR for a run of some processes
+
+struct Need {
+  __rlimit_resource of;
+  double least;  ///< measured with Open MPI 4.1: below it mpirun or a program does not begin
+  const char* what;
+  double unit;
+  const char* unit_name;
+  const char* option;
+};
+constexpr std::array needs{Need{RLIMIT_NOFILE, 40, "may be open at once", 1, "files", "-n"},
+                           Need{RLIMIT_AS, 400 * mb, "may be taken by a program", mb, "MB of memory", "-v"},
+                           Need{RLIMIT_FSIZE, mb, "may be in a file", mb, "MB", "-f"}};
+
+void check(const Need& need) {
+  rlimit limit{};
+  if (getrlimit(need.of, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  if (const auto given = static_cast<double>(limit.rlim_cur); given < need.least)
+    throw run_error("only {:.3g} {} {} (ulimit {}): at least {:.3g} are needed", given / need.unit, need.unit_name,
+                    need.what, need.option, need.least / need.unit);
+}
+
+}  // namespace
+
+void check_circumstances() {
+  for (const Need& need : needs) check(need);
+  std::error_code error;
+  const std::filesystem::path folder = temporary_folder();
+  const auto space = std::filesystem::space(folder, error);
+  if (!error && static_cast<double>(space.available) < needed_space)
+    throw run_error("{}: {:.1f} MB are left on its disk, of which a run needs {:.0f}: TMPDIR=FOLDER takes another one",
+                    folder.string(), static_cast<double>(space.available) / mb, needed_space / mb);
+}
+
+}  // namespace tether

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace tether {
+
+/// Throws RunError where limits of this process (open files, address space, sizes of files) or a full TMPDIR leave too
+/// little to start programs under mpirun, which would tell of it in twenty lines of its own, or never.
+void check_circumstances();
+
+}  // namespace tether
