@@ -15,6 +15,7 @@
 #include "common/config/case_tree.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/input_files.hpp"
+#include "common/config/input_watch.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
@@ -207,8 +208,10 @@ void drop_damaged_rest(const fs::path& output) {
 }
 
 /// A direct run.
-void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, std::span<Partner> processes) {
+void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const InputWatch& inputs,
+              std::span<Partner> processes) {
   CoupledCodes codes(master, processes);
+  inputs.check();  // all programs have read them
   const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
   const std::uint64_t model = fingerprint(cases_of(processes, master), plan.dt, codes.interface().points);
   plan.fingerprint = of_run(model, master.file);
@@ -251,6 +254,7 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   RunPlan plan = plan_of(master, command);
   plan.output = fs::absolute(claim_output(command, master.file));
   if (master.initial_state) check_is_not_own(*master.initial_state, master.file, plan.output);
+  const InputWatch inputs(command.case_file);
   const MadeFrom from = made_from(command.case_file);
   if (!plan.resume) {
     remove_old_results(plan.output);
@@ -259,7 +263,7 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
   const bool observed = master.file.common().observer.is_on();
   const std::span<Partner> partners = session.launch(programs_of(master, observed), plan.output.string());
   for (Partner& partner : partners) partner.hello();
-  simulate(master, plan, from, partners);
+  simulate(master, plan, from, inputs, partners);
   for (Partner& partner : partners) partner.stop("the run is done");
 }
 

@@ -29,10 +29,11 @@ void run_identification(const CommandLine& command, protocol::Session& session) 
     remove_old_estimates(output);
     mark_output(output, command.case_file);
   }
+  const InputWatch inputs(command.case_file);
   const std::vector<Partner*> groups =
       launch_groups(groups_for(given, command, session), command.case_file, output, session);
   GroupPool pool(session, groups);
-  identify(given, command, pool, output);
+  identify(given, command, pool, output, inputs);
   for (Partner* group : groups) group->stop("the identification is done");
 }
 

@@ -222,8 +222,11 @@ Observations data_of(const IdentifiedCase& given) {
   return data;
 }
 
-void identify(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool, const fs::path& output) {
-  Job(given, command, pool, output).run();
+void identify(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool, const fs::path& output,
+              const InputWatch& inputs) {
+  Job job(given, command, pool, output);
+  inputs.check();  // groups have read their case, and the data are read
+  job.run();
 }
 
 }  // namespace tether

@@ -2,6 +2,7 @@
 
 #include "common/config/case_file.hpp"
 #include "common/config/command_line.hpp"
+#include "common/config/input_watch.hpp"
 #include "identification_master/group_pool.hpp"
 #include "identification_master/identification_case.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
@@ -33,9 +34,9 @@ struct IdentifiedCase {
 Observations data_of(const IdentifiedCase& given);
 
 /// One identification on groups of processes that are there: estimates, the identified case and checkpoints in a folder
-/// that is held. Throws InputError for a checkpoint of something else, RunError if a step fails for good or after a
-/// signal.
+/// that is held. Throws InputError for a checkpoint of something else, RunError if a step fails for good, after a
+/// signal, or if the case's files were written since `inputs` was made.
 void identify(const IdentifiedCase& given, const CommandLine& command, GroupPool& pool,
-              const std::filesystem::path& output);
+              const std::filesystem::path& output, const InputWatch& inputs);
 
 }  // namespace tether

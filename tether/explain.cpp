@@ -2,6 +2,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
+#include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/explanation/explainer.hpp"
@@ -79,6 +80,7 @@ Made<Explanation> explain(const CommandLine& command) {
   Verbs verbs(own);
   const ExplanationPath path = explain(given, output, verbs, own.quiet);
   Explanation explanation = explanation_of(path);
+  explanation.data = data_hashes(command.case_file);
   write_record(output / "explain.json", explanation);
   const fs::path page = write_report(output);
   std::string told = text_of(explanation, path.millimetres, own.output) +

@@ -51,11 +51,13 @@ struct Claim {
   Verdict verdict = Verdict::undecided;
   std::vector<ClaimedEffect> effects;
   std::optional<ClaimedGain> held_out;
+  std::optional<std::vector<std::string>> data;
 
   static void fields(auto& self, auto&& field) {
     field("verdict", self.verdict, "what is said of the model");
     field("effects", self.effects, "by their evidence, the strongest first");
     field("held_out", self.held_out, "distances on held-out data");
+    field("data", self.data, "hashes of what the files of the measurements held; null: of another program");
   }
 };
 

@@ -1,5 +1,7 @@
 #include "common/config/input_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -109,6 +111,15 @@ void gather(const YamlNode& node, const std::string& field, const fs::path& fold
   for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);
 }
 
+/// Beside a mesh may stand what is being written: results, a log.
+void add_meshes_in(const fs::path& folder, int deep, std::set<fs::path>& files) {
+  for (const fs::path& path : inside(folder)) {
+    const fs::path kind = path.extension();
+    if (fs::is_regular_file(path) && (kind == ".vtu" || kind == ".vtp")) files.insert(path);
+    if (fs::is_directory(path) && deep > 0 && !fs::exists(path / case_as_run)) add_meshes_in(path, deep - 1, files);
+  }
+}
+
 /// Files count by what they hold, and their folders do not: a case may be moved.
 void look_into_files(nlohmann::json& value, const std::string& field) {
   if (value.is_string() && value.get_ref<const std::string&>().starts_with('/')) {
@@ -175,6 +186,27 @@ std::vector<InputFile> input_files(const fs::path& case_file) {
     if (entry.value.kind != YamlNode::Kind::scalar)
       gather(entry.value, entry.key, fs::absolute(case_file).parent_path(), found);
   return found;
+}
+
+std::vector<std::string> data_hashes(const fs::path& case_file) {
+  std::vector<std::string> all;
+  for (const InputFile& input : input_files(case_file))
+    if (input.field.starts_with("observations.")) all.push_back(fmt::format("{:016x}", input.content));
+  return all;
+}
+
+std::set<fs::path> files_read(const fs::path& case_file) {
+  std::set<fs::path> all;
+  for (const fs::path& file : files_of_case(case_file)) all.insert(fs::absolute(file));
+  const fs::path folder = fs::absolute(case_file).parent_path();
+  for (const InputFile& input : input_files(case_file)) {
+    const fs::path path = folder / input.name;
+    if (fs::is_directory(path) && !fs::exists(path / case_as_run)) add_meshes_in(path, folders_deep, all);
+    if (!fs::is_regular_file(path)) continue;
+    all.insert(path);
+    all.merge(files_named_in(path));
+  }
+  return all;
 }
 
 std::uint64_t hash_case(const std::string& effective_case, std::uint64_t seed) {

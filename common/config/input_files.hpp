@@ -31,6 +31,13 @@ struct InputFile {
 /// here.
 std::vector<InputFile> input_files(const std::filesystem::path& case_file);
 
+/// Of the files of `observations` what each holds, as hexadecimal digits: what results were made of.
+std::vector<std::string> data_hashes(const std::filesystem::path& case_file);
+
+/// The files that a case is read from: its own, those that it builds on, those of `input_files` and those that tables
+/// and series among them name; of a folder the meshes in it and in its folders, but not those of results.
+std::set<std::filesystem::path> files_read(const std::filesystem::path& case_file);
+
 /// Names an effective case (JSON) by a hash. Texts that begin with '/' are files: what they hold counts (hash_content),
 /// and their folders do not. Nor does what may change between a run and its continuation: title, the end of the run,
 /// output, coupling. A text that is no JSON counts as it is.

@@ -14,6 +14,7 @@
 #include "common/base/progress_line.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/input_files.hpp"
+#include "common/config/input_watch.hpp"
 #include "common/io/record_file.hpp"
 
 namespace tether {
@@ -83,6 +84,7 @@ ExplainedSteps::ExplainedSteps(fs::path output, bool quiet) : output_(std::move(
 
 void ExplainedSteps::make(const std::string& title, const fs::path& case_file, const std::string& folder,
                           const std::string& result, const std::function<void(bool)>& act, std::uint64_t asked) {
+  const InputWatch inputs(case_file);
   const std::string key = key_of(case_file, asked);
   if (!quiet_) std::cout << fmt::format("\n== {}\n", title) << std::flush;
   if (const StepMade* before = kept({title, folder, 0, 0, key}); before && fs::exists(output_ / folder / result)) {
@@ -100,6 +102,7 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
   } catch (const ToldFailure& failure) {
     throw run_error("{}: {}; the same command goes on from here", title, failure.what());
   }
+  inputs.check();
   done_.push_back({{title, folder, seconds_since(start), cpu_seconds_of_all() - cpu, key}, left_in(output_ / folder)});
   save();
 }

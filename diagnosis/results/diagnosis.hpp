@@ -95,6 +95,7 @@ struct Diagnosis {
   Statement statement;
   std::vector<std::string> sentences;
   std::string case_name, title;
+  std::vector<std::string> data;
   double alpha = 0.05, independent_data = 0, dispersion = 1;
   std::vector<NoiseFactor> noise_factors;
   Adequacy adequacy;
@@ -122,6 +123,7 @@ struct Diagnosis {
     field("sentences", self.sentences, "the verdict first, then what a person should know next");
     field("case", self.case_name, "name of the case");
     field("title", self.title, "of the case");
+    field("data", self.data, "hashes of what the files of the measurements held");
     field("alpha", self.alpha, "probability of a false alarm over all candidates");
     field("independent_data", self.independent_data, "number of independent training data");
     field("dispersion", self.dispersion, "misfit left per independent datum; intervals are widened by its root");

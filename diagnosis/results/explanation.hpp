@@ -106,6 +106,7 @@ struct StepsMade {
 struct Explanation {
   static constexpr const char* type_name = "explanation";
   std::string case_name, title, case_file;
+  std::vector<std::string> data;
   Verdict verdict = Verdict::undecided;
   Statement statement;
   std::vector<std::string> sentences;
@@ -122,6 +123,7 @@ struct Explanation {
     field("case", self.case_name, "name of the case");
     field("title", self.title, "of the case");
     field("case_file", self.case_file, "relative to the output folder");
+    field("data", self.data, "hashes of what the files of the measurements held");
     field("verdict", self.verdict, "of the whole path");
     field("statement", self.statement, "what was found, of which the first sentence is made");
     field("sentences", self.sentences, "the verdict first, then what a person should know next");
