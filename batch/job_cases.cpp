@@ -59,9 +59,6 @@ std::vector<JobCase> job_cases(const fs::path& given) {
 
 std::vector<JobCase> job_cases_of_table(const fs::path& base, const fs::path& table, const fs::path& folder) {
   const CsvTable rows(table);
-  for (const std::string& column : rows.columns())
-    if (std::count(rows.columns().begin(), rows.columns().end(), column) > 1)
-      throw input_error("{}: has two columns `{}`", table.string(), column);
   if (!rows.has("name")) throw input_error("{}: has no column `name`, one for each case", table.string());
   const std::vector<std::string> names = rows.texts("name");
   std::vector<JobCase> cases;

@@ -97,7 +97,7 @@ std::optional<Periodicity> periodicity_of(const std::filesystem::path& table, co
   const YamlNode* inlets = inlets_of(tree);
   const std::optional<double> period = period_of(inlets, units);
   if (!period) return std::nullopt;
-  const CsvTable rows(table);
+  const CsvTable rows(table, TableOf::tether);
   if (!rows.has("time") || !rows.has("fluid.volume")) return std::nullopt;
   BeatingRun run{start, rows.numbers("time"), {}, rows.numbers("fluid.volume")};
   for (const auto& inlet : inlets->entries) {

@@ -62,7 +62,7 @@ bool has_display_server() {
 
 std::vector<std::string> draw_pictures(const fs::path& output, const UnitSystem& units) {
   if (!has_display_server()) return {};
-  const CsvTable table(output / "timeseries.csv");
+  const CsvTable table(output / "timeseries.csv", TableOf::tether);
   std::vector<std::string> drawn;
   const auto picture = [&](const char* name, const char* series, std::optional<double> peak, const char* field,
                            double factor, const char* title, const std::vector<std::string>& more) {

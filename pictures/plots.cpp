@@ -84,7 +84,7 @@ std::pair<std::string, std::vector<std::string>> script(const CsvTable& table, c
 std::vector<std::string> draw_plots(const std::filesystem::path& output, const UnitSystem& units,
                                     double image_pressure) {
   if (!has_gnuplot()) return {};
-  const auto [text, pictures] = script(CsvTable(output / "timeseries.csv"), units, image_pressure);
+  const auto [text, pictures] = script(CsvTable(output / "timeseries.csv", TableOf::tether), units, image_pressure);
   run_gnuplot(output, "plots.gp", text);
   return pictures;
 }

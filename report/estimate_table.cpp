@@ -22,7 +22,7 @@ std::vector<double> thinned(const std::vector<double>& all, std::size_t most) {
 
 std::string estimate_over_time(const std::filesystem::path& csv, const std::vector<std::string>& names,
                                std::size_t most) {
-  const CsvTable table(csv);
+  const CsvTable table(csv, TableOf::tether);
   Json json{{"time", thinned(table.numbers("time"), most)}, {"parameters", Json::object()}};
   for (const std::string& name : names)
     for (const auto& [part, column] :

@@ -46,7 +46,7 @@ RunVelocity velocity_of(const FinishedRun& run, const MeasuredCase& measured) {
 
 Comparison comparison_of(const MeasuredCase& measured, const FinishedRun& run, const RunMotion& motion,
                          const fs::path& output) {
-  const CsvTable table(output / "timeseries.csv");
+  const CsvTable table(output / "timeseries.csv", TableOf::tether);
   Comparison comparison = compare(
       measured.data, measured.surface.region_names,
       {motion, [&](const Trace& trace) { return trace_of(table, trace, measured.file); }, velocity_of(run, measured),

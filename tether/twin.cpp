@@ -42,7 +42,7 @@ struct Truth {
         surface(own.lumen()),
         run(run_folder),
         motion(motion_of(run, surface)),
-        series(run_folder / "timeseries.csv") {}
+        series(run_folder / "timeseries.csv", TableOf::tether) {}
   TrueLumen lumen() const { return {surface.triangles, motion.positions, motion.start, motion.end}; }
 
   ObservedCase own;

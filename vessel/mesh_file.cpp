@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.hpp"
+#include "common/base/given_number.hpp"
 #include "common/base/input_stream.hpp"
 #include "vessel/readers.hpp"
 
@@ -82,9 +83,10 @@ void drop_unused_nodes(MeshFile& mesh) {
 
 void check_coordinates(const MeshFile& mesh) {
   for (Eigen::Index node = 0; node < mesh.points.cols(); ++node)
-    if (const auto x = mesh.points.col(node); !x.allFinite())
-      throw input_error("{}: the point ({}, {}, {}) has a coordinate that is not a finite number", mesh.name, x[0],
-                        x[1], x[2]);
+    if (const auto x = mesh.points.col(node); !x.allFinite() || x.cwiseAbs().maxCoeff() > largest_given)
+      throw input_error(
+          "{}: the point ({}, {}, {}) has a coordinate that is not a {}", mesh.name, x[0], x[1], x[2],
+          x.allFinite() ? fmt::format("number from -{:g} to {:g}", largest_given, largest_given) : "finite number");
 }
 
 }  // namespace

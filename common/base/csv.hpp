@@ -9,13 +9,17 @@
 
 namespace tether {
 
+/// Who made a table. A person's is not trusted. Tether's own (timeseries.csv, estimate.csv) may hold numbers of any
+/// size, and copies of a column in other units behind it: the first is read.
+enum class TableOf { person, tether };
+
 /// A comma-separated table whose first line names the columns: "time, flow [ml/s]". Lines that are empty or begin with
 /// # are skipped. Cells stay text until a column is asked for.
 class CsvTable {
  public:
-  /// Throws InputError for a file that cannot be read, has no rows, or a row with another number of cells than there
-  /// are columns.
-  explicit CsvTable(const std::filesystem::path& file);
+  /// Throws InputError for a file that cannot be read, has no rows, a row with another number of cells than there are
+  /// columns, a quotation mark alone, or two columns of one name and unit.
+  explicit CsvTable(const std::filesystem::path& file, TableOf by = TableOf::person);
 
   const std::vector<std::string>& columns() const { return columns_; }
   /// In brackets after each column's name; empty if there is none.
@@ -23,10 +27,11 @@ class CsvTable {
   std::size_t rows() const { return lines_.size(); }
   bool has(std::string_view column) const;
   std::string unit(std::string_view column) const;
-  /// Throws InputError "file:line: ..." for a missing column or a cell that is not a finite number.
+  /// Throws InputError "file:line: ..." for a missing column, one that is there twice, or a cell that is not a finite
+  /// number, or larger than largest_given.
   std::vector<double> numbers(std::string_view column) const;
   /// In the case's units. `unit`: of the column; empty: that of its heading, or the case's. Throws InputError also for
-  /// a unit that is unknown or of another dimension.
+  /// a unit that is unknown or of another dimension. A column may be there again in another unit, with the same values.
   std::vector<double> quantities(std::string_view column, const UnitSystem& units, Dimension dimension,
                                  const std::string& unit = {}) const;
   std::vector<std::string> texts(std::string_view column) const;
@@ -36,9 +41,18 @@ class CsvTable {
   std::string where(std::size_t row) const;
 
  private:
+  void take_headings(const std::vector<std::string>& cells, int line);
   std::size_t index(std::string_view column) const;
+  /// Others of the same name behind it.
+  std::vector<std::size_t> copies(std::size_t column) const;
+  /// The same of a column that is there once.
+  std::size_t single(std::string_view column) const;
+  std::vector<double> numbers_at(std::size_t column) const;
+  std::vector<double> quantities_at(std::size_t column, const UnitSystem& units, Dimension dimension,
+                                    const std::string& unit) const;
 
   std::string file_;
+  TableOf by_;
   std::vector<std::string> columns_, units_;
   std::vector<int> lines_;                       ///< line in the file, per row
   std::vector<std::vector<std::string>> cells_;  ///< per row

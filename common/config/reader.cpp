@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/base/given_number.hpp"
 #include "common/base/name.hpp"
 #include "common/config/rules.hpp"
 
@@ -35,6 +36,18 @@ std::string with_meaning(std::string_view meaning) {
 std::string with_unit(const std::string& text, const std::string& unit) {
   const bool bare = text.find_first_not_of("+-.0123456789eE") == std::string::npos;
   return bare && !unit.empty() ? text + " " + unit : text;
+}
+
+/// Which rule a number breaks; empty: none.
+std::string rule_broken(double value, Dimension dimension, const Range& range) {
+  if (!std::isfinite(value)) return "must be finite";
+  if (!range.contains(value)) return rule_of(range);
+  const double size = std::abs(value);
+  if (size > largest_given) return fmt::format("must be from -{:g} to {:g}", largest_given, largest_given);
+  const bool is_divisor = dimension != dimension::none || !range.contains(0.0);
+  if (value == 0.0 || size >= smallest_given || !is_divisor) return {};
+  return fmt::format("is too near to zero: must be {:g} or more away{}", smallest_given,
+                     range.contains(0.0) ? ", or zero" : "");
 }
 
 }  // namespace
@@ -114,8 +127,9 @@ std::optional<double> Reader::quantity(const Field& field, const YamlNode& node,
     wrong(field, node.place, "", error.what());
     return std::nullopt;
   }
-  if (std::isfinite(value) && range.contains(value)) return value;
-  wrong(field, node.place, with_unit(node.text, field.unit), std::isfinite(value) ? rule_of(range) : "must be finite");
+  const std::string rule = rule_broken(value, dimension, range);
+  if (rule.empty()) return value;
+  wrong(field, node.place, with_unit(node.text, field.unit), rule);
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ BloodVelocityWriter::BloodVelocityWriter(std::filesystem::path path, Points poin
 BloodVelocity::BloodVelocity(const std::filesystem::path& path) : PointSeries(velocity, path) {}
 
 void check_has_rows(const std::filesystem::path& table, std::int64_t steps) {
-  if (const std::size_t rows = CsvTable(table).rows(); rows < static_cast<std::size_t>(steps))
+  if (const std::size_t rows = CsvTable(table, TableOf::tether).rows(); rows < static_cast<std::size_t>(steps))
     throw input_error("{}: is cut short: it has {} rows of a run of {} steps", table.string(), rows, steps);
 }
 

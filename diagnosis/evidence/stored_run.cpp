@@ -7,7 +7,7 @@ namespace tether {
 
 StoredRun::StoredRun(const std::filesystem::path& folder)
     : lumen(std::make_shared<LumenMotion>(folder / "lumen.motion")),
-      table(std::make_shared<CsvTable>(folder / "timeseries.csv")) {
+      table(std::make_shared<CsvTable>(folder / "timeseries.csv", TableOf::tether)) {
   if (std::filesystem::exists(folder / "blood.velocity"))
     velocity = std::make_shared<BloodVelocity>(folder / "blood.velocity");
   if (const auto made = folder / "run.json"; std::filesystem::exists(made))

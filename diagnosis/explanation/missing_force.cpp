@@ -116,7 +116,7 @@ MissingForce::MissingForce(const DiagnosedCase& given, std::vector<Overlay::Valu
 
 /// Of the order of what the blood's pressure changes by. [pressure]
 double MissingForce::prior_deviation() const {
-  const CsvTable table(folder_.parent_path() / "model_0/timeseries.csv");
+  const CsvTable table(folder_.parent_path() / "model_0/timeseries.csv", TableOf::tether);
   const char* column = pressure_column(table);
   if (column == nullptr) return given_.file.units().from_si(1e3, dimension::pressure);
   const std::vector<double> pressure = table.numbers(column);
@@ -150,7 +150,7 @@ std::vector<Overlay::Value> MissingForce::identification() const {
 }
 
 std::vector<Overlay::Value> MissingForce::with_tractions() {
-  const CsvTable table(folder_ / "walk/estimate.csv");
+  const CsvTable table(folder_ / "walk/estimate.csv", TableOf::tether);
   std::vector<Overlay::Value> values = values_;
   for (RegionForce& traction : tractions_) {
     traction.time = table.numbers("time");

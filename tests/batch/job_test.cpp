@@ -95,7 +95,7 @@ TEST_F(Jobs, MakeACaseOfEachRowOfATable) {
   EXPECT_EQ(soft.find("time"), nullptr) << "an empty cell says nothing";
   EXPECT_EQ(stiff.find("time")->find("end")->text, "0.5");
   EXPECT_EQ(refusal([&] { job_cases_of_table(base, write("twice.csv", "name,a,a\nx,,1\n"), folder_ / "cases"); }),
-            "twice.csv: has two columns `a`");
+            "twice.csv:1: has two columns 'a': leave one of them out");
   EXPECT_EQ(refusal([&] { job_cases_of_table(base, write("no_name.csv", "young\n1\n"), folder_ / "cases"); }),
             "no_name.csv: has no column `name`, one for each case");
 }

@@ -137,6 +137,7 @@ TEST_F(Flow, BadVelocitiesAreNamedWithTheirPlace) {
   EXPECT_EQ(of(good), "no error");
   EXPECT_EQ(of(good + "0, 0, 0, 2, 7\n"),
             "plane.csv:4: the time 0 comes after 0.1: the rows of a frame must stand together, in order");
+  EXPECT_EQ(of("0, 0, 0, 1, 1e160\n"), "plane.csv:2: v: 1e160: must be from -1e+20 to 1e+20");
   EXPECT_EQ(of(good + "0.1, 0, 0, 1, 7\n"), "plane.csv:4: the point has a velocity at 0.1 already");
   EXPECT_EQ(of(good, ", held_out: [2]"),
             "case.yaml:5: observations.velocities.pc_mr.held_out: there is no frame 2; frames are numbered 0 to 1");
