@@ -152,15 +152,15 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
   const auto refusal = [&](const std::string& file) {
     return folder.refusal("file: " + file + ", threshold: {above: 1}");
   };
-  const std::string bytes(27, '\2');
-  folder.text("flat.mha", "NDims = 2\nDimSize = 5 5\nElementType = MET_UCHAR\n", bytes);
+  const std::string bytes(27, '\2'), of_two(24, '\2');
+  folder.text("flat.mha", "NDims = 2\nDimSize = 5 5\nElementType = MET_UCHAR\n", bytes.substr(2));
   expect_said(refusal("flat.mha"), {"flat.mha: is not a volume: 5 x 5 x 1"});
-  folder.text("one_slice.mha", "NDims = 3\nDimSize = 5 5 1\nElementType = MET_UCHAR\n", bytes);
+  folder.text("one_slice.mha", "NDims = 3\nDimSize = 5 5 1\nElementType = MET_UCHAR\n", bytes.substr(2));
   expect_said(refusal("one_slice.mha"), {"is not a volume: 5 x 5 x 1"});
-  folder.text("film.mha", "NDims = 4\nDimSize = 2 2 2 3\nElementType = MET_UCHAR\n", bytes);
+  folder.text("film.mha", "NDims = 4\nDimSize = 2 2 2 3\nElementType = MET_UCHAR\n", of_two);
   expect_said(refusal("film.mha"), {"film.mha: has 4 dimensions, 3 images in a row"});
   folder.text("colour.mha", "NDims = 3\nDimSize = 2 2 2\nElementNumberOfChannels = 3\nElementType = MET_UCHAR\n",
-              bytes);
+              of_two);
   expect_said(refusal("colour.mha"), {"colour.mha: has 3 values a voxel"});
   folder.text("cut.mha", "NDims = 3\nDimSize = 9 9 9\nElementType = MET_UCHAR\n", bytes);
   expect_said(refusal("cut.mha"), {"cut.mha: its voxels take 729 bytes, it has 27: cut short?"});
@@ -171,7 +171,7 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
               "NDims = 3\nDimSize = 3 3 3\nTransformMatrix = 1 0 0 0 1 0.3 0 0 1\nElementType = MET_UCHAR\n", bytes);
   expect_said(refusal("sheared.mha"), {"sheared.mha: the header's axes are not at right angles"});
   folder.text("no_size.mha", "NDims = 3\nDimSize = 3 3 3\nElementSpacing = 1 1 0\nElementType = MET_UCHAR\n", bytes);
-  expect_said(refusal("no_size.mha"), {"no_size.mha: ", "spacing"});
+  expect_said(refusal("no_size.mha"), {"no_size.mha: ElementSpacing: '1 1 0': must be positive"});
   std::ofstream(folder.path / "alone.mhd")
       << "ObjectType = Image\nNDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementDataFile = alone.raw\n";
   expect_said(refusal("alone.mhd"), {"alone.mhd: names the file alone.raw, which is not there"});
@@ -216,6 +216,70 @@ TEST(BadImage, HeadersThatStateTooMuchAreRefused) {
   nifti.write(reinterpret_cast<const char*>(&nan), sizeof nan);
   nifti.close();
   expect_said(folder.refusal("file: a.nii, threshold: {above: 1}"), {"states a place or an axis of nan"});
+}
+
+/// MetaIO makes a mirrored image of them, or tells a false cause in five lines; ITK one that names its own sources.
+TEST(BadImage, PlacesAndSpacingsThatNoImageHasAreRefused) {
+  const Folder folder("geometry");
+  const auto meta = [&](const std::string& field) {
+    folder.text("a.mha", "NDims = 3\nDimSize = 3 3 3\n" + field + "\nElementType = MET_UCHAR\n", std::string(27, '\2'));
+    return folder.refusal("file: a.mha, threshold: {above: 1}");
+  };
+  expect_said(meta("ElementSpacing = -1 1 1"), {"a.mha: ElementSpacing: '-1 1 1': must be positive"});
+  expect_said(meta("ElementSpacing = nan 1 1"), {"a.mha: ElementSpacing: 'nan 1 1': must be finite numbers"});
+  expect_said(meta("ElementSpacing = 1 1"), {"a.mha: ElementSpacing: '1 1': must be 3 numbers"});
+  expect_said(meta("ElementSize = 1 0 1"), {"a.mha: ElementSize: '1 0 1': must be positive"});
+  expect_said(meta("Offset = 0 inf 0"), {"a.mha: Offset: '0 inf 0': must be finite numbers"});
+  expect_said(meta("TransformMatrix = 1 0 0 0 1 0 0 0"), {"TransformMatrix", "must be 9 numbers"});
+
+  const auto nrrd = [&](const std::string& fields) {
+    std::ofstream(folder.path / "a.nrrd") << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                                          << fields << "\n\n\2\2\2\2\2\2\2\2";
+    return folder.refusal("file: a.nrrd, threshold: {above: 1}");
+  };
+  const std::string space = "space: left-posterior-superior\n";
+  expect_said(nrrd("space directions: (1,0,0) (0,1,0) (0,0,1)"),
+              {"a.nrrd:6: space directions stands before a space: must be behind one"});
+  expect_said(nrrd("spacings: 1 -1 1"), {"a.nrrd: spacings: '1 -1 1': must be positive"});
+  expect_said(nrrd("spacings: 1 nan 1"), {"a.nrrd: spacings: '1 nan 1': must be finite"});
+  for (const char* third : {"(0,0,0)", "(0,0,inf)", "(0,0,x)"})
+    expect_said(nrrd(space + "space directions: (1,0,0) (0,1,0) " + third), {"must be vectors of finite numbers"});
+  expect_said(nrrd(space + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,nan,0)"),
+              {"spaceorigin: '(0,nan,0)': must be finite"});
+  const std::string said = nrrd(space + "space directions: (1,0,0) (0,1,0)");
+  expect_said(said, {"a.nrrd: cannot be read: "});
+  EXPECT_EQ(said.find("nrrd]"), std::string::npos) << said;
+  EXPECT_EQ(said.find("0x"), std::string::npos) << said;
+
+  for (const auto& [place, number] : {std::pair{80, -1.0F}, {88, 0.0F}}) {
+    write_image(folder.path / "a.nii", tube_image());
+    std::fstream nifti(folder.path / "a.nii", std::ios::in | std::ios::out | std::ios::binary);
+    nifti.seekp(place);
+    nifti.write(reinterpret_cast<const char*>(&number), sizeof number);
+    nifti.close();
+    expect_said(folder.refusal("file: a.nii, threshold: {above: 1}"), {"a.nii: pixdim[", "must be positive"});
+  }
+}
+
+/// A header that states a slice less than there is.
+TEST(BadImage, VoxelsBehindThoseThatTheHeaderStatesAreRefused) {
+  const Folder folder("more");
+  const auto refusal = [&](const std::string& file) {
+    return folder.refusal("file: " + file + ", threshold: {above: 1}");
+  };
+  const std::string size = "NDims = 3\nDimSize = 3 3 2\nElementType = MET_UCHAR\n", bytes(27, '\2');
+  folder.text("a.mha", size, bytes);
+  expect_said(refusal("a.mha"), {"a.mha: its voxels take 18 bytes by its header, it has 27: must be as many"});
+  std::ofstream(folder.path / "a.raw") << bytes;
+  std::ofstream(folder.path / "a.mhd") << size << "ElementDataFile = a.raw\n";
+  expect_said(refusal("a.mhd"), {"a.raw: its voxels take 18 bytes", "must be as many, or HeaderSize be given"});
+  for (const char* skip : {"HeaderSize = 0\n", "HeaderSize = 9\n", "HeaderSize = -1\n"}) {
+    std::ofstream(folder.path / "a.mhd") << size << skip << "ElementDataFile = a.raw\n";
+    EXPECT_EQ(refusal("a.mhd").find("its voxels take"), std::string::npos) << refusal("a.mhd");
+  }
+  std::ofstream(folder.path / "a.nrrd") << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 3 2\nencoding: raw\n\n"
+                                        << bytes;
+  expect_said(refusal("a.nrrd"), {"a.nrrd: its voxels take 18 bytes by its header, it has 27"});
 }
 
 /// A compressed file that ends early, of each kind.

@@ -6,11 +6,13 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 #include "common/base/error.hpp"
@@ -30,6 +32,14 @@ void require(const fs::path& file, std::uint64_t wanted, std::uint64_t there) {
                       static_cast<double>(wanted) / 1e6, largest_image / 1'000'000);
   if (there < wanted)
     throw input_error("{}: its voxels take {} bytes, it has {}: cut short?", file.string(), wanted, there);
+}
+
+/// A header that states too little cuts the image silently.
+void require_all(const fs::path& file, std::uint64_t wanted, std::uint64_t there, const char* remedy) {
+  require(file, wanted, there);
+  if (there > wanted)
+    throw input_error("{}: its voxels take {} bytes by its header, it has {}: must be as many{}", file.string(), wanted,
+                      there, remedy);
 }
 
 InputError no_image(const fs::path& file) {
@@ -125,6 +135,19 @@ const TypeSizes meta_types{{"MET_CHAR", 1},  {"MET_UCHAR", 1},     {"MET_SHORT",
                            {"MET_INT", 4},   {"MET_UINT", 4},      {"MET_LONG", 4},       {"MET_ULONG", 4},
                            {"MET_FLOAT", 4}, {"MET_LONG_LONG", 8}, {"MET_ULONG_LONG", 8}, {"MET_DOUBLE", 8}};
 
+/// Spacings are positive: of others MetaIO makes a mirrored image, or tells a false cause.
+void check_geometry(const TextHeader& header, std::size_t axes) {
+  const auto check = [&](const char* name, std::size_t numbers, bool positive) {
+    if (!header.has(name)) return;
+    const std::vector<double> all = header.lengths(name);
+    if (all.size() != numbers) header.refuse(name, fmt::format("must be {} numbers", numbers));
+    if (positive && *std::min_element(all.begin(), all.end()) <= 0) header.refuse(name, "must be positive");
+  };
+  for (const char* name : {"ElementSpacing", "ElementSize"}) check(name, axes, true);
+  for (const char* name : {"Offset", "Position", "Origin", "CenterOfRotation"}) check(name, axes, false);
+  for (const char* name : {"TransformMatrix", "Rotation", "Orientation"}) check(name, axes * axes, false);
+}
+
 void check_meta(const fs::path& file) {
   TextHeader header = meta_header(file);
   const std::string data = header.get("ElementDataFile");
@@ -132,6 +155,7 @@ void check_meta(const fs::path& file) {
     header.refuse("ElementDataFile", "must be LOCAL or one file");
   std::vector<std::uint64_t> factors = header.counts("DimSize", 1, most_voxels);
   if (factors.size() != header.count("NDims", 1, 10)) header.refuse("DimSize", "must be NDims numbers");
+  check_geometry(header, factors.size());
   if (header.has("ElementNumberOfChannels")) factors.push_back(header.count("ElementNumberOfChannels", 1, 1000));
   factors.push_back(type_size(header, "ElementType", meta_types));
   const auto is_true = [&](const char* name, const char* absent) {
@@ -145,10 +169,13 @@ void check_meta(const fs::path& file) {
   }
   const bool skips = header.has("HeaderSize") && header.get("HeaderSize") != "-1";
   const std::uint64_t wanted = product(factors), skipped = skips ? header.count("HeaderSize", 0, most_voxels) : 0;
-  if (!is_true("CompressedData", "False")) return require(voxels.file, sum(wanted, skipped), voxels.size());
+  const bool is_compressed = is_true("CompressedData", "False");
+  if (!is_compressed && header.has("HeaderSize")) return require(voxels.file, sum(wanted, skipped), voxels.size());
+  if (!is_compressed)
+    return require_all(voxels.file, wanted, voxels.size(), data == "LOCAL" ? "" : ", or HeaderSize be given");
   if (header.has("CompressedDataSize"))
     require(voxels.file, header.count("CompressedDataSize", 1, UINT64_MAX), voxels.size());
-  require(voxels.file, wanted, inflated_size(voxels));
+  require_all(voxels.file, wanted, inflated_size(voxels), "");
 }
 
 /// teem takes "Data File" for "datafile".
@@ -156,6 +183,11 @@ std::string nrrd_name(std::string name) {
   std::erase(name, ' ');
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return name;
+}
+
+/// teem knows what directions and places mean only once it knows their space.
+bool needs_space(const std::string& name) {
+  return name == "spacedirections" || name == "spaceorigin" || name == "spaceunits" || name == "measurementframe";
 }
 
 /// "name: value" up to an empty line, or the end of a header that stands alone.
@@ -166,7 +198,10 @@ TextHeader nrrd_header(const fs::path& file) {
     const auto colon = line->find(':');
     if (line->starts_with('#') || line->substr(colon == std::string::npos ? 0 : colon).starts_with(":=")) continue;
     if (colon == std::string::npos) header.fail("name: value was expected");
-    header.add(nrrd_name(line->substr(0, colon)), trimmed(line->substr(colon + 1)));
+    const std::string name = nrrd_name(line->substr(0, colon));
+    if (needs_space(name) && !header.has("space") && !header.has("spacedimension"))
+      header.fail(fmt::format("{} stands before a space: must be behind one", line->substr(0, colon)));
+    header.add(name, trimmed(line->substr(colon + 1)));
   }
   return header;
 }
@@ -188,10 +223,27 @@ TypeSizes nrrd_types() {
   return sizes;
 }
 
+/// Directions may be any that are not zero, or none of an axis that is none of space; so is a spacing nan.
+void check_nrrd_geometry(const TextHeader& header, std::size_t axes) {
+  const std::vector<double> spacings = header.lengths("spacings", axes > 3);
+  if (std::any_of(spacings.begin(), spacings.end(), [](double spacing) { return spacing <= 0; }))
+    header.refuse("spacings", "must be positive");
+  header.lengths("spaceorigin");
+  std::istringstream vectors(header.get("spacedirections"));
+  for (std::string vector; std::getline(vectors, vector, ')');) {
+    const auto open = vector.find('(');
+    if (open == std::string::npos) continue;
+    const auto parts = lengths_of(vector.substr(open));
+    if (!parts || std::all_of(parts->begin(), parts->end(), [](double part) { return part == 0; }))
+      header.refuse("spacedirections", "must be vectors of finite numbers that are not zero");
+  }
+}
+
 void check_nrrd(const fs::path& file) {
   TextHeader header = nrrd_header(file);
   std::vector<std::uint64_t> factors = header.counts("sizes", 1, most_voxels);
   if (factors.size() != header.count("dimension", 1, 16)) header.refuse("sizes", "must be as many as the dimension");
+  check_nrrd_geometry(header, factors.size());
   factors.push_back(type_size(header, "type", nrrd_types()));
   const std::string data = header.get("datafile");
   if (data == "LIST" || data.find('%') != std::string::npos) header.refuse("datafile", "must be one file");
@@ -199,8 +251,11 @@ void check_nrrd(const fs::path& file) {
   for (const char* skip : {"lineskip", "byteskip"})
     if (header.has(skip) && header.get(skip) != "0" && header.get(skip) != "-1") header.refuse(skip, "must be 0 or -1");
   const std::string encoding = header.get("encoding");
-  if (encoding == "raw") return require(voxels.file, product(factors), voxels.size());
-  if (encoding == "gzip" || encoding == "gz") return require(voxels.file, product(factors), inflated_size(voxels));
+  const bool from_the_end = header.get("byteskip") == "-1";
+  if (encoding == "raw" && from_the_end) return require(voxels.file, product(factors), voxels.size());
+  if (encoding == "raw") return require_all(voxels.file, product(factors), voxels.size(), "");
+  if (encoding == "gzip" || encoding == "gz")
+    return require_all(voxels.file, product(factors), inflated_size(voxels), "");
   if (encoding != "hex" && encoding != "ascii" && encoding != "text" && encoding != "txt")
     header.refuse("encoding", "must be raw, gzip, ascii or hex");
   if (encoding != "hex") factors.back() = 1;
@@ -233,17 +288,19 @@ class NiftiHeader {
   bool swapped_ = false;
 };
 
-/// ITK aborts on an orientation that is not finite, and decomposes without end what has numbers below all others.
+/// Before the spacings stands -1 or 1, how the quaternion turns.
 void check_geometry(const fs::path& file, const NiftiHeader& header) {
   constexpr std::size_t spacing_at = 76, quaternion_at = 256, rows_end = 328;
   const auto check = [&](std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; at += sizeof(float))
-      if (const auto number = header.get<float>(at);
-          !(std::abs(number) < 1e9F) || (number != 0 && std::abs(number) < 1e-30F))
+      if (const auto number = header.get<float>(at); !is_length(number))
         throw input_error("{}: its header states a place or an axis of {:g}", file.string(), number);
   };
   check(spacing_at, spacing_at + 4 * sizeof(float));
   check(quaternion_at, rows_end);
+  for (std::size_t axis = 1; axis <= 3; ++axis)
+    if (const auto spacing = header.get<float>(spacing_at + axis * sizeof(float)); spacing <= 0)
+      throw input_error("{}: pixdim[{}]: {:g}: must be positive", file.string(), axis, spacing);
 }
 
 /// What it takes by its header.

@@ -40,11 +40,15 @@ itk::ImageIOBase::Pointer format_of(const fs::path& file) {
                         : "");
 }
 
-/// What ITK says of a failure, without its own sources' names.
+/// What ITK says of a failure, without its own sources' names; of teem's "[nrrd] function: words", each the cause of
+/// the one before, the last words.
 std::string reason(const itk::ExceptionObject& error) {
   std::string text = error.GetDescription();
-  if (const auto end = text.find("): "); text.starts_with("ITK ERROR") && end != std::string::npos)
-    text.erase(0, end + 3);
+  const bool begins_with_source = text.starts_with("ITK ERROR") || text.starts_with("itk::ERROR");
+  if (const auto end = text.find("): "); begins_with_source && end != std::string::npos) text.erase(0, end + 3);
+  if (const auto cause = text.rfind("[nrrd] "); cause != std::string::npos)
+    text.erase(0, std::min(text.find(": ", cause), text.size() - 2) + 2);
+  text.erase(text.find_last_not_of(" \n") + 1);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }

@@ -2,11 +2,31 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "common/base/error.hpp"
 
 namespace tether {
+
+bool is_length(double number) {
+  const double size = std::abs(number);
+  return size < 1e9 && (size == 0 || size > 1e-30);
+}
+
+std::optional<std::vector<double>> lengths_of(std::string text, bool may_be_nan) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == '(' || c == ')'; }, ' ');
+  std::vector<double> all;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, word.data() + word.size(), all.emplace_back());
+    const bool is_number = error == std::errc{} && end == word.data() + word.size();
+    if (!is_number || !(is_length(all.back()) || (may_be_nan && std::isnan(all.back())))) return std::nullopt;
+  }
+  return all;
+}
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
@@ -47,6 +67,12 @@ std::vector<std::uint64_t> TextHeader::counts(const std::string& name, std::uint
       refuse(name, fmt::format("must be from {} to {}", least, most));
   }
   return all;
+}
+
+std::vector<double> TextHeader::lengths(const std::string& name, bool may_be_nan) const {
+  auto all = lengths_of(get(name), may_be_nan);
+  if (!all) refuse(name, "must be finite numbers, of a size that images have");
+  return std::move(*all);
 }
 
 std::uint64_t TextHeader::end() {

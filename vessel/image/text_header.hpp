@@ -26,6 +26,8 @@ class TextHeader {
   /// Throws InputError for what is no number from `least` to `most`.
   std::uint64_t count(const std::string& name, std::uint64_t least, std::uint64_t most) const;
   std::vector<std::uint64_t> counts(const std::string& name, std::uint64_t least, std::uint64_t most) const;
+  /// As lengths_of. Throws InputError where there are none.
+  std::vector<double> lengths(const std::string& name, bool may_be_nan = false) const;
   /// Where the bytes behind the lines that were read begin.
   std::uint64_t end();
 
@@ -39,6 +41,13 @@ class TextHeader {
   int line_ = 0;
   std::map<std::string, std::string> fields_;
 };
+
+/// Whether images have such places, axes and spacings: ITK aborts on what is not finite, and decomposes without end
+/// what has numbers below all others.
+bool is_length(double number);
+
+/// Numbers between blanks, commas and brackets; none unless each is a length, or nan where it may be.
+std::optional<std::vector<double>> lengths_of(std::string text, bool may_be_nan = false);
 
 /// Without blanks around it.
 std::string trimmed(const std::string& text);
