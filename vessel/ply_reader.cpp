@@ -35,6 +35,7 @@ class PlyReader {
   MeshFile read() {
     read_header();
     for (const PlyElement& element : elements_) read_element(element);
+    check_end();
     if (!has_points_) throw input_error("{}: has no element vertex", mesh_.name);
     if (mesh_.triangles.empty()) throw input_error("{}: holds no face", mesh_.name);
     return std::move(mesh_);
@@ -106,6 +107,18 @@ class PlyReader {
     const auto found = known.find(word);
     if (found == known.end()) source_.fail_expected("a type of numbers (uchar, int, float ...)", word);
     return found->second;
+  }
+
+  /// Blank lines and comments may stand behind the last element.
+  void check_end() {
+    while (!source_.at_end()) {
+      const std::size_t left = source_.left();
+      if (const std::string_view word = source_.word(); source_.text() && (word == "comment" || word.starts_with('#')))
+        source_.line();
+      else
+        source_.fail(fmt::format("{} {} are stated, {} bytes stand behind the last: must be as many as there are",
+                                 elements_.back().count, elements_.back().name, left));
+    }
   }
 
   /// Of this line, so that a line cut short does not take the next one's.

@@ -81,6 +81,8 @@ void read_text(const std::string& name, const std::string& content, Merger& merg
     Vec3& x = corners[corner];
     if (!(words >> x[0] >> x[1] >> x[2]))
       throw input_error("{}:{}: three coordinates were expected behind vertex", name, number);
+    if (words >> word)
+      throw input_error("{}:{}: '{}' stands behind three coordinates", name, number, word.substr(0, 40));
     corner = (corner + 1) % 3;
     if (corner == 0) merger.add(corners);
   }

@@ -163,7 +163,7 @@ class XmlCheck {
   void take_array(const XmlTag& tag) {
     XmlArray array{tag, section_of(tag), pieces_.size(), 0, 1};
     const auto size = xml_type_size(tag.attribute("type"));
-    const bool geometry = array.section == "Points" || is_cells(array.section);
+    const bool geometry = is_geometry(array);
     if (!size || (geometry && *size == 0)) refuse(tag, "type", "no type of numbers that can be read");
     array.type_size = *size;
     require_one_of(tag, "format", {"ascii", "binary", "appended"});
@@ -210,11 +210,20 @@ class XmlCheck {
       check_text(array, values);
     } else if (const std::uint64_t bytes = stated_bytes(array); bytes / array.type_size < values) {
       fail(array, fmt::format("{} values are needed, it has {} bytes", values, bytes));
+    } else if (is_geometry(array) && bytes / array.type_size > values) {
+      fail_more(array, values);
     } else if (!compressor_.empty() && values > largest_array / array.type_size) {
       fail(array, fmt::format("{} values: more than the {} MB that are read here", values, largest_array / 1'000'000));
     } else if (!compressor_.empty()) {
       data(array, values * array.type_size);  // VTK must not fail: telling so it follows a null pointer
     }
+  }
+
+  static bool is_geometry(const XmlArray& array) { return array.section == "Points" || is_cells(array.section); }
+
+  /// What a piece does not state would be cut off.
+  [[noreturn]] void fail_more(const XmlArray& array, std::uint64_t values) const {
+    fail(array, fmt::format("{} values are stated by its piece, it has more: must be as many", values));
   }
 
   std::string_view text_of(const XmlArray& array) const {
@@ -239,6 +248,7 @@ class XmlCheck {
                    fmt::format("\"{}\" found where a number ({}) was expected", word.substr(0, 40),
                                array.tag.attribute("type")));
     }
+    if (is_geometry(array) && !next_word(text).empty()) fail_more(array, values);
   }
 
   /// Whether VTK can read it as a number of the array's type.

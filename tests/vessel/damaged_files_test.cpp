@@ -112,7 +112,7 @@ TEST(DamagedFiles, OfPlyAreNamed) {
        {"vertex 4", "vertex 5", "a.ply:14: more numbers than vertex 4 (from 0) has"},
        {"element vertex", "element vortex", "faces stand before the vertices"},
        {"element face 2", "element face 9999999999", "9999999998 face are stated, "},
-       {"element face 2", "element face 0", "holds no face"},
+       {"element face 2", "element face 0", "a.ply:14: 0 face are stated, 16 bytes stand behind the last"},
        {"element face 2", "element face 3", "cut short"},
        {"property float x", "property flaot x", "a.ply:4: \"flaot\" found where a type of numbers"},
        {"property float x", "property list uchar int x", "no property x of one number"},
@@ -135,7 +135,12 @@ TEST(DamagedFiles, OfPlyAreNamed) {
        {"3 0 1 2", "3 0 1 -5", "a.ply:14: cell 0 (from 0) names point -5"},
        {"3 0 1 2", "3 0 1 99999999999999999999", "a.ply:14: \"99999999999999999999\" found where an integer"},
        {"3 0 1 2", "3 0 1 1.5", "a.ply:14: \"1.5\" found where an integer was expected"},
+       {"element face 2", "element face 1",
+        "a.ply:15: 1 face are stated, 8 bytes stand behind the last: must be as many"},
+       {"3 1 3 2\n", "3 1 3 2\ncomment of one\n# of another\n\n 3\n", "a.ply:19: 2 face are stated, 2 bytes stand"},
        {"3 1 3 2", "...", "cut short"}});
+  const TemporaryFolder folder;
+  EXPECT_EQ(message_of([&] { read_mesh_file(folder.file("a.ply", ply + "\n \ncomment behind\n")); }), "accepted");
 }
 
 TEST(DamagedFiles, OfLegacySurfacesAreNamed) {
@@ -208,9 +213,12 @@ TEST(DamagedFiles, OfXmlSurfacesAreNamed) {
        {"NumberOfPoints=\"4\"", "NumberOfPoints=\"-1\"", "a.vtp:4: NumberOfPoints=\"-1\": must be a number, 0 or more"},
        {"NumberOfPoints=\"4\"", "NumberOfPoints=\"5\"",
         "a.vtp:11: array Points of Points: 15 values are needed, it has 12"},
-       {"NumberOfPoints=\"4\"", "NumberOfPoints=\"3\"", "cell 1 (from 0) names point 3: the file has 3"},
+       {"NumberOfPoints=\"4\"", "NumberOfPoints=\"3\"",
+        "a.vtp:11: array Points of Points: 9 values are stated by its piece, it has more"},
        {"NumberOfPoints=\"4\"", "NumberOfPoints=\"0\"", "has no points"},
        {"NumberOfPolys=\"2\"", "NumberOfPolys=\"9999999999\"", "a.vtp:4: NumberOfPolys=\"9999999999\""},
+       {"NumberOfPolys=\"2\"", "NumberOfPolys=\"1\"",
+        "a.vtp:23: array offsets of Polys: 1 values are stated by its piece, it has more: must be as many"},
        {"NumberOfPolys=\"2\"", "NumberOfPolys=\"3\"", "array offsets of Polys: 3 values are needed, it has 2"},
        {"NumberOfComponents=\"3\"", "NumberOfComponents=\"4294967296\"", "a.vtp:11: NumberOfComponents=\"4294967296\""},
        {"NumberOfComponents=\"3\"", "NumberOfComponents=\"0\"", "must be 1 to 1000"},
@@ -236,7 +244,8 @@ TEST(DamagedFiles, OfXmlSurfacesAreNamed) {
        {"3 6", "3 2", "the nodes of cell 1 (from 0) end at 2, those of the one before at 3"},
        {"3 6", "-3 6", "the nodes of cell 0 (from 0) end at -3"},
        {"3 6", "3 7", "array connectivity of Polys: 7 values are needed, it has 6"},
-       {"3 6", "3 5", "cell 1 (from 0), of VTK type 7, has 2 nodes"},
+       {"3 6", "3 5", "array connectivity of Polys: 5 values are stated by its piece, it has more"},
+       {"0 1 2\n1 3 2", "0 1 2\n1 3", "array connectivity of Polys: 6 values are needed, it has 5"},
        {"</Points>", "</Ponts>", "a.vtp:17: </Ponts> closes no open tag"},
        {"</Piece>", "...", "the file ends before </Piece>: cut short?"},
        {"<Polys>", "<!DOCTYPE x><Polys>", "a.vtp:18: no tag that a VTK file can have"}});
@@ -286,6 +295,7 @@ TEST(DamagedFiles, OfBinaryNumbersAreNamedWithTheirByte) {
                     {{face(0, big), face(77, big), "names point 77"},
                      {face(0, big), "...", "a.ply: byte "},
                      {"\3" + face(0, big), "\xff" + face(0, big), "255 vertex_indices are stated"},
+                     {"element face 2", "element face 1", "1 face are stated, 13 bytes stand behind the last"},
                      {bytes_of(.5f, big), bytes_of(NAN, big), "the coordinate nan is not a finite number"}});
   expect_messages("a.vtk", binary_vtk(),
                   {{bytes_of(3, true), bytes_of(-3, true), "a.vtk: byte 134: cell 0 (from 0) has -3 nodes"},

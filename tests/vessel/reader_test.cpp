@@ -132,6 +132,7 @@ TEST(Stl, MistakesAreNamed) {
   };
   expect_part(message("something"), "neither text STL");
   expect_part(message("solid x\nvertex 0 0\n"), "bad.stl:2: three coordinates");
+  expect_part(message("solid x\nvertex 0 0 0 7\n"), "bad.stl:2: '7' stands behind three coordinates");
   expect_part(message("solid x\nvertex 0 0 0\n"), "the last facet has 1 corners");
   expect_part(message("solid x\nendsolid\n"), "holds no triangle");
   expect_part(message("solid x\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"),
