@@ -64,7 +64,11 @@ fs::path base_of(const YamlNode& tree) {
   if (base->kind != YamlNode::Kind::scalar || base->text.empty())
     throw input_error("{}: base: must be the path of a case file", base->place.text());
   const fs::path path = (base->place.file->path.parent_path() / base->text).lexically_normal();
-  if (!fs::is_regular_file(path)) throw input_error("{}: base: {}: no such file", base->place.text(), path.string());
+  if (!fs::is_regular_file(path))
+    throw input_error("{}: base: {}: {}", base->place.text(), path.string(),
+                      fs::is_directory(path) ? "is a folder: must be a case file"
+                      : fs::exists(path)     ? "is a device or a pipe: must be a case file"
+                                             : "no such file");
   return path;
 }
 

@@ -153,6 +153,8 @@ TEST_F(CaseTree, RefusesBasesThatLeadNowhere) {
     return input_error_of([&] { CaseFile{path}; });
   };
   EXPECT_EQ(error_with("name: a\nbase: no.yaml\n"), "a.yaml:2: base: no.yaml: no such file");
+  EXPECT_EQ(error_with("base: base\n"), "a.yaml:1: base: base: is a folder: must be a case file");
+  EXPECT_EQ(error_with("base: /dev/zero\n"), "a.yaml:1: base: /dev/zero: is a device or a pipe: must be a case file");
   EXPECT_EQ(error_with("base: [a]\n"), "a.yaml:1: base: must be the path of a case file");
   EXPECT_EQ(error_with("base:\n"), "a.yaml:1: base: must be the path of a case file");
   EXPECT_EQ(error_with("base: a.yaml\n"), "a.yaml:1: base: a.yaml: a case cannot build on itself");
