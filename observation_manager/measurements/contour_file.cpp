@@ -8,6 +8,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 #include "observation_manager/measurements/stated_unit.hpp"
 
 namespace tether {
@@ -31,6 +32,7 @@ class Table {
         time_(table_.quantities("time", units, dimension::time)),
         closed_(table_.has("closed") ? table_.numbers("closed") : std::vector<double>(table_.rows(), 1.0)) {
     check_unit_of_time(table_, given.beat.has_value());
+    check_names_and_frames();
     for (std::size_t row = 0; row < closed_.size(); ++row)
       if (closed_[row] != 0 && closed_[row] != 1)
         throw input_error("{}: closed: {:g}: must be 1 (closed) or 0 (a line with two ends)", table_.where(row),
@@ -60,6 +62,16 @@ class Table {
   }
 
  private:
+  void check_names_and_frames() const {
+    constexpr double most = 1e6;
+    for (std::size_t row = 0; row < table_.rows(); ++row) {
+      if (slice_[row].empty()) throw input_error("{}: slice: '': {}", table_.where(row), name_rule);
+      if (!(frame_[row] >= 0 && frame_[row] <= most && frame_[row] == std::round(frame_[row])))
+        throw input_error("{}: frame: {}: must be a whole number from 0 to {:.0f}", table_.where(row), frame_[row],
+                          most);
+    }
+  }
+
   Drawn rows(std::size_t begin, std::size_t end) const {
     Drawn one{
         slice_[begin], contour_[begin], table_.where(begin), frame_[begin], time_[begin], closed_[begin] != 0, {}};

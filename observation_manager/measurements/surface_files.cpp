@@ -7,6 +7,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/given_number.hpp"
 #include "common/config/input_files.hpp"
 #include "common/io/pvd.hpp"
 #include "observation_manager/measurements/stated_unit.hpp"
@@ -25,15 +26,22 @@ std::vector<TimedFile> listed_in_table(const std::filesystem::path& list, const 
   const std::vector<std::string> names = table.texts("file");
   const std::vector<double> times = table.quantities("time", units, dimension::time);
   std::vector<TimedFile> files;
-  for (std::size_t row = 0; row < names.size(); ++row)
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    if (names[row].empty()) throw input_error("{}: file: '': must be the name of a surface's file", table.where(row));
     files.push_back({list.parent_path() / names[row], times[row], table.where(row)});
+  }
   return files;
 }
 
 std::vector<TimedFile> listed_in_series(const std::filesystem::path& list) {
   const PvdSeries series = PvdSeries::resumed(list, std::numeric_limits<double>::infinity());
   std::vector<TimedFile> files;
-  for (const auto& [time, name] : series.entries()) files.push_back({list.parent_path() / name, time, list.string()});
+  for (const auto& [time, name] : series.entries()) {
+    if (std::abs(time) > largest_given)
+      throw input_error("{}: timestep: {}: must be from -{:g} to {:g}", list.string(), time, largest_given,
+                        largest_given);
+    files.push_back({list.parent_path() / name, time, list.string()});
+  }
   if (files.empty()) throw input_error("{}: lists no file", list.string());
   return files;
 }
@@ -51,12 +59,28 @@ std::vector<TimedFile> found_in_folder(const SurfacesCase& given) {
   return files;
 }
 
+/// More than any series has: each of them would be read.
+void check_number(const std::vector<TimedFile>& files, const std::filesystem::path& list) {
+  constexpr std::size_t most = 5000;
+  if (files.size() > most)
+    throw input_error("{}: has {} surfaces: must be at most {}", list.string(), files.size(), most);
+}
+
+void check_is_file(const TimedFile& given) {
+  const std::filesystem::file_status status = std::filesystem::status(given.file);
+  if (!std::filesystem::exists(status)) throw input_error("{}: {} does not exist", given.where, given.file.string());
+  if (!std::filesystem::is_regular_file(status))
+    throw input_error("{}: {} is {}: must be a surface's file", given.where, given.file.string(),
+                      std::filesystem::is_directory(status) ? "a folder" : "a device or a pipe");
+}
+
 /// A name that is written otherwise than it reads, as by &#95;: what results depend on would not be seen.
 std::vector<TimedFile> plainly_named(std::vector<TimedFile> files, const std::filesystem::path& list) {
+  check_number(files, list);
+  std::for_each(files.begin(), files.end(), check_is_file);
   const std::set<std::filesystem::path> seen = files_named_in(list);
-  std::error_code none;
   for (const TimedFile& file : files)
-    if (std::filesystem::exists(file.file, none) && !seen.contains(file.file))
+    if (!seen.contains(file.file))
       throw input_error(
           "{}: the name of {} must be written as it is, in UTF-8, without quotes or &#...; of its characters",
           file.where, file.file.string());
@@ -124,8 +148,8 @@ bool in_order_of_numbers(const std::string& a, const std::string& b) {
 
 std::vector<TimedFile> files_of(const SurfacesCase& given, const UnitSystem& units) {
   std::vector<TimedFile> files = listed(given, units);
-  for (const auto& [file, time, where] : files)
-    if (!std::filesystem::exists(file)) throw input_error("{}: {} does not exist", where, file.string());
+  check_number(files, given.folder.empty() ? given.file : given.folder);
+  std::for_each(files.begin(), files.end(), check_is_file);
   check_times(files, given.period.value_or(0));
   for (TimedFile& file : files) file.time += given.data.time_shift;
   return files;

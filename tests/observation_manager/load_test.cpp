@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <sstream>
@@ -221,6 +222,30 @@ TEST_F(Load, RefusesBadSurfaces) {
             "case.yaml:5: observations.surfaces.ct.held_out: there is no frame 3; frames are numbered 0 to 0");
 }
 
+TEST_F(Load, RefusesWhatATableOfSurfacesNamesThatIsNoFile) {
+  folder.file("a.stl", stl(vessel(1.1)));
+  std::filesystem::create_directory(folder / "d.vtp");
+  ASSERT_EQ(mkfifo((folder / "p.vtp").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "z.vtp");
+  const auto said = [&](const std::string& rows) {
+    folder.file("frames.csv", "file,time [s]\n" + rows);
+    return message("  surfaces: {ct: {file: frames.csv, unit: cm}}\n");
+  };
+  EXPECT_EQ(said("a.stl,0\nd.vtp,0.1\n"), "frames.csv:3: d.vtp is a folder: must be a surface's file");
+  EXPECT_EQ(said(".,0\n"), "frames.csv:2: . is a folder: must be a surface's file");
+  EXPECT_EQ(said("p.vtp,0\n"), "frames.csv:2: p.vtp is a device or a pipe: must be a surface's file");
+  EXPECT_EQ(said("z.vtp,0\n"), "frames.csv:2: z.vtp is a device or a pipe: must be a surface's file");
+  EXPECT_EQ(said("a.stl,0\n,0.1\n"), "frames.csv:3: file: '': must be the name of a surface's file");
+  std::string many;
+  for (int i = 0; i < 5001; ++i) many += fmt::format("a.stl,{}\n", 1e-4 * i);
+  EXPECT_EQ(said(many), "frames.csv: has 5001 surfaces: must be at most 5000");
+  folder.file(
+      "far.pvd",
+      "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1e305\" file=\"a.stl\"/></Collection></VTKFile>");
+  EXPECT_EQ(message("  surfaces: {ct: {file: far.pvd, unit: cm}}\n"),
+            "far.pvd: timestep: 1e+305: must be from -1e+20 to 1e+20");
+}
+
 /// Data that were displaced, turned about (0.1, 0, 1) and made too small read as the others do, once that is taken off.
 TEST_F(Load, TakesKnownErrorsOff) {
   const std::string exact = "  surfaces: {ct: {file: exact.stl, unit: cm}}\n";
@@ -308,6 +333,13 @@ TEST_F(Load, RefusesBadContours) {
             "c.csv: the unit of x is stated neither in its heading (x [mm]) nor in the case (unit)");
   EXPECT_EQ(csv(heading + good + circle_rows("B", 0, 0, 11, 25) + good),
             "c.csv:50: slice A, frame 0 occurs in two places: the rows of a contour must stand together");
+  for (const std::string frame : {"-1", "0.5", "99999999999999999999"})
+    EXPECT_TRUE(
+        csv(heading + good + "A," + frame + ",200,1,1,15\n").ends_with(": must be a whole number from 0 to 1000000"))
+        << frame;
+  EXPECT_EQ(csv(heading + good + "A,-1,200,1,1,15\n"), "c.csv:26: frame: -1: must be a whole number from 0 to 1000000");
+  EXPECT_EQ(csv(heading + good + ",1,200,1,1,15\n"),
+            "c.csv:26: slice: '': a name consists of letters, digits, spaces and _-.+=()%");
   EXPECT_EQ(csv(heading + good + "A,1,200,1,1,15\nA,1,300,1,2,15\n"),
             "c.csv:27: slice A, frame 1 has two times, 0.2 and 0.3");
   EXPECT_EQ(csv(heading + good + circle_rows("A", 1, 0, 12, 15)),
