@@ -41,7 +41,8 @@ int run(const CommandLine& command) {
   return protocol::run_partner<protocol::ToObservedFluid>("fluid", [&command](const protocol::Welcome& welcome) {
     BloodCase blood(command.case_file);
     auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file));
-    return FluidServer(std::move(solver), blood.file.units(), effective_sections(blood), welcome.output);
+    return FluidServer(std::move(solver), blood.file.units(), effective_sections(blood), welcome.output,
+                       held_curves(blood.fluid, blood.file));
   });
 }
 

@@ -102,6 +102,18 @@ InletSettings settings_of(const InletCase& inlet, const UnitSystem& units) {
           profile_named(inlet.profile),       inlet.flow_through == "ring"};
 }
 
+/// Adds a sentence if the table's last value is held until the run ends.
+void note_if_held(const std::string& end, const CurveCase& curve, const CaseFile& file,
+                  std::vector<std::string>& notices) {
+  if (curve.file.empty() || curve.period) return;
+  const double last = curve.table(file.units()).times.back(), run_end = file.common().time.end;
+  if (last < run_end * (1 - 1e-9))
+    notices.push_back(
+        fmt::format("{}: {} ends at {:g} s, the run at {:g} s: its last value is held until then; does it "
+                    "repeat (period)?",
+                    end, curve.file.filename().string(), last, run_end));
+}
+
 }  // namespace
 
 void InletCase::declare(Fields& f) {
@@ -187,6 +199,16 @@ FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file) {
   settings.probes = fluid.probes;
   for (const auto& [name, section] : fluid.sections) settings.sections.emplace_back(name, plane_of(section));
   return settings;
+}
+
+std::vector<std::string> held_curves(const FluidCase& fluid, const CaseFile& file) {
+  std::vector<std::string> notices;
+  for (const auto& [name, inlet] : fluid.inlets) {
+    note_if_held(name, inlet.flow, file, notices);
+    note_if_held(name, inlet.pressure, file, notices);
+  }
+  for (const auto& [name, outlet] : fluid.outlets) note_if_held(name, outlet.pressure, file, notices);
+  return notices;
 }
 
 }  // namespace tether::fluid

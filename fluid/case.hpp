@@ -56,4 +56,7 @@ void check_against_mesh(const FluidCase& fluid, const FluidMesh& mesh, const Cas
 /// Reads the curves. The wall bears the image's pressure as well if the case says so. Throws InputError.
 FluidSettings make_settings(const FluidCase& fluid, const CaseFile& file);
 
+/// A sentence for each table of an inlet or outlet that ends before the run does and does not repeat.
+std::vector<std::string> held_curves(const FluidCase& fluid, const CaseFile& file);
+
 }  // namespace tether::fluid

@@ -15,10 +15,11 @@ std::vector<double> as_list(const Eigen::Ref<const Eigen::MatrixXd>& values) {
 }  // namespace
 
 FluidServer::FluidServer(std::unique_ptr<FluidSolver> solver, const UnitSystem& units, std::string effective_case,
-                         std::filesystem::path output)
+                         std::filesystem::path output, std::vector<std::string> notices)
     : solver_(std::move(solver)),
       units_(units),
       effective_case_(std::move(effective_case)),
+      notices_(std::move(notices)),
       series_(std::move(output)) {}
 
 protocol::Hello FluidServer::hello() const {
@@ -28,6 +29,7 @@ protocol::Hello FluidServer::hello() const {
   hello.state_size = solver_->state().size();
   hello.unknowns = 4 * solver_->domain().node_count();
   hello.effective_case = effective_case_;
+  hello.notices = notices_;
   for (const ParameterTable::Entry& entry : solver_->parameters().entries())
     hello.parameters.push_back(protocol::info_of(entry, units_));
   for (const auto& [name, dimension] : solver_->observables())

@@ -14,7 +14,7 @@ namespace tether::fluid {
 class FluidServer {
  public:
   FluidServer(std::unique_ptr<FluidSolver> solver, const UnitSystem& units, std::string effective_case,
-              std::filesystem::path output);
+              std::filesystem::path output, std::vector<std::string> notices = {});
 
   protocol::Hello hello() const;
 
@@ -37,6 +37,7 @@ class FluidServer {
   std::unique_ptr<FluidSolver> solver_;
   UnitSystem units_;
   std::string effective_case_;
+  std::vector<std::string> notices_;
   FluidSeries series_;
 };
 

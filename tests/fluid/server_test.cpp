@@ -51,6 +51,24 @@ TEST(FluidCase, BecomesSettingsInTheCasesUnits) {
   EXPECT_NEAR(observed(solver, "outlet.flow"), 80, 1e-10);
 }
 
+/// The run of the valid head ends at 0.9.
+TEST(FluidCase, ATableThatEndsBeforeTheRunIsTold) {
+  write_file("q.csv", "time [s], value [ml/s]\n0, 80\n0.05, 90\n");
+  const auto told = [](const std::string& more) {
+    CaseFile file(write_file("case.yaml",
+                             valid_head + replaced(valid_fluid, "{constant: 80 ml/s}", "{file: q.csv" + more + "}")));
+    FluidCase fluid;
+    file.read("fluid", fluid);
+    file.finish();
+    return held_curves(fluid, file);
+  };
+  EXPECT_EQ(told(""), std::vector<std::string>{"inlet: q.csv ends at 0.05 s, the run at 0.9 s: its last value is held "
+                                               "until then; does it repeat (period)?"});
+  EXPECT_TRUE(told(", period: 0.05").empty());
+  write_file("q.csv", "time [s], value [ml/s]\n0, 80\n0.9, 90\n");
+  EXPECT_TRUE(told("").empty());
+}
+
 TEST(FluidCase, APrestressedWallBearsTheImagesPressure) {
   FluidSettings settings;
   ASSERT_EQ(read("image: {pressure: 80 mmHg, wall: prestressed}\n" + valid_fluid, &settings), "no error");
