@@ -8,14 +8,15 @@
 namespace tether {
 
 /// The user's input is wrong (case file, mesh, curve): exit code 2. The message names file:line or the object, the rule
-/// and the value.
+/// and the value. It is kept as printable (name.hpp): what it quotes may be anybody's.
 struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message);
 };
 
-/// The run failed (a step that does not converge, a mesh that breaks, a partner that died): exit code 1.
+/// The run failed (a step that does not converge, a mesh that breaks, a partner that died): exit code 1. Its message is
+/// kept as printable, too.
 struct RunError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit RunError(const std::string& message);
 };
 
 /// A program that this one started failed, and told the user why: all that is left is its exit code.

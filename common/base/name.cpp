@@ -32,8 +32,22 @@ constexpr std::array leads{Lead{0x80, 0x00, 0, 0x0}, Lead{0xE0, 0xC0, 1, 0x80}, 
 struct Character {
   std::size_t bytes = 0;
   char32_t code = 0;
-  bool is_separator() const { return (code >= 0x80 && code < 0xA0) || code == 0x2028 || code == 0x2029; }
 };
+
+struct CodeRange {
+  char32_t first, last;
+};
+
+/// Controls, but \n and \t; separators of lines, marks of direction, and what has no width.
+constexpr std::array unseen{CodeRange{0x00, 0x08},     CodeRange{0x0B, 0x1F},     CodeRange{0x7F, 0x9F},
+                            CodeRange{0x200B, 0x200F}, CodeRange{0x2028, 0x202E}, CodeRange{0x2060, 0x2069},
+                            CodeRange{0xFEFF, 0xFEFF}};
+
+/// Whether a text begins with it.
+bool is_seen(const Character& c) {
+  return c.bytes > 0 && std::none_of(unseen.begin(), unseen.end(),
+                                     [&](const CodeRange& r) { return c.code >= r.first && c.code <= r.last; });
+}
 
 /// The character that a text begins with; no bytes if it begins with none.
 Character first_character(std::string_view text) {
@@ -68,22 +82,35 @@ bool is_utf8(std::string_view text) {
 }
 
 bool is_name(std::string_view text) {
-  if (text.empty() || text.size() > longest_name || text.front() == ' ' || text.back() == ' ' || !is_utf8(text) ||
-      text.find_first_not_of('.') == std::string_view::npos ||
-      !std::all_of(text.begin(), text.end(), may_stand_in_a_name))
-    return false;
-  while (!text.empty()) {
-    const Character first = first_character(text);
-    if (first.is_separator()) return false;
-    text.remove_prefix(first.bytes);
-  }
-  return true;
+  return !text.empty() && text.size() <= longest_name && text.front() != ' ' && text.back() != ' ' &&
+         text.find_first_not_of('.') != std::string_view::npos &&
+         std::all_of(text.begin(), text.end(), may_stand_in_a_name) && is_printable(text);
 }
 
 bool is_file_name(std::string_view text) {
   if (text.empty() || text.size() > longest_file_name || text.front() == '.') return false;
   return std::all_of(text.begin(), text.end(),
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; });
+}
+
+bool is_printable(std::string_view text) {
+  while (!text.empty()) {
+    const Character first = first_character(text);
+    if (!is_seen(first)) return false;
+    text.remove_prefix(first.bytes);
+  }
+  return true;
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const Character first = first_character(text);
+    const std::size_t bytes = std::max<std::size_t>(first.bytes, 1);
+    shown += is_seen(first) ? text.substr(0, bytes) : "?";
+    text.remove_prefix(bytes);
+  }
+  return shown;
 }
 
 }  // namespace tether

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace tether {
@@ -8,7 +9,7 @@ namespace tether {
 /// and parts of file names.
 inline constexpr std::string_view name_rule = "a name consists of letters, digits, spaces and _-.+=()%";
 
-/// Whether a text is such a name: not empty, of at most 100 bytes, without a space at either end, valid UTF-8.
+/// Whether a text is such a name: not empty, of at most 100 bytes, without a space at either end, printable.
 bool is_name(std::string_view text);
 
 /// The rule for names of cases and studies, after which folders are named.
@@ -21,5 +22,12 @@ bool is_utf8(std::string_view text);
 
 /// The first line that is not; 0 if all are.
 int first_line_not_utf8(std::string_view text);
+
+/// Whether a text is valid UTF-8 of characters that are seen: of those that are not, or that a terminal or an editor
+/// obeys (controls, marks of direction, joiners, separators of lines), only ends of lines and tabs.
+bool is_printable(std::string_view text);
+
+/// With ? in place of each character that is not.
+std::string printable(std::string_view text);
 
 }  // namespace tether

@@ -103,10 +103,7 @@ void CommonCase::declare(Fields& f) {
   f.text("name", name, "short name of the case, also of its output folder", Need::required);
   f.check(is_file_name(name), "name", std::string(file_name_rule));
   f.text("title", title, "one line for reports");
-  const auto is_obeyed = [](unsigned char c) {
-    return std::iscntrl(c) != 0 && c != '\n' && c != '\t';
-  };  // by terminals
-  f.check(std::none_of(title.begin(), title.end(), is_obeyed), "title", "must not hold control characters");
+  f.check(is_printable(title), "title", "must not hold control characters");
   f.choice("units", units,
            {{"cgs", "cm, g, s: pressures in dyn/cm2"},
             {"SI", "m, kg, s: pressures in Pa"},

@@ -54,7 +54,7 @@ std::string rule_broken(double value, Dimension dimension, const Range& range) {
 
 void Problems::add(const YamlPlace& place, std::string text) {
   std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c != '\n' && std::iscntrl(c) != 0; }, '?');
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
   found_.emplace_back(place, std::move(text));
 }
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+
+#include "common/base/error.hpp"
 
 namespace tether {
 namespace {
@@ -21,6 +24,30 @@ TEST(Name, IsOfLettersDigitsAndAFewSigns) {
       is_name("Stra\xDF"
               "e"))
       << "Latin-1";
+}
+
+/// A mark of direction, a joiner, a space without width, the mark of an order of bytes.
+constexpr std::array unseen{"\u200b", "\u200e", "\u202e", "\u2066", "\ufeff", "\u2028", "\u0085", "\x1b", "\x7f"};
+
+TEST(Name, HasNoCharacterThatIsNotSeen) {
+  for (const char* character : unseen) {
+    EXPECT_FALSE(is_name("a" + std::string(character) + "b")) << character;
+    EXPECT_FALSE(is_printable("a" + std::string(character))) << character;
+    EXPECT_EQ(printable(std::string(character) + "b"), "?b");
+  }
+  EXPECT_TRUE(is_printable("ends of\nlines\tand tabs, äußere Wand"));
+  EXPECT_EQ(printable("two\nlines\t\u4e2d"), "two\nlines\t\u4e2d");
+  EXPECT_EQ(printable("Stra\xDF"
+                      "e"),
+            "Stra?e")
+      << "Latin-1";
+}
+
+TEST(Errors, SayNothingThatATerminalObeys) {
+  const std::string value("0.1\0\x1b[31m", 9);
+  EXPECT_STREQ(input_error("flow.csv:3: '{}'", value).what(), "flow.csv:3: '0.1??[31m'");
+  EXPECT_STREQ(run_error("flow.csv:3: '{}'", value).what(), "flow.csv:3: '0.1??[31m'");
+  EXPECT_STREQ(InputError("first\nsecond").what(), "first\nsecond");
 }
 
 TEST(Utf8, IsWhatTheStandardSays) {
