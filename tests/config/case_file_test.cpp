@@ -168,8 +168,26 @@ const Wrong wrong_cases[] = {
     {"fluid: {density: 1}\nflud: {}\n", "case.yaml:7: flud: unknown section; did you mean 'fluid'?"},
     {"fluid: {density: 1}\nname: again\n", "case.yaml:7: 'name' is given twice; first on line 1"},
     {"fluid: {density: 1\n", "case.yaml:7: not YAML: end of map flow not found"},
+    {"# 'a, and the \"others\nfluid: {density: 1\nb: 'c' # \"d\n", "case.yaml:8: not YAML: end of map flow not found"},
     {"fluid: {density: 1}\n---\nname: b\n", "case.yaml:7: a second document starts here; a case file has one"},
     {"fluid: &a {density: 1, extra: *a}\n", "case.yaml:6: nested too deeply (an alias that contains itself?)"},
+    {"fluid: {density: 1, motion: \"har\\nmonic\"}\n",
+     "case.yaml:6: fluid.motion: har?monic: must be one of elastic, harmonic; did you mean 'harmonic'? (of the mesh)"},
+    {"fluid: {density: \"1\\n2\"}\n",
+     "case.yaml:6: fluid.density: '1?2': unknown unit '?2'; this field is in g/cm3 (mass per volume)"},
+    {"title: \"a\\u202Eb\"\nfluid: {density: 1}\n", "case.yaml:6: title: a?b: must not hold control characters"},
+    {"title: \"a\\u2028b\"\nfluid: {density: 1}\n", "case.yaml:6: title: a?b: must not hold control characters"},
+    {"title: \"Small tube\nfluid: {density: 1}\n", "case.yaml:6: a quote is opened here and not closed on this line"},
+    {"title: \"Small tube\nfluid:\n  density: 1\n  label: \"x\"\n",
+     "case.yaml:6: a quote is opened here and not closed on this line"},
+    {"fluid:\n  label: 'Small tube\n  density: 1\noutput: {points: {'p': [0, 0, 1]}}\n",
+     "case.yaml:7: a quote is opened here and not closed on this line"},
+    {"fluid: {label: \"Small tube, density: 1}\noutput:\n  points: {\"p\": [0, 0, 1]}\n",
+     "case.yaml:6: a quote is opened here and not closed on this line"},
+    {"fluid: {masks: [\"a\", 'b, \"c\"], density: 1}\noutput:\n  points: {'p': [0, 0, 1]}\n",
+     "case.yaml:6: a quote is opened here and not closed on this line"},
+    {"fluid:\n  masks:\n    - \"a\n  density: 1\noutput: {points: {\"p\": [0, 0, 1]}}\n",
+     "case.yaml:8: a quote is opened here and not closed on this line"},
     {"fluid:\n  layers: 0\n  densty: 1\n",
      "case.yaml:6: fluid.density: missing: must be given in g/cm3 (mass per volume)\n"
      "case.yaml:7: fluid.layers: 0: must be at least 1 and at most 8 (thin layers)\n"
@@ -197,6 +215,35 @@ TEST(CaseFile, NamesWhatTheHeadLacks) {
   EXPECT_NE(error_of_whole("name: " + std::string(300, 'a') + "\n").find(", at most 200 of them\n"), std::string::npos);
   EXPECT_EQ(error_of_whole("just words\n"),
             "case.yaml:1: a case file is a section of named fields, such as 'name: tube'");
+}
+
+TEST(CaseFile, MayHaveQuotesOfSeveralLines) {
+  const std::string title =
+      "title: \"It's \\\"a\\\" tube:\n  of\n\n  two lines\" # it's so\nfluid: {density: 1, label: 'it''s'}\n";
+  EXPECT_EQ(errors_in<Blood>(title), "no error");
+  EXPECT_EQ(errors_in<Blood>("# a \"\ntitle: it's\nfluid: {density: 1}\n"), "no error");
+  EXPECT_EQ(errors_in<Blood>("title: |\n  \"a\n  b: c\nfluid: {density: 1}\n"), "no error");
+}
+
+TEST(CaseFile, IsUtf8WithoutOrWithAMark) {
+  std::string wide;
+  for (const char c : valid_head + "fluid: {density: 1}\n") wide += std::string(1, '\0') + c;
+  EXPECT_EQ(error_of_whole(wide), "case.yaml:1: is not UTF-8; save the file in that encoding");
+  EXPECT_EQ(error_of_whole("\xFE\xFF" + wide), "case.yaml:1: is not UTF-8; save the file in that encoding");
+  EXPECT_EQ(error_of_whole(valid_head + "title: a" + std::string(1, '\0')),
+            "case.yaml:6: is not UTF-8; save the file in that encoding");
+  EXPECT_EQ(error_of_whole("\xEF\xBB\xBF" + valid_head), "no error");
+  EXPECT_EQ(error_of_whole("\xEF\xBB\xBF" + valid_head + "title: \"a\nfluid: {}\n"),
+            "case.yaml:6: a quote is opened here and not closed on this line");
+}
+
+TEST(CaseFile, IsAsLongAsPersonsWriteThem) {
+  EXPECT_EQ(error_of_whole(valid_head + "title: " + std::string(65'000, 'a') + "\n"), "no error");
+  EXPECT_EQ(error_of_whole(valid_head + "title: " + std::string(66'000, 'a') + "\n"),
+            "case.yaml:6: has more than 65536 bytes: must be several lines");
+  std::string comments;
+  while (comments.size() < 2'000'000) comments += "# " + std::string(98, 'a') + "\n";
+  EXPECT_EQ(error_of_whole(comments + valid_head), "case.yaml: has more than 2000000 bytes: is it a case file?");
 }
 
 TEST(CaseFile, NamesAFileThatCannotBeRead) {

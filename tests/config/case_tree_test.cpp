@@ -221,5 +221,18 @@ TEST(YamlText, IsReadAsTheSameTree) {
   EXPECT_EQ(again.find("r")->text, "- s");
 }
 
+TEST(YamlText, HasNoLineThatIsTooLongToBeRead) {
+  std::string text = "a:\n  b: [[0, 1],\n";
+  for (int i = 0; i < 9000; ++i) text += "    1.2345678,\n";
+  const YamlNode tree = read_yaml(write_file("a.yaml", text + "  2]\n"));
+  const YamlNode again = read_yaml(write_file("b.yaml", yaml_text(tree)));
+  EXPECT_EQ(again.find("a")->find("b")->items.size(), 9002U);
+  EXPECT_EQ(yaml_text(again), yaml_text(tree));
+}
+
+TEST(YamlValue, IsOneValue) {
+  EXPECT_EQ(input_error_of([] { yaml_value("[5] x"); }).substr(0, 8), "'[5] x':");
+}
+
 }  // namespace case_tree_test
 }  // namespace tether
