@@ -37,6 +37,7 @@ constexpr bool makes_many_runs(JobVerb verb) {
 struct JobCase {
   static constexpr const char* type_name = "job_case";
   std::string name, case_file;
+  std::string row = {};  ///< file and line of the table that it is made of; empty: of none. Not kept
 
   static void fields(auto& self, auto&& field) {
     field("name", self.name, "of its folder of results, in the job's folder");

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/base/name.hpp"
 #include "common/config/overlay.hpp"
+#include "common/config/yaml_tree.hpp"
 
 namespace tether {
 namespace {
@@ -39,12 +41,79 @@ std::vector<JobCase> cases_in(const fs::path& folder) {
 void check_names(const std::vector<JobCase>& cases, const std::string& place) {
   std::set<std::string> names;
   for (const JobCase& one : cases) {
+    const std::string& here = one.row.empty() ? place : one.row;
     if (!is_file_name(one.name))
-      throw input_error("{}: '{}' is to be a folder of results: its name {}", place, one.name, file_name_rule);
+      throw input_error("{}: '{}' is to be a folder of results: its name {}", here, one.name, file_name_rule);
     if (one.name == job_files || one.name == results_table)
-      throw input_error("{}: no case may have the name '{}'", place, one.name);
-    if (!names.insert(one.name).second) throw input_error("{}: two cases have the name '{}'", place, one.name);
+      throw input_error("{}: no case may have the name '{}'", here, one.name);
+    if (!names.insert(one.name).second) throw input_error("{}: two cases have the name '{}'", here, one.name);
   }
+}
+
+void check_columns(const CsvTable& rows, const std::string& table) {
+  if (!rows.has("name")) throw input_error("{}: has no column `name`, one for each case", table);
+  if (rows.has("base"))
+    throw input_error("{}: has a column `base`: all its cases build on the case that is given", table);
+}
+
+bool is_bracketed(const std::string& cell) {
+  return cell.front() == '[' || cell.front() == '{';
+}
+
+/// Whether it ends where the cell does: in brackets of its own it is then one item.
+bool is_list_or_section(const std::string& cell) {
+  try {
+    const YamlNode whole = yaml_value("[" + cell + "]");
+    return whole.items.size() == 1 && whole.items.front().kind != YamlNode::Kind::scalar;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// As YAML quotes it: nothing of it means anything else there.
+std::string quoted(const std::string& cell) {
+  std::string text = "\"";
+  for (const char c : cell) text += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+  return text + "\"";
+}
+
+/// A cell as the text of a value in a case file.
+std::string value_text(const std::string& cell, const std::string& unit) {
+  if (!is_bracketed(cell)) return quoted(unit.empty() ? cell : cell + " " + unit);
+  if (!unit.empty()) throw input_error("'{}': must be one number: the column has a unit, {}", cell, unit);
+  if (!is_list_or_section(cell)) throw input_error("'{}': must be a list or a section, and nothing beside it", cell);
+  return cell;
+}
+
+struct Column {
+  std::string field, unit;
+  std::vector<std::string> cells;
+};
+
+std::vector<Column> columns_of(const CsvTable& rows) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < rows.columns().size(); ++i)
+    columns.push_back({rows.columns()[i], rows.units()[i], rows.texts(rows.columns()[i])});
+  std::erase_if(columns, [](const Column& column) { return column.field == "name"; });
+  return columns;
+}
+
+std::vector<Overlay::Value> values_of(const std::vector<Column>& columns, std::size_t row) {
+  std::vector<Overlay::Value> values;
+  for (const Column& column : columns) try {
+      const std::string& cell = column.cells[row];
+      if (!cell.empty()) values.push_back({column.field, value_text(cell, column.unit)});
+    } catch (const InputError& error) {
+      throw input_error("{}: {}", column.field, error.what());
+    }
+  return values;
+}
+
+/// Without "FILE:LINE: " at its begin.
+std::string without_place(const std::string& line, const std::string& file) {
+  if (!line.starts_with(file)) return line;
+  const std::size_t end = line.find_first_not_of("0123456789", file.size());
+  return end != std::string::npos && line.substr(end, 2) == ": " ? line.substr(end + 2) : line;
 }
 
 }  // namespace
@@ -59,26 +128,30 @@ std::vector<JobCase> job_cases(const fs::path& given) {
 
 std::vector<JobCase> job_cases_of_table(const fs::path& base, const fs::path& table, const fs::path& folder) {
   const CsvTable rows(table);
-  if (!rows.has("name")) throw input_error("{}: has no column `name`, one for each case", table.string());
-  const std::vector<std::string> names = rows.texts("name");
+  check_columns(rows, table.string());
   std::vector<JobCase> cases;
-  for (const std::string& name : names) cases.push_back(job_case(name, folder / (name + ".yaml")));
+  for (const std::string& name : rows.texts("name")) {
+    cases.push_back(job_case(name, folder / (name + ".yaml")));
+    cases.back().row = rows.where(cases.size() - 1);
+  }
   check_names(cases, table.string());
   fs::create_directories(folder);
-  std::vector<Overlay> overlays(cases.size(), Overlay{fs::absolute(base), {}, {}, {}});
-  for (std::size_t column = 0; column < rows.columns().size(); ++column) {
-    const std::string &field = rows.columns()[column], &unit = rows.units()[column];
-    if (field == "name") continue;
-    const std::vector<std::string> values = rows.texts(field);
-    for (std::size_t row = 0; row < values.size(); ++row)
-      if (!values[row].empty())
-        overlays[row].values.push_back({field, unit.empty() ? values[row] : values[row] + " " + unit});
-  }
-  for (std::size_t row = 0; row < cases.size(); ++row) {
-    overlays[row].name = names[row];
-    write_overlay(cases[row].case_file, overlays[row]);
-  }
+  const std::vector<Column> columns = columns_of(rows);
+  for (std::size_t row = 0; row < cases.size(); ++row) try {
+      write_overlay(cases[row].case_file, {fs::absolute(base), cases[row].name, "", values_of(columns, row)});
+    } catch (const InputError& error) {
+      throw input_error("{}: {}", cases[row].row, error.what());
+    }
   return cases;
+}
+
+std::string told_by_row(const JobCase& one, const std::string& message) {
+  if (one.row.empty()) return message;
+  std::string told;
+  std::istringstream lines(message);
+  for (std::string line; std::getline(lines, line);)
+    told += (told.empty() ? "" : "\n") + one.row + ": " + without_place(line, one.case_file + ":");
+  return told;
 }
 
 }  // namespace tether

@@ -21,6 +21,7 @@ constexpr int half_of_diagnoses = 13, longest_diagnosis = 66;
 constexpr int beside_diagnosis = 4;
 /// [s]: in a time that is hardly longer than what is left for the end no work is done.
 constexpr int least_time = seconds_to_end + 120;
+constexpr int longest_time = 366 * 86400;
 /// [MB]: what tether, the master above the models, and the drawing of a picture take beside them.
 constexpr double beside_models = 400;
 
@@ -78,7 +79,7 @@ std::string processes_line(int processes) {
 
 /// Of "30", "30:00", "2:30:00", "1-12", "1-12:30", "1-12:30:00", as sbatch reads it [s]; nothing if it is none of them.
 std::optional<double> seconds_in(const std::string& time) {
-  static const std::regex form(R"((?:(\d+)-)?(\d+)(?::(\d+))?(?::(\d+))?)");
+  static const std::regex form(R"((?:(\d{1,9})-)?(\d{1,9})(?::([0-5]?\d))?(?::([0-5]?\d))?)");
   std::smatch part;
   if (!std::regex_match(time, part, form)) return std::nullopt;
   const auto number = [&](int k) { return part[k].matched ? std::stod(part[k].str()) : 0; };
@@ -94,6 +95,12 @@ void check_word(const char* option, const std::string& text) {
     throw input_error("{}: '{}': must be a word of letters, digits and _.,:=+/@*[]-, not - at its begin", option, text);
 }
 
+void check_memory(const std::string& memory) {
+  static const std::regex form("[0-9]{1,9}[KMGTkmgt]?");
+  if (!memory.empty() && !std::regex_match(memory, form))
+    throw input_error("--memory: {}: must be a whole number with K, M, G or T: 8G", memory);
+}
+
 }  // namespace
 
 void check_resources(const JobResources& resources) {
@@ -101,11 +108,13 @@ void check_resources(const JobResources& resources) {
   check_word("--account", resources.account);
   check_word("--partition", resources.partition);
   for (const std::string& more : resources.more) check_word("--sbatch", more);
+  check_memory(resources.memory);
   if (resources.time.empty()) return;
   const std::optional<double> seconds = seconds_in(resources.time);
-  if (!seconds)
-    throw input_error("--time: {}: must be a time as sbatch has it: 30 (minutes), 2:30:00, 1-12 (days-hours)",
-                      resources.time);
+  if (!seconds || *seconds > longest_time)
+    throw input_error(
+        "--time: {}: must be a time as sbatch has it: 30 (minutes), 2:30:00, 1-12 (days-hours); at most a year",
+        resources.time);
   if (*seconds > 0 && *seconds < least_time)
     throw input_error("--time: {}: must be at least {} minutes: {} before its end the programs save their state",
                       resources.time, least_time / 60, seconds_to_end / 60);

@@ -6,6 +6,10 @@
 #include <array>
 #include <fstream>
 
+#include "common/base/error.hpp"
+#include "common/base/name.hpp"
+#include "common/io/record_file.hpp"
+
 namespace tether {
 namespace {
 
@@ -55,7 +59,30 @@ CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Tas
   return {one.name, CaseState::gone, joined(task == nullptr ? "" : task->state, said)};
 }
 
+void check_job_name(const std::string& file, const std::string& field, std::string word) {
+  if (is_file_name(word)) return;
+  std::replace(word.begin(), word.end(), '\n', '?');  // lest it look like a message of its own
+  throw input_error("{}: {}: '{}': {}", file, field, word, file_name_rule);
+}
+
+void check_record(const Job& job, const std::string& file) {
+  for (std::size_t k = 0; k < job.cases.size(); ++k)
+    check_job_name(file, fmt::format("cases[{}].name", k), job.cases[k].name);
+  if (!job.number.empty()) check_job_name(file, "number", job.number);
+}
+
 }  // namespace
+
+Job read_job(const fs::path& folder) {
+  const fs::path record = folder / job_files / "job.json";
+  if (!fs::exists(record)) throw input_error("{}: holds no job of tether submit", folder.string());
+  auto job = read_record<Job>(record);
+  check_record(job, record.string());
+  const fs::path number = folder / job_files / "number";  // by the script, whoever submitted it
+  std::ifstream(number) >> job.number;
+  check_record(job, number.string());
+  return job;
+}
 
 std::vector<CaseStatus> status_of(const Job& job, const fs::path& folder,
                                   const std::optional<std::vector<slurm::Task>>& tasks) {

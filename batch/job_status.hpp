@@ -29,6 +29,10 @@ struct CaseStatus {
   std::string note;  ///< why it waits, where and how long it runs, the last line of its log
 };
 
+/// The job of a folder. Throws InputError if it holds none, or one whose record was changed to what no job has: its
+/// names are those of folders in this one, and are shown.
+Job read_job(const std::filesystem::path& folder);
+
 /// What became of each case of a job, from what the scheduler says (nothing: it cannot be asked) and the job's folder.
 std::vector<CaseStatus> status_of(const Job& job, const std::filesystem::path& folder,
                                   const std::optional<std::vector<slurm::Task>>& tasks);

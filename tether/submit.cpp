@@ -11,6 +11,7 @@
 #include "batch/job_script.hpp"
 #include "batch/job_status.hpp"
 #include "common/base/error.hpp"
+#include "common/base/name.hpp"
 #include "common/base/process.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/output_folder.hpp"
@@ -102,14 +103,6 @@ fs::path job_folder(const Typed& typed) {
   return fs::absolute(fs::path("out") / ((is_named_by_folder ? named.filename() : named.stem()).string() + "_job"));
 }
 
-Job read_job(const fs::path& folder) {
-  if (!fs::exists(folder / job_files / "job.json"))
-    throw input_error("{}: holds no job of tether submit", folder.string());
-  auto job = read_record<Job>(folder / job_files / "job.json");
-  std::ifstream(folder / job_files / "number") >> job.number;  // by the script, whoever submitted it
-  return job;
-}
-
 /// Throws InputError if there is a job in the folder that is not to be replaced, or cannot be.
 void check_replaced(const fs::path& folder, bool overwrite) {
   if (!fs::exists(folder / job_files / "job.json")) return;
@@ -140,7 +133,7 @@ void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
   for (const JobCase& one : cases) try {
       check_case_for(verb, one.case_file);
     } catch (const InputError& error) {
-      wrong += (wrong.empty() ? "" : "\n") + std::string(error.what());
+      wrong += (wrong.empty() ? "" : "\n") + told_by_row(one, error.what());
     }
   if (!wrong.empty()) throw InputError(wrong);
 }
@@ -200,13 +193,13 @@ int with_job(const char* name, const char* purpose, int argc, char** argv,
 
 void show_status(const Job& job, const fs::path&, const std::vector<CaseStatus>& states) {
   std::cout << fmt::format("job {}, {}, ", job.number.empty() ? "not submitted" : job.number, word_of(job.verb))
-            << text_of(states);
+            << printable(text_of(states));
 }
 
 void show_results(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {
   const JobResults results = results_of(job, folder, states);
   write_text(folder / results_table, results.csv());
-  std::cout << results.text() << "In " << (folder / results_table).string() << "\n";
+  std::cout << printable(results.text()) << "In " << (folder / results_table).string() << "\n";
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ void InputWatch::check() const {
   for (const auto& [file, stamp] : stamps_)
     if (stamp_of(file) != stamp)
       throw run_error("{}: was written during the run, which may have read it before and after: start it again",
-                      file.string());
+                      file.lexically_normal().string());
 }
 
 /// Zeros if there is no such file. The time is that of the last change of any kind: a program can set the other one.

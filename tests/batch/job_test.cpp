@@ -100,6 +100,44 @@ TEST_F(Jobs, MakeACaseOfEachRowOfATable) {
             "no_name.csv: has no column `name`, one for each case");
 }
 
+TEST_F(Jobs, TakeCellsOfATableAsTheyAre) {
+  const fs::path base = write("tube.yaml", "name: tube\n");
+  const std::vector<std::string> texts{"patient # 3", "~", "x: y # {", "it's", "- a", "null", "a\\b", "&a", "---"};
+  std::string rows = "name, title\n";
+  for (std::size_t k = 0; k < texts.size(); ++k) rows += fmt::format("c{}, {}\n", k, texts[k]);
+  const auto cases = job_cases_of_table(base, write("t.csv", rows), folder_ / "cases");
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    const YamlNode tree = read_case_tree(cases[k].case_file);
+    EXPECT_EQ(tree.find("title")->kind, YamlNode::Kind::scalar) << texts[k];
+    EXPECT_EQ(tree.find("title")->text, texts[k]);
+  }
+  const fs::path lists = write("lists.csv", "name, a, b [mm]\nx, [5], 0.05 # x\ny, {c: [1]},\n");
+  const auto with_lists = job_cases_of_table(base, lists, folder_ / "cases");
+  const YamlNode x = read_case_tree(with_lists[0].case_file), y = read_case_tree(with_lists[1].case_file);
+  EXPECT_EQ(x.find("a")->items.at(0).text, "5");
+  EXPECT_EQ(x.find("b")->text, "0.05 # x mm") << "the case refuses it";
+  EXPECT_EQ(y.find("a")->find("c")->items.at(0).text, "1");
+}
+
+TEST_F(Jobs, NameTheRowOfATableThatIsWrong) {
+  const fs::path base = write("tube.yaml", "name: tube\n");
+  const auto refused = [&](const std::string& rows) {
+    return refusal([&] { job_cases_of_table(base, write("t.csv", rows), folder_ / "cases"); });
+  };
+  for (const char* cell : {"[5] # x", "[5] x", "[5]] [6", "[5] ]", "{a: 1} x"})
+    EXPECT_EQ(refused(fmt::format("name, a\nx, [1]\ny, {}\n", cell)).substr(0, 10), "t.csv:3: a") << cell;
+  EXPECT_EQ(refused("name, a [mm]\nx, [1]\n"), "t.csv:2: a: '[1]': must be one number: the column has a unit, mm");
+  EXPECT_EQ(refused("name, ..\nx, 1\n"), "t.csv:2: '..': a name is missing beside a dot");
+  EXPECT_EQ(refused("name, a, a.b\nx, 1, 2\n"), "t.csv:2: a.b: is given twice, or lies within a field that is");
+  EXPECT_EQ(refused("name, base\nx, b.yaml\n"),
+            "t.csv: has a column `base`: all its cases build on the case that is given");
+  EXPECT_EQ(refused("name, a\nx, 1\nx, 2\n"), "t.csv:3: two cases have the name 'x'");
+  const JobCase one{"a", "/job/cases/a.yaml", "t.csv:2"};
+  EXPECT_EQ(told_by_row(one, "/job/cases/a.yaml:5: young: -4e6: must be positive\nbase.yaml:3: b: unknown field"),
+            "t.csv:2: young: -4e6: must be positive\nt.csv:2: base.yaml:3: b: unknown field");
+  EXPECT_EQ(told_by_row({"a", "/a.yaml"}, "/a.yaml:5: wrong"), "/a.yaml:5: wrong");
+}
+
 TEST_F(Jobs, AskForTwiceTheTimeThatAFewStepsFortell) {
   const MeasuredSteps measured{3, 400, 0.5, 1000}, coarser{3, 200, 0.1, 400};
   const auto planned = [&](JobVerb verb, int processes, int parameters) {
@@ -163,11 +201,12 @@ TEST_F(Jobs, RefuseWhatSbatchWouldTakeForSomethingElse) {
   const auto refused = [&](const JobResources& r) { return refusal([&] { check_resources(r); }); };
   JobResources good{1, 1, 1, "8G", "2:30:00", "lab_1", "long", {"qos=high"}};
   EXPECT_EQ(refused(good), "no error");
-  for (const char* time : {"30", "30:00", "1-12", "1-12:30:00", "0"}) {
+  for (const char* time : {"30", "30:00", "120:00", "1-12", "1-12:30:00", "365-0", "0"}) {
     good.time = time;
     EXPECT_EQ(refused(good), "no error") << time;
   }
-  for (const char* time : {"5", "5:59", "0:05:00", "-5", "soon", "20\nrm x"}) {
+  for (const char* time :
+       {"5", "5:59", "0:05:00", "-5", "soon", "20\nrm x", "1:99:99", "30:60", "1-2:60", "400-0", "99999999999:00:00"}) {
     JobResources r;
     r.time = time;
     EXPECT_NE(refused(r).find("--time"), std::string::npos) << time;
@@ -175,6 +214,14 @@ TEST_F(Jobs, RefuseWhatSbatchWouldTakeForSomethingElse) {
   JobResources r;
   r.memory = "1G\n#SBATCH --time=1";
   EXPECT_NE(refused(r).find("--memory"), std::string::npos);
+  for (const char* memory : {"8X", "1e99G", "-1G", "1.5G", "G", "8GB", "99999999999G"}) {
+    r.memory = memory;
+    EXPECT_NE(refused(r).find("--memory"), std::string::npos) << memory;
+  }
+  for (const char* memory : {"8000", "8G", "500M", "2T", "900000K"}) {
+    r.memory = memory;
+    EXPECT_EQ(refused(r), "no error") << memory;
+  }
   r = {}, r.account = "my lab";
   EXPECT_NE(refused(r).find("--account"), std::string::npos);
   r = {}, r.more = {"--qos=high"};
@@ -239,6 +286,23 @@ TEST_F(Jobs, AreReadBackAsTheyWereWritten) {
   written.resources = {2, 8, 4, "3G", "1:00:00", "lab", "long", {"qos=high"}};
   write_record(folder_ / "job.json", written);
   EXPECT_EQ(json_of(read_record<Job>(folder_ / "job.json")), json_of(written));
+}
+
+TEST_F(Jobs, AreNotReadWithNamesThatNoneHas) {
+  Job changed = job(JobVerb::simulate, 2);
+  fs::create_directories(folder_ / "job");
+  const auto refused = [&] {
+    write_record(folder_ / "job/job.json", changed);
+    return refusal([&] { read_job(folder_); });
+  };
+  EXPECT_EQ(refused(), "no error");
+  for (const char* name : {"../../base/out/bad", "a/b", "..", "", "a\x1b[2J"}) {
+    changed.cases[1].name = name;
+    EXPECT_TRUE(refused().starts_with("job/job.json: cases[1].name: '")) << name << refused();
+  }
+  changed = job(JobVerb::simulate, 2);
+  changed.number = "12\n13";
+  EXPECT_EQ(refused().substr(0, 26), "job/job.json: number: '12?");
 }
 
 }  // namespace
