@@ -37,6 +37,13 @@ void run_identification(const CommandLine& command, protocol::Session& session) 
   for (Partner* group : groups) group->stop("the identification is done");
 }
 
+/// All but what the models announce: their numbers are known when they run.
+void check(const CommandLine& command) {
+  const IdentifiedCase given(command.case_file);
+  earlier_of(given.identification);
+  data_of(given);
+}
+
 /// What it is asked for: runs by a process that listens for it, else an identification.
 int run(const CommandLine& command) {
   return protocol::run_master("identification_master", [&command](protocol::Session& session) {
@@ -58,7 +65,7 @@ Program identification_master_program() {
             IdentificationCase identification;
             fields.group("identification", identification, meaning_of_section("identification"));
           },
-      .validate = [](const CommandLine& command) { data_of(IdentifiedCase(command.case_file)); },
+      .validate = check,
       .run = run,
       .shares_work = true};
 }

@@ -25,4 +25,8 @@ std::vector<std::string> EarlierEstimate::names() const {
   return all;
 }
 
+EarlierEstimate earlier_of(const IdentificationCase& given) {
+  return given.prior_from.empty() ? EarlierEstimate() : EarlierEstimate(given.prior_from);
+}
+
 }  // namespace tether

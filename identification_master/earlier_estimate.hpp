@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "identification_master/identification_case.hpp"
 #include "identification_master/results/estimate.hpp"
 
 namespace tether {
@@ -23,5 +24,8 @@ class EarlierEstimate {
  private:
   Estimate told_;
 };
+
+/// Of a case's prior_from; of nothing if it has none.
+EarlierEstimate earlier_of(const IdentificationCase& given);
 
 }  // namespace tether

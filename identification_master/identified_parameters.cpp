@@ -236,7 +236,7 @@ IdentifiedParameters::IdentifiedParameters(const IdentificationCase& given, cons
                                            const CaseFile& file) {
   if (given.parameters.empty())
     throw input_error("{}: names no parameters to be found", file.where("identification.parameters"));
-  if (!given.prior_from.empty()) earlier_ = EarlierEstimate(given.prior_from);
+  earlier_ = earlier_of(given);
   for (const auto& [name, parameter] : given.parameters)
     list_.push_back(Builder(name, parameter, announced, earlier_, file).take());
   check_overlap(list_, file);

@@ -7,12 +7,15 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/io/record_file.hpp"
+#include "identification_master/application.hpp"
 #include "identification_master/estimate_files.hpp"
 #include "identification_master/identified_case.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 namespace {
+
+namespace fs = std::filesystem;
 
 const std::vector<protocol::ParameterInfo> announced{
     {"solid.a.stiffness", "", "g/(cm2 s2)", "log2", 1e5, 0, 0, infinite, 2, 1e5},
@@ -174,6 +177,32 @@ TEST_F(Inherited, WhatDoesNotFitIsNamed) {
   expect("    a: {of: [solid.a.stiffness], transform: log, deviation: 1}\n" + prior, "was the log2 of one in");
   expect("    a: {of: [solid.a.stiffness], upper: 1e5}\n" + prior, "is not between the bounds");
   expect("    a: {of: [solid.a.stiffness]}\n  prior_from: watched.json\n", "corrected nothing");
+}
+
+TEST_F(Inherited, FromWhatIsNoEstimateAreRefusedByValidate) {
+  const auto refused = [&](const std::string& prior_from) {
+    CommandLine command;
+    command.case_file = folder / "case.yaml";
+    std::ofstream(command.case_file)
+        << "name: test\nunits: cgs\ntime: {step: 0.1, end: 1}\nmesh: {source: swept, swept: {radius: 2, length: 6, "
+           "wall_thickness: 0.2, around: 12, along: 6, regions: {rest: {}}}}\nidentification:\n  parameters: {a: {of: "
+           "[solid.a.stiffness]}}\n  prior_from: "
+        << prior_from << "\n";
+    try {
+      identification_master_program().validate(command);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  std::ofstream(folder / "flow.csv") << "time, flow\n0, 1\n";
+  fs::create_directories(folder / "out");
+  std::ofstream(folder / "foreign.json") << "{}\n";
+  EXPECT_NE(refused("flow.csv").find("flow.csv: "), std::string::npos) << refused("flow.csv");
+  EXPECT_NE(refused("out").find("out: "), std::string::npos) << refused("out");
+  EXPECT_NE(refused("foreign.json").find("foreign.json: "), std::string::npos) << refused("foreign.json");
+  EXPECT_NE(refused("watched.json").find("corrected nothing"), std::string::npos) << refused("watched.json");
+  EXPECT_NE(refused("estimate.json").find("names no measurements"), std::string::npos) << "it goes on to the data";
 }
 
 TEST_F(Parameters, BadOnesAreNamedWithTheirLine) {
