@@ -1,6 +1,7 @@
 #include "fsi_master/checkpoint.hpp"
 
 #include "common/base/checked_file.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/protocol/packet.hpp"
 
@@ -94,8 +95,8 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   write("solid.bin", packed(s.solid));
   flush_to_disk(next);
   fs::remove_all(previous);
-  if (fs::exists(current)) fs::rename(current, previous);
-  fs::rename(next, current);
+  if (fs::exists(current)) put_in_place(current, previous);
+  put_in_place(next, current);
   flush_to_disk(output);
 }
 

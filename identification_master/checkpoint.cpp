@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/base/checked_file.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/protocol/packet.hpp"
 
@@ -153,8 +154,8 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
   const fs::path folder = output / "checkpoint", fresh = fresh_in(folder);
   make_folder(folder);
   write_checked(fresh, fingerprint, state.step, writer.take());
-  if (const fs::path newest = newest_in(folder); fs::exists(newest)) fs::rename(newest, before_in(folder));
-  fs::rename(fresh, newest_in(folder));
+  if (const fs::path newest = newest_in(folder); fs::exists(newest)) put_in_place(newest, before_in(folder));
+  put_in_place(fresh, newest_in(folder));
   flush_to_disk(folder);
 }
 

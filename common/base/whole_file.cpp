@@ -16,13 +16,21 @@ void write_whole(const fs::path& file, std::string_view bytes) {
   std::ofstream to(part, std::ios::binary);
   to.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   to.close();
+  try {
+    if (!to) throw write_error(file);
+    put_in_place(part, file);
+  } catch (const RunError&) {
+    fs::remove(part, none);
+    throw;
+  }
+}
+
+void put_in_place(const fs::path& from, const fs::path& to) {
   std::error_code error;
-  if (to) fs::rename(part, file, error);
-  if (to && !error) return;
-  if (error) errno = error.value();
-  const RunError told = write_error(file);
-  fs::remove(part, none);
-  throw told;
+  fs::rename(from, to, error);
+  if (!error) return;
+  errno = error.value();
+  throw write_error(to);
 }
 
 }  // namespace tether

@@ -83,6 +83,13 @@ TEST_F(Diagnose, FindsTheHiddenSupport) {
   EXPECT_EQ(valid.exit_code, 0) << valid.errors;
   const ChildEnd scored = tether({"score", (folder / "twin").string(), "--output", output().string()});
   EXPECT_NE(scored.output.find("verdict: missing: right"), std::string::npos) << scored.output << scored.errors;
+  const fs::path lumen = folder / "twin/data/lumen_03.vtp", kept_lumen = folder / "kept.vtp";
+  fs::rename(lumen, kept_lumen);
+  fs::copy_file(folder / "twin/data/lumen_04.vtp", lumen);
+  const ChildEnd of_others = tether({"score", (folder / "twin").string(), "--output", output().string()});
+  EXPECT_EQ(of_others.exit_code, 2);
+  EXPECT_NE(of_others.errors.find("diagnosis.json: is of other data than "), std::string::npos) << of_others.errors;
+  fs::rename(kept_lumen, lumen);
 
   const Json kept = again();
   EXPECT_EQ(kept["verdict"], "missing");
