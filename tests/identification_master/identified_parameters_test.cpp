@@ -229,8 +229,8 @@ TEST_F(Parameters, BadOnesAreNamedWithTheirLine) {
   expect("    n: {of: [solid.none.stiffness], factor: true}\n", "stays 0 whatever the factor");
   expect("    a: {of: [solid.a.stiffness], deviation: 1e-25}\n", "deviation: 1e-25 of the log2 is too small");
   expect("    a: {of: [solid.a.stiffness], deviation: 1e-10}\n", "must be at least 1.66e-08");
-  expect("    shift: {of: [fluid.shift], deviation: 1e-25}\n", "deviation: 1e-25 of the value is too small");
-  expect("    a: {of: [solid.a.stiffness], walk: 1e15}\n", "walk: 1e+15 is too large: must be at most 2e+03");
+  expect("    shift: {of: [fluid.shift], deviation: 1e-300}\n", "deviation: 1e-300: is too near to zero");
+  expect("    a: {of: [solid.a.stiffness], walk: 1e18}\n", "walk: 1e+18 is too large: must be at most 2e+03");
   expect("    a: {of: [solid.a.stiffness], walk: 1000}\n", "walk: 1000 of the log2 is too large: two deviations from");
   expect("    a: {of: [solid.a.stiffness], deviation: 1000}\n", "deviation: 1000 of the log2 is too large");
   EXPECT_NE(refusal("    a: {of: [solid.a.stiffness]}\n    b: {of: [solid.a.stiffness]}\n").find("already set by a"),

@@ -335,7 +335,8 @@ void check_image(const fs::path& file) {
   std::string name = file.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   const auto is = [&](const char* ending) { return name.ends_with(ending); };
-  if (!fs::is_regular_file(file)) throw input_error("{}: no such file", file.string());
+  if (!fs::is_regular_file(file))
+    throw input_error("{}: {}", file.string(), fs::exists(file) ? "is not a file" : "no such file");
   if (is(".mha") || is(".mhd")) return check_meta(file);
   if (is(".nrrd") || is(".nhdr")) return check_nrrd(file);
   if (is(".nii")) require(file, nifti_bytes(file, false), fs::file_size(file));
