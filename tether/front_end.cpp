@@ -28,6 +28,11 @@ int describe(const CommandLine&) {
   return exit_done;
 }
 
+void check_to_identify(const CommandLine& command) {
+  check_case(command);
+  check_identification(command);
+}
+
 /// A verb, and what it tells.
 template <class Result, VerbWith<Result> verb>
 int told(const CommandLine& command) {
@@ -64,7 +69,8 @@ constexpr std::array verbs{
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
          told<fs::path, make_twin>},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
-    planned({"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true},
+    planned({"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true,
+             true, false, case_reference, check_to_identify},
             plan<JobVerb::identify>),
     Verb{"measure-noise", "measure the noise of the data, which a diagnosis wants stated: of a case, or of two files",
          told<NoiseMeasurements, measure_noise>},

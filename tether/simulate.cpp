@@ -6,6 +6,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
+#include "common/base/name.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/output_folder.hpp"
@@ -44,6 +45,13 @@ void check_with(const char* program, const CommandLine& command) {
                                    : message);
 }
 
+/// What a case says, without what a terminal would obey.
+std::string shown_in_one_line(const std::string& text) {
+  std::string line = printable(text);
+  std::replace(line.begin(), line.end(), '\n', '?');
+  return line;
+}
+
 /// A case may be somebody else's: the programs that it names are shown before they run, each once.
 void show_programs(const std::filesystem::path& case_file) {
   static std::set<std::string> shown;
@@ -53,7 +61,8 @@ void show_programs(const std::filesystem::path& case_file) {
   if (programs == nullptr) return;
   for (const YamlNode::Entry& entry : programs->entries)
     if (shown.insert(entry.key + "|" + entry.value.text).second)
-      fmt::print(stderr, "{}: this case runs {} as its {}\n", entry.place.text(), entry.value.text, entry.key);
+      fmt::print(stderr, "{}: this case runs {} as its {}\n", entry.place.text(), shown_in_one_line(entry.value.text),
+                 shown_in_one_line(entry.key));
 }
 
 }  // namespace

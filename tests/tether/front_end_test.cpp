@@ -161,6 +161,11 @@ TEST_F(FrontEnd, DoesNotStartAWrongCase) {
   EXPECT_EQ(tether("simulate none.yaml").errors, "none.yaml: no such file\n");
 }
 
+TEST_F(FrontEnd, ShowsProgramsOfACaseInOneLineThatNoTerminalObeys) {
+  std::ofstream(folder_ / "case.yaml", std::ios::app) << "coupling: {programs: {solid: \"./a\\e[2K\\rb\\nc\"}}\n";
+  EXPECT_EQ(tether("validate case.yaml").errors, "case.yaml:5: this case runs ./a?[2K?b?c as its solid\n");
+}
+
 TEST_F(FrontEnd, ValidatesTheMeasurementsToo) {
   program("observation_manager", "echo 'ct.stl: holds no triangles' >&2; exit 2");
   const ChildEnd end = tether("validate case.yaml");
@@ -207,7 +212,7 @@ TEST_F(FrontEnd, ValidatesAnIdentificationToo) {
   program("identification_master", "echo 'case.yaml:5: identification.observe: sometimes' >&2; exit 2");
   EXPECT_EQ(tether("validate case.yaml").exit_code, 0) << "the case identifies nothing";
   std::ofstream(folder_ / "case.yaml", std::ios::app) << "identification: {observe: sometimes}\n";
-  for (const char* verb : {"validate", "identify"}) {
+  for (const char* verb : {"validate", "identify", "identify --validate"}) {
     const ChildEnd end = tether(std::string(verb) + " case.yaml");
     EXPECT_EQ(end.exit_code, 2);
     EXPECT_EQ(end.errors, "case.yaml:5: identification.observe: sometimes\n") << verb;
