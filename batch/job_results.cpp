@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/base/name.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
@@ -124,7 +125,7 @@ std::string JobResults::text() const {
     for (std::size_t i = 1; i < row.size(); ++i)
       if (!row[i].empty()) text += fmt::format("  {:<40} {}\n", columns[i], row[i]);
   }
-  return text;
+  return printable(text);
 }
 
 JobResults results_of(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {

@@ -109,7 +109,7 @@ std::string text_of(const std::vector<CaseStatus>& cases) {
   }
   for (const CaseStatus& one : cases)
     lines += fmt::format("  {:<24} {:<10} {}\n", one.name, word_of(one.state), one.note);
-  return fmt::format("{} case{}{}\n{}", cases.size(), cases.size() == 1 ? "" : "s", counts, lines);
+  return fmt::format("{} case{}{}\n{}", cases.size(), cases.size() == 1 ? "" : "s", counts, printable(lines));
 }
 
 }  // namespace tether

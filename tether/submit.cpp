@@ -11,7 +11,6 @@
 #include "batch/job_script.hpp"
 #include "batch/job_status.hpp"
 #include "common/base/error.hpp"
-#include "common/base/name.hpp"
 #include "common/base/process.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/output_folder.hpp"
@@ -193,13 +192,13 @@ int with_job(const char* name, const char* purpose, int argc, char** argv,
 
 void show_status(const Job& job, const fs::path&, const std::vector<CaseStatus>& states) {
   std::cout << fmt::format("job {}, {}, ", job.number.empty() ? "not submitted" : job.number, word_of(job.verb))
-            << printable(text_of(states));
+            << text_of(states);
 }
 
 void show_results(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {
   const JobResults results = results_of(job, folder, states);
   write_text(folder / results_table, results.csv());
-  std::cout << printable(results.text()) << "In " << (folder / results_table).string() << "\n";
+  std::cout << results.text() << "In " << (folder / results_table).string() << "\n";
 }
 
 }  // namespace

@@ -251,6 +251,8 @@ TEST_F(Jobs, TellWhatBecameOfEachCase) {
   EXPECT_EQ(unasked[0].state, CaseState::unknown);
   EXPECT_EQ(unasked[2].state, CaseState::done) << "as its folder says";
   EXPECT_EQ(text_of(all).substr(0, text_of(all).find('\n')), "5 cases: 1 waiting, 1 running, 1 done, 1 failed, 1 gone");
+  EXPECT_NE(text_of({{"a", CaseState::failed, "no\x1b[2Jthing"}}).find(" no?[2Jthing\n"), std::string::npos);
+  EXPECT_EQ((JobResults{{"case", "state", "b\x1b[2J"}, {{"a", "done", "1"}}}.text().find('\x1b')), std::string::npos);
   Job unsubmitted = five;
   unsubmitted.number.clear();
   EXPECT_EQ(status_of(unsubmitted, folder_, std::nullopt).front().state, CaseState::unsubmitted);
