@@ -77,7 +77,7 @@ class Compare : public ::testing::Test {
       list += fmt::format("{}, {}\n", name, step * k);
     }
     std::ofstream(folder / "frames.csv") << list;
-    const CsvTable table(output / "timeseries.csv");
+    const CsvTable table(output / "timeseries.csv", TableOf::tether);
     std::ofstream pressures(folder / "pressures.csv");
     pressures << "time [s], pressure [dyn/cm2]\n";
     for (std::size_t i = 0; i < table.rows(); ++i)
@@ -196,7 +196,7 @@ TEST_F(Compare, RecordsVelocitiesWhereTheyAreMeasured) {
 
 /// Traces of a section inside the vessel: its flow with an offset, its pressure as it is.
 TEST_F(Compare, HoldsASectionAgainstItsTraces) {
-  const CsvTable run_table(output / "timeseries.csv");
+  const CsvTable run_table(output / "timeseries.csv", TableOf::tether);
   const std::vector<double> times = run_table.numbers("time"), flow = run_table.numbers("fluid.middle.flow"),
                             pressure = run_table.numbers("fluid.middle.pressure");
   std::ofstream table(folder / "doppler.csv");
