@@ -28,9 +28,10 @@ int describe(const CommandLine&) {
   return exit_done;
 }
 
-void check_to_identify(const CommandLine& command) {
-  check_case(command);
-  check_identification(command);
+/// All that the verb would refuse before it begins.
+template <JobVerb verb>
+void check_for(const CommandLine& command) {
+  check_case_for(verb, command.case_file);
 }
 
 /// A verb, and what it tells.
@@ -58,19 +59,19 @@ constexpr std::array verbs{
     planned({"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>, true},
             plan<JobVerb::simulate>),
     planned({"compare", "compare a run with the measurements; simulates first if need be",
-             told<ComparisonResult, compare>, true},
+             told<ComparisonResult, compare>, true, false, true, false, case_reference, check_for<JobVerb::compare>},
             plan<JobVerb::compare>),
     planned({"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
-             told<Explanation, explain>, false, true, true, true},
+             told<Explanation, explain>, false, true, true, true, case_reference, check_for<JobVerb::explain>},
             plan<JobVerb::explain>),
     planned({"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false,
-             true, true, true},
+             true, true, true, case_reference, check_for<JobVerb::diagnose>},
             plan<JobVerb::diagnose>),
     Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
          told<fs::path, make_twin>},
     Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
     planned({"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true,
-             true, false, case_reference, check_to_identify},
+             true, false, case_reference, check_for<JobVerb::identify>},
             plan<JobVerb::identify>),
     Verb{"measure-noise", "measure the noise of the data, which a diagnosis wants stated: of a case, or of two files",
          told<NoiseMeasurements, measure_noise>},

@@ -55,6 +55,8 @@ std::string rule_broken(double value, Dimension dimension, const Range& range) {
 void Problems::add(const YamlPlace& place, std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  constexpr std::size_t longest = 2000;  // bytes: a value may be a page
+  if (text.size() > longest) text = text.substr(0, longest / 2) + " ... " + text.substr(text.size() - longest / 2);
   found_.emplace_back(place, std::move(text));
 }
 

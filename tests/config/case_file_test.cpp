@@ -201,6 +201,15 @@ std::string error_of_whole(const std::string& text) {
   return input_error_of([&] { CaseFile(path).finish(); });
 }
 
+TEST(CaseFile, QuotesALongValueInPart) {
+  const std::string told =
+      error_of_whole("name: a\nunits: cgs\ntime: {step: 1, end: " + std::string(60'000, 'x') + "}\n");
+  EXPECT_LT(told.size(), 2100U);
+  EXPECT_TRUE(told.starts_with("case.yaml:3: time.end: 'xxx")) << told;
+  EXPECT_NE(told.find("xxx ... xxx"), std::string::npos) << told;
+  EXPECT_NE(told.find("number"), std::string::npos) << told;
+}
+
 TEST(CaseFile, NamesWhatTheHeadLacks) {
   EXPECT_EQ(error_of_whole(""),
             "case.yaml:1: name: missing: must be given (short name of the case, also of its output folder)\n"

@@ -219,6 +219,17 @@ TEST_F(FrontEnd, ValidatesAnIdentificationToo) {
   }
 }
 
+TEST_F(FrontEnd, ValidatesWhatAVerbWants) {
+  EXPECT_EQ(tether("simulate --validate case.yaml").exit_code, 0);
+  for (const auto& [verb, wanted] : {std::pair("compare", "observations: names nothing that was measured"),
+                                     {"diagnose", "mesh.swept.wall_thickness: missing"},
+                                     {"explain", "mesh.swept.wall_thickness: missing"}}) {
+    const ChildEnd end = tether(std::string(verb) + " --validate case.yaml");
+    EXPECT_EQ(end.exit_code, 2) << verb;
+    EXPECT_NE(end.errors.find(wanted), std::string::npos) << end.errors;
+  }
+}
+
 TEST_F(FrontEnd, KeepsAnotherCasesResults) {
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0);
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "the same case may run again";
