@@ -84,14 +84,17 @@ Checkpoint Simulation::taken_up() {
   Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
   try {
     take_up_tables(checkpoint.step);
+    return checkpoint;
   } catch (const InputError& error) {
-    std::optional<Checkpoint> before = checkpoint_before(plan_.output, checkpoint);
-    if (!before) throw input_error("{}: start anew without --resume", error.what());
-    take_up_tables(before->step);
-    checkpoint = std::move(*before);
     checkpoint.refused = error.what();
   }
-  return checkpoint;
+  if (std::optional<Checkpoint> before = checkpoint_before(plan_.output, checkpoint)) try {
+      take_up_tables(before->step);
+      before->refused = checkpoint.refused;
+      return *before;
+    } catch (const InputError&) {  // what was wrong first is told
+    }
+  throw input_error("{}: start anew without --resume", checkpoint.refused);
 }
 
 void Simulation::advance(std::int64_t step) {

@@ -156,11 +156,15 @@ TEST_F(ResumedRun, GoesOnFromTheCheckpointThatItsTablesReach) {
         << end.errors;
     expect_same_results("whole", name);
   }
-  fs::remove_all(folder / "stopped/checkpoint.previous");
-  fs::resize_file(motion, fs::file_size(motion) - 1);
-  const ChildEnd refused = simulate("stopped", all_steps + 1, {"--resume"});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("start anew without --resume"), std::string::npos) << refused.errors;
+  fs::copy(folder / "stopped", folder / "none_before", fs::copy_options::recursive);
+  fs::remove_all(folder / "none_before/checkpoint.previous");
+  fs::resize_file(folder / "none_before/lumen.motion", fs::file_size(motion) - 1);
+  fs::resize_file(motion, 5);
+  for (const char* name : {"stopped", "none_before"}) {
+    const ChildEnd refused = simulate(name, all_steps + 1, {"--resume"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.errors.find("start anew without --resume"), std::string::npos) << refused.errors;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Coupling, Resume, ::testing::Values("newton_krylov", "iqn_ils", "observed"),
