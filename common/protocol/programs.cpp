@@ -16,7 +16,7 @@
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/base/session_folder.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/nodes.hpp"
@@ -92,12 +92,12 @@ NoteOfFailure& note_of_failure() {
   return note;
 }
 
-/// Where Open MPI keeps its files of a run on this machine: gone with this process, while an mpirun that is killed
-/// leaves 57 MB in TMPDIR. The user's own place stands.
+/// Where Open MPI keeps its files of a run on this machine: gone with this process, or with the next one after it was
+/// killed, while an mpirun that is killed leaves up to 110 MB in TMPDIR. The user's own place stands.
 void add_session_folder(Command& run) {
   constexpr const char* variable = "OMPI_MCA_orte_tmpdir_base";
   if (std::getenv(variable) != nullptr || !protocol::nodes_of_job().empty()) return;
-  static const ScratchFolder folder("tether_mpi");
+  static const SessionFolder folder("tether_mpi");
   run.environment.emplace_back(variable, folder.path().string());
 }
 
