@@ -76,14 +76,30 @@ void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
                       checkpoint.without_state);
 }
 
+bool is_whole(const fs::path& folder) {
+  try {
+    read_folder(folder);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+void put_fresh_in_place(const fs::path& output) {
+  fs::remove_all(output / before);
+  if (fs::exists(output / newest)) put_in_place(output / newest, output / before);
+  put_in_place(output / fresh, output / newest);
+}
+
 }  // namespace
 
 void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
-  const fs::path current = output / newest, next = output / fresh, previous = output / before;
+  const fs::path next = output / fresh;
   std::vector<double> numbers;
   RunStatistics statistics = checkpoint.statistics;
   statistics.numbers([&](double& value) { numbers.push_back(value); });
   const Snapshot& s = checkpoint.snapshot;
+  if (is_whole(next)) put_fresh_in_place(output);  // it may be the only one that is
   fs::remove_all(next);
   make_folder(next);
   const auto write = [&](const char* name, const Bytes& bytes) {
@@ -94,9 +110,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   write("fluid.bin", packed(s.fluid));
   write("solid.bin", packed(s.solid));
   flush_to_disk(next);
-  fs::remove_all(previous);
-  if (fs::exists(current)) put_in_place(current, previous);
-  put_in_place(next, current);
+  put_fresh_in_place(output);
   flush_to_disk(output);
 }
 
@@ -112,8 +126,7 @@ Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
         "{}: is a checkpoint of another case, step, mesh or code; give the case as it was, or start anew without "
-        "--resume, "
-        "or let the case begin with that state (initial_state)",
+        "--resume, or let the case begin with that state (initial_state)",
         (output / "checkpoint").string());
   check_has_states(checkpoint, output);
   return checkpoint;

@@ -138,6 +138,20 @@ std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::pat
   throw input_error("{}; there is none before it: start anew without --resume", damage);
 }
 
+bool is_whole(const fs::path& file) {
+  try {
+    read_file(file);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+void put_fresh_in_place(const fs::path& folder) {
+  if (const fs::path newest = newest_in(folder); fs::exists(newest)) put_in_place(newest, before_in(folder));
+  put_in_place(fresh_in(folder), newest_in(folder));
+}
+
 }  // namespace
 
 void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state,
@@ -151,11 +165,11 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
          PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),
          std::vector<double>{cost.wall_seconds, cost.cpu_seconds, cost.master_cpu_seconds,
                              static_cast<double>(cost.moved_values)});
-  const fs::path folder = output / "checkpoint", fresh = fresh_in(folder);
+  const fs::path folder = output / "checkpoint";
   make_folder(folder);
-  write_checked(fresh, fingerprint, state.step, writer.take());
-  if (const fs::path newest = newest_in(folder); fs::exists(newest)) put_in_place(newest, before_in(folder));
-  put_in_place(fresh, newest_in(folder));
+  if (is_whole(fresh_in(folder))) put_fresh_in_place(folder);  // it may be the only one that is
+  write_checked(fresh_in(folder), fingerprint, state.step, writer.take());
+  put_fresh_in_place(folder);
   flush_to_disk(folder);
 }
 

@@ -11,11 +11,10 @@ namespace tether {
 namespace {
 
 constexpr double mb = 1e6;
-constexpr double needed_space = 4 * mb;  // what Open MPI keeps in TMPDIR for a run of some processes
 
 struct Need {
   __rlimit_resource of;
-  double least;  ///< measured with Open MPI 4.1: below it mpirun or a program does not begin
+  double least;  ///< measured with Open MPI 4.1 (decision 118): below it mpirun or a program does not begin
   const char* what;
   double unit;
   const char* unit_name;
@@ -23,7 +22,7 @@ struct Need {
 };
 constexpr std::array needs{Need{RLIMIT_NOFILE, 40, "may be open at once", 1, "files", "-n"},
                            Need{RLIMIT_AS, 400 * mb, "may be taken by a program", mb, "MB of memory", "-v"},
-                           Need{RLIMIT_FSIZE, mb, "may be in a file", mb, "MB", "-f"}};
+                           Need{RLIMIT_FSIZE, 4096 * 1024, "may be in a file", mb, "MB", "-f"}};
 
 void check(const Need& need) {
   rlimit limit{};
@@ -35,14 +34,14 @@ void check(const Need& need) {
 
 }  // namespace
 
-void check_circumstances() {
+void check_circumstances(double free_mb) {
   for (const Need& need : needs) check(need);
   std::error_code error;
   const std::filesystem::path folder = temporary_folder();
   const auto space = std::filesystem::space(folder, error);
-  if (!error && static_cast<double>(space.available) < needed_space)
+  if (const double left = static_cast<double>(space.available) / mb; !error && left < free_mb)
     throw run_error("{}: {:.1f} MB are left on its disk, of which a run needs {:.0f}: TMPDIR=FOLDER takes another one",
-                    folder.string(), static_cast<double>(space.available) / mb, needed_space / mb);
+                    folder.string(), left, free_mb);
 }
 
 }  // namespace tether

@@ -85,5 +85,18 @@ TEST(RunInForeground, TellsASignalThatEndedItFromOneThatItTells) {
   EXPECT_EQ(end.handed_on, 0);
 }
 
+/// The program asks for the signal that a terminal sends which is closed.
+int hung_up() {
+  const ForegroundEnd end = run_in_foreground(shell("kill -HUP $PPID; sleep 0.3; exit 5"));
+  return end.handed_on != 0 ? end.handed_on : end.exit_code;
+}
+
+TEST(RunInForeground, HandsOnThatATerminalIsClosedUnlessThatIsIgnored) {
+  EXPECT_EQ(hung_up(), SIGHUP);
+  const auto before = std::signal(SIGHUP, SIG_IGN);  // as nohup does
+  EXPECT_EQ(hung_up(), 5);
+  std::signal(SIGHUP, before);
+}
+
 }  // namespace
 }  // namespace tether

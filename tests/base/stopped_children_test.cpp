@@ -35,5 +35,18 @@ TEST(StoppedChildren, OfWhichOneGoesOnAreLeftAlone) {
   EXPECT_FALSE(end.was_still);
 }
 
+/// As an mpirun does whose programs have ended and that writes into a pipe which nobody empties.
+TEST(StoppedChildren, AProgramThatWasToldToEndIsKilledWhenItHasNoneLeft) {
+  const auto begin = std::chrono::steady_clock::now();
+  const ForegroundEnd end = run_in_foreground({{"/bin/sh", "-c", "trap '' TERM; kill -TERM $PPID; exec sleep 60"}, {}});
+  EXPECT_EQ(end.exit_code, 128 + SIGKILL);
+  EXPECT_EQ(end.handed_on, SIGTERM);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+}
+
+TEST(StoppedChildren, AProgramThatWasNotToldToEndMayStandAlone) {
+  EXPECT_EQ(run_in_foreground({{"/bin/sh", "-c", "exec sleep 5"}, {}}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace tether

@@ -156,6 +156,13 @@ TEST_F(Output, ACheckpointThatWasNotPutInItsPlaceIsTaken) {
   fs::rename(folder / "other/checkpoint", folder / "checkpoint");
   damage("checkpoint");  // and the one before it had to make room: killed just then
   EXPECT_EQ(read_checkpoint(folder, 77).step, 9);
+  const fs::path next = folder.string() + "_next";
+  fs::remove_all(next);
+  fs::copy(folder, next, fs::copy_options::recursive);
+  write_checkpoint(next, some_checkpoint(10));
+  const std::optional<Checkpoint> kept = checkpoint_before(next, some_checkpoint(10));
+  ASSERT_TRUE(kept) << "the only one that was whole may not make room before the next one is";
+  EXPECT_EQ(kept->step, 9);
   damage("checkpoint.new");
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("there is none before it"), std::string::npos);
 }

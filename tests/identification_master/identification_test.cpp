@@ -357,6 +357,10 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
   write_checkpoint(folder.path(), 7, state, {}, {});
   std::filesystem::rename(newest, folder / "checkpoint/identification.new");
   EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1) << "killed between the two renames";
+  ++state.step;
+  write_checkpoint(folder.path(), 7, state, {}, {});
+  std::filesystem::resize_file(newest, 9);
+  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1) << "it made no room for the next";
 }
 
 TEST(Observations, TheirContentNamesWhatWasMeasured) {

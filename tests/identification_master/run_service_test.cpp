@@ -101,6 +101,20 @@ TEST_F(Service, AnotherCaseOtherValuesOrStepsAreAnotherRun) {
   EXPECT_TRUE(made(longer, {order("a", 4)})[0].made) << "a file of another version";
 }
 
+/// Text has no checksum of its own.
+TEST_F(Service, ARunWhoseTableIsNotAsItWasIsAnotherRun) {
+  MadeRun run;
+  run.failure = "so that no motion is wanted";
+  std::filesystem::create_directories(folder / "a");
+  std::ofstream(folder / "a/timeseries.csv") << "time [s]\n0.1\n";
+  write_made_run(folder / "a", run);
+  EXPECT_TRUE(made_run_in(folder / "a"));
+  std::ofstream(folder / "a/timeseries.csv") << "time [s]\n0.2\n";
+  EXPECT_FALSE(made_run_in(folder / "a"));
+  std::filesystem::remove(folder / "a/timeseries.csv");
+  EXPECT_FALSE(made_run_in(folder / "a"));
+}
+
 TEST_F(Service, SharesRunsByWhatTheyDependOn) {
   const RunStore store(folder / "shared", "1");
   RunService first(makers, "abc", 20, store), second(makers, "abc", 20, store);

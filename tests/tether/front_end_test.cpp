@@ -198,6 +198,16 @@ TEST_F(FrontEnd, AddsHowToGoOnToWhatTheRunSaid) {
             "fsi_master: solid died\nTo continue: tether simulate case.yaml --output results --resume\n");
 }
 
+/// The case says where results are; what failed is the run, all the same.
+TEST_F(FrontEnd, TellsOfAFailureAlsoWhereTheCaseIsGoneMeanwhile) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p out/tube/checkpoint; touch out/tube/checkpoint/state; "
+          "rm case.yaml; echo 'fsi_master: solid died' >&2; touch $TETHER_TOLD; kill -KILL $$");
+  const ChildEnd end = tether("simulate case.yaml --quiet");
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_EQ(end.errors, "fsi_master: solid died\n");
+}
+
 /// A full disk, a step that does not converge: what was saved is there, and can be gone on from.
 TEST_F(FrontEnd, AddsHowToGoOnToAnyFailureOfARunThatWasSaved) {
   program("fsi_master",

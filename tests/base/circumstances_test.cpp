@@ -1,0 +1,48 @@
+#include "common/base/circumstances.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "common/base/error.hpp"
+
+namespace tether {
+namespace {
+
+constexpr double no_space = 0;
+
+std::string refusal(double free_mb = no_space) {
+  try {
+    check_circumstances(free_mb);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The same under a limit.
+std::string refusal_under(__rlimit_resource of, rlim_t least) {
+  rlimit before{};
+  getrlimit(of, &before);
+  const rlimit limit{least, before.rlim_max};
+  setrlimit(of, &limit);
+  std::string told = refusal();
+  setrlimit(of, &before);
+  return told;
+}
+
+TEST(Circumstances, TellWhichLimitLeavesTooLittle) {
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(refusal_under(RLIMIT_NOFILE, 39), "only 39 files may be open at once (ulimit -n): at least 40 are needed");
+  EXPECT_EQ(refusal_under(RLIMIT_NOFILE, 40), "");
+  EXPECT_EQ(refusal_under(RLIMIT_FSIZE, 1'000'000), "only 1 MB may be in a file (ulimit -f): at least 4.19 are needed");
+}
+
+TEST(Circumstances, TellThatTheDiskOfTmpdirIsTooFull) {
+  const std::string told = refusal(1e12);
+  EXPECT_NE(told.find(" MB are left on its disk, of which a run needs 1000000000000: TMPDIR=FOLDER takes another one"),
+            std::string::npos)
+      << told;
+}
+
+}  // namespace
+}  // namespace tether
