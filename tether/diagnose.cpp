@@ -121,6 +121,7 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   const CandidateModels models(given, command, output);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
   runs.parameters();  // a case that is refused is refused before anything else runs
+  inputs.check();     // the groups have read it, and the data are read
   std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
   RefinedModels refined(given, models, effects, coarse != nullptr);
   const auto extend = [&](const std::vector<PlacedEffect>& more) {

@@ -64,6 +64,23 @@ TEST_F(ExplainedStepsTest, WhoseResultsAreDamagedAreMadeAnew) {
   EXPECT_TRUE(fs::exists(folder / "out/model_0/notes.csv"));
 }
 
+/// What it read before and after is not known: it is not among the steps that were made.
+TEST_F(ExplainedStepsTest, DuringWhichAFileIsWrittenAreNone) {
+  ExplainedSteps steps(folder / "out", true);
+  const auto write = [&](bool) {
+    folder.file("out/model_0/comparison.json", "{}");
+    folder.file("frame.stl", "solid");
+  };
+  try {
+    steps.make("model 0", folder / "case.yaml", "model_0", "comparison.json", write);
+    ADD_FAILURE() << "nothing was told";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("frame.stl: was written during the run"), std::string::npos);
+  }
+  EXPECT_TRUE(steps.all().empty());
+  EXPECT_TRUE(is_made());
+}
+
 TEST_F(ExplainedStepsTest, OfADamagedMemoryAreMadeAnew) {
   for (const char* damaged : {"", "{", "[{}]", "{\"steps\": [{}]}", "null", "\xFF\xFE"}) {
     folder.file("out/steps.json", damaged);

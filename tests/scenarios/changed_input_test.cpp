@@ -103,6 +103,23 @@ TEST_F(ChangedInput, IsWhatACodeOfSomebodyElseReads) {
   EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
 }
 
+/// By somebody else, after the front-end has read it and before a program does.
+TEST_F(ChangedInput, IsToldWhereAFileIsWrittenWhileProgramsStart) {
+  const std::string text = content_of(case_file);
+  fs::permissions(folder.file("case/late.sh", fmt::format("#!/bin/sh\necho >> {}\nexec {}/solid \"$@\"\n",
+                                                          (folder / "case/aortic_flow.csv").string(),
+                                                          fs::path(TETHER_PROGRAM).parent_path().string())),
+                  fs::perms::owner_all);
+  folder.file("case/case.yaml", fmt::format("{}\n", std::string(text).replace(text.find("coupling: {"), 11,
+                                                                           "coupling: {programs: {solid: ./late.sh}, ")));
+  const ChildEnd ended = simulate(2);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.errors.find("aortic_flow.csv: was written during the run"), std::string::npos) << ended.errors;
+  EXPECT_FALSE(fs::exists(folder / "out/summary.json"));
+  folder.file("case/case.yaml", text);
+  EXPECT_EQ(simulate(2).exit_code, 0);
+}
+
 TEST_F(ChangedInput, TwoRunsDoNotShareAFolder) {
   auto first = std::async(std::launch::async, [&] { return simulate(100000); });
   while (!fs::exists(folder / "out/checkpoint") &&

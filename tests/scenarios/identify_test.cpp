@@ -180,6 +180,20 @@ TEST_F(Identify, ToldToEndItSavesItsStateAndGoesOnToTheSame) {
     EXPECT_EQ(content_of(folder / "one" / name), content_of(folder / "told" / name)) << name;
 }
 
+/// By somebody else, while groups of programs start.
+TEST_F(Identify, TellsOfMeasurementsThatAreWrittenMeanwhile) {
+  const fs::path file =
+      case_variant(case_file, folder / "late", {{"coupling: {", "coupling: {programs: {solid: ./late.sh}, "}});
+  std::ofstream(folder / "late/late.sh") << fmt::format("#!/bin/sh\necho >> {}/frames.csv\nexec {}/solid \"$@\"\n",
+                                                        (folder / "late").string(),
+                                                        fs::path(TETHER_PROGRAM).parent_path().string());
+  fs::permissions(folder / "late/late.sh", fs::perms::owner_all);
+  const ChildEnd ended = tether("identify", file, "late_out", {"--processes", "2"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.errors.find("frames.csv: was written during the run"), std::string::npos) << ended.errors;
+  EXPECT_FALSE(fs::exists(folder / "late_out/estimate.json"));
+}
+
 /// From a checkpoint before the first frame that counts; neither with another step nor from other measurements.
 TEST_F(Identify, ContinuesOnlyFromTheSameCaseAndMeasurements) {
   const Edits at_frames{{"identification:\n", "identification:\n  observe: frames\n"},
