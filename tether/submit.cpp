@@ -137,21 +137,34 @@ void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
   if (!wrong.empty()) throw InputError(wrong);
 }
 
-Job job_of(const Typed& typed, const fs::path& folder) {
-  Job job{*from_word<JobVerb>(typed.verb), "", sibling("tether").string(), {}, {}, typed.resources};
-  job.cases = typed.table.empty() ? job_cases(typed.given)
-                                  : job_cases_of_table(typed.given, typed.table, folder / job_files / "cases");
-  if (!typed.table.empty()) check_cases(job.cases, job.verb);
-  return job;
+/// Those of a table are written into `made`.
+std::vector<JobCase> cases_of(const Typed& typed, const fs::path& made) {
+  return typed.table.empty() ? job_cases(typed.given) : job_cases_of_table(typed.given, typed.table, made);
+}
+
+/// A job that is in the folder stays as it is.
+void check_cases_of(const Typed& typed, JobVerb verb, const fs::path& folder) {
+  if (typed.table.empty()) return check_cases(job_cases(typed.given), verb);
+  hold_output(folder);
+  const fs::path tried = folder / "cases.new";
+  fs::remove_all(tried);
+  try {
+    check_cases(cases_of(typed, tried), verb);
+  } catch (...) {
+    fs::remove_all(tried);
+    throw;
+  }
+  fs::remove_all(tried);
 }
 
 int act(const Typed& typed) {
   const fs::path folder = job_folder(typed);
   check_resources(typed.resources);
   check_replaced(folder, typed.overwrite);
-  if (typed.table.empty()) check_cases(job_cases(typed.given), *from_word<JobVerb>(typed.verb));
+  const JobVerb verb = *from_word<JobVerb>(typed.verb);
+  check_cases_of(typed, verb, folder);
   claim_job(folder);
-  Job job = job_of(typed, folder);
+  Job job{verb, "", sibling("tether").string(), cases_of(typed, folder / job_files / "cases"), {}, typed.resources};
   JobResources& r = job.resources;
   std::optional<PlannedRuns> planned;
   r.processes = typed.processes > 0 ? typed.processes : models_at_once(job.verb, job.cases.front().case_file);

@@ -70,6 +70,12 @@ class Jobs(unittest.TestCase):
         moved = [float(row["largest displacement [mm]"]) for row in rows]
         self.assertEqual(moved, sorted(moved, reverse=True), "a stiffer wall moves less")
         self.assertEqual(content(self.folder / "walls/wall_0"), content(self.folder / "undisturbed"), "400 kPa is the tube's own")
+        (self.folder / "wrong.csv").write_text("name, solid.material.young [kPa]\nwall_0, 400\nwall_1, -1\n")
+        refused = self.run_tether("submit", "simulate", "tube.yaml", "--table", "wrong.csv", "--output", "walls", "--overwrite")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("wrong.csv:3", refused.stderr)
+        self.assertEqual(set(self.states("walls").values()), {"done"}, "a job that is not replaced stays")
+        self.assertFalse((self.folder / "walls/cases.new").exists())
 
     def test_at_its_limit_of_time_it_saves_and_goes_on_to_the_same_bits(self):
         number = self.submit("limited", "simulate", "tube.yaml")
