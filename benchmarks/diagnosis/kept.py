@@ -19,9 +19,11 @@ def revision():
 
 
 def brief(result, is_hidden):
-    """Without what nobody asks a result for: effects that were neither named, nor a rival, nor hidden."""
+    """Without what nobody asks a result for: effects that were neither named, nor a rival, nor hidden, nor in a group with one of these."""
     found = result["found"]
-    effects = [e for e in found["effects"] if e["accepted"] or e["rival"] or e["group"] or is_hidden(e)]
+    asked = lambda e: e["accepted"] or e["rival"] or is_hidden(e)
+    groups = {e["group"] for e in found["effects"] if e["group"] and asked(e)}
+    effects = [e for e in found["effects"] if asked(e) or e["group"] in groups]
     return result | {"found": {
         "verdict": found["verdict"], "held_out": found["held_out"], "cost": {k: found["cost"][k] for k in OF_COST if k in found["cost"]},
         "effects": [{k: e[k] for k in OF_EFFECT if k in e} | {"parameters": [{"parameter": p["parameter"]} for p in e["parameters"]]} for e in effects]}}

@@ -250,16 +250,19 @@ class Search {
   }
 
   /// Accepts the most probable of a group that nothing speaks against, beside what is accepted already of those
-  /// that explain most together with that; notes those that these data cannot tell from it.
+  /// that explain most together with that, in place of the group only what explains more than all of it; notes those
+  /// that these data cannot tell from it.
   void settle(const std::vector<Refinement>& all, const WeighedGroup& group) {
     std::vector<const Refinement*> order;
     for (const Refinement& one : all)
       if (one.begun()) order.push_back(&one);
     if (!now_.accepted.empty()) put_first_what_runs_ask_for(order);
+    const bool is_the_groups = explains_as_much(order, group);
     if (order.empty() && !all.empty() && all.front().runs() > 0) result_.path.push_back(broken(all.front()));
     const AmplitudeState before = now_;
     const Refinement* chosen = nullptr;
     for (const Refinement* one : order) {
+      if (is_the_groups && !group.has(one->effect().candidate)) continue;
       const SearchStep& step = result_.path.emplace_back(attempt(*one, group));
       if (step.accepted()) chosen = one;
       if (step.accepted()) break;
@@ -282,11 +285,24 @@ class Search {
     result_.dispersion = spread;
   }
 
-  /// What explains less together with what was accepted, by as much as rivals may, comes last.
-  static void put_first_what_runs_ask_for(std::vector<const Refinement*>& order) {
+  static double best_of(const std::vector<const Refinement*>& order) {
     double best = infinite;
     for (const Refinement* one : order) best = std::min(best, one->best());
+    return best;
+  }
+
+  /// What explains less together with what was accepted, by as much as rivals may, comes last.
+  static void put_first_what_runs_ask_for(std::vector<const Refinement*>& order) {
+    const double best = best_of(order);
     std::stable_partition(order.begin(), order.end(), [&](const auto* one) { return one->best() < best + hopeless; });
+  }
+
+  /// Whether runs do not say against the table that something else than the group is wanted.
+  static bool explains_as_much(const std::vector<const Refinement*>& order, const WeighedGroup& group) {
+    const double best = best_of(order);
+    return std::any_of(order.begin(), order.end(), [&](const auto* one) {
+      return group.has(one->effect().candidate) && one->best() < best + hopeless;
+    });
   }
 
   /// The model could not be run with any of its amplitudes.

@@ -360,6 +360,23 @@ TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
   EXPECT_EQ(result.verdict, Verdict::ambiguous);
 }
 
+/// Beside the first effect the table asks for a second one, which is refused; what explains less is no stand-in for it.
+TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  add_candidate(problem, "other", 0.75 * problem.changes.col(2) + 0.7 * problem.changes.col(1));
+  problem.residual = noise(generator) + 12 * problem.changes.col(6) + 2.4 * problem.changes.col(2) + 0.6 * problem.changes.col(1);
+  ASSERT_TRUE(effect_of(found(problem), 2).accepted);
+  problem.amplitudes[2].upper = 2;
+  const SearchResult result = found(problem);
+  ASSERT_EQ(result.weighed.groups.size() > 1 ? result.weighed.groups[1].members : std::vector<std::size_t>{},
+            std::vector<std::size_t>{2});
+  EXPECT_GT(result.weighed.groups[1].probability, 0.95);
+  EXPECT_TRUE(effect_of(result, 6).accepted);
+  EXPECT_FALSE(effect_of(result, 8).accepted);
+  EXPECT_EQ(result.path.back().objection, Objection::beyond_its_limit);
+}
+
 /// What only a hundred times its size would show is improbable, however well it fits, and not out of the question.
 TEST(EffectSearch, AnImprobableSizeMakesAnImprobableEffect) {
   std::mt19937_64 generator(17);
