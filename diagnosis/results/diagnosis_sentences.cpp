@@ -258,7 +258,12 @@ std::vector<Finding> accepted_of(const Diagnosis& diagnosis, bool of_data) {
 }
 
 std::string open_question_of(const Diagnosis& diagnosis) {
-  if (!diagnosis.path.empty()) return refusal_text(diagnosis.path.front());  // the best of them
+  const auto& path = diagnosis.path;
+  const auto open = std::find_if(path.begin(), path.end(), [](const Attempt& attempt) {
+    return attempt.objection && is_of_probability(*attempt.objection);
+  });
+  if (open != path.end()) return refusal_text(*open);
+  if (!path.empty()) return refusal_text(path.front());  // the best of them
   return diagnosis.doubtful ? "no candidate stands out, but the model is off by more than noise and the errors allowed "
                               "make by chance"
                             : "these data would not show any candidate at the size that it may have";

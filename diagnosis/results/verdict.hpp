@@ -41,6 +41,11 @@ inline constexpr auto words_of<Objection> = std::to_array<WordOf<Objection>>({
     {Objection::misfit_stays, "misfit_stays", "the misfit does not fall"},
 });
 
+/// What was refused may be there: something else is not improbable enough.
+constexpr bool is_of_probability(Objection objection) {
+  return objection == Objection::not_sure || objection == Objection::assumed;
+}
+
 /// "held-out data do not confirm it"; empty if there is none.
 constexpr const char* reason_of(std::optional<Objection> objection) {
   return objection ? meaning_of(*objection) : "";

@@ -231,7 +231,8 @@ class Search {
     if (by_chance(effect, residual, dispersion(residual)) >= settings_.alpha) return Objection::too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && !is_confirmed(effect, group)) return Objection::not_confirmed;
-    if (result_.after.excess > 0 && !(left.excess < result_.after.excess)) return Objection::lack_of_fit_stays;
+    if (left.p < settings_.alpha && result_.after.excess > 0 && !(left.excess < result_.after.excess))
+      return Objection::lack_of_fit_stays;
     if (effect.at_limit) return Objection::beyond_its_limit;
     return std::nullopt;
   }
@@ -368,6 +369,13 @@ class Search {
            result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
   }
 
+  /// Whether candidates that were not accepted only since they are not probable enough leave no lack of fit.
+  bool some_explain_it() const {
+    return std::any_of(result_.path.begin(), result_.path.end(), [&](const SearchStep& step) {
+      return step.objection && is_of_probability(*step.objection) && step.left.p >= settings_.alpha;
+    });
+  }
+
   /// Allowed errors that somebody may look after, by how much of them the data ask for.
   std::vector<StrainedError> strained_errors() const {
     const VectorXd found = plain_.amplitudes(now_.residual).cwiseQuotient(problem_.allowed_deviation);
@@ -406,7 +414,7 @@ class Search {
     result_.doubtful = result_.adequacy.p() < settings_.alpha;
     if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
     if (leaves_too_much() && !result_.more)
-      result_.verdict = Verdict::not_in_catalogue;
+      result_.verdict = !accepted && some_explain_it() ? Verdict::undecided : Verdict::not_in_catalogue;
     else if (ambiguous)
       result_.verdict = Verdict::ambiguous;
     else if (accepted)

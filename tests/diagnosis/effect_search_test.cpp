@@ -365,7 +365,8 @@ TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
   std::mt19937_64 generator(31);
   EffectProblem problem = band();
   add_candidate(problem, "other", 0.75 * problem.changes.col(2) + 0.7 * problem.changes.col(1));
-  problem.residual = noise(generator) + 12 * problem.changes.col(6) + 2.4 * problem.changes.col(2) + 0.6 * problem.changes.col(1);
+  problem.residual =
+      noise(generator) + 12 * problem.changes.col(6) + 2.4 * problem.changes.col(2) + 0.6 * problem.changes.col(1);
   ASSERT_TRUE(effect_of(found(problem), 2).accepted);
   problem.amplitudes[2].upper = 2;
   const SearchResult result = found(problem);
@@ -375,6 +376,46 @@ TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
   EXPECT_TRUE(effect_of(result, 6).accepted);
   EXPECT_FALSE(effect_of(result, 8).accepted);
   EXPECT_EQ(result.path.back().objection, Objection::beyond_its_limit);
+}
+
+/// What sums of regions show but little, and not quite rightly: their lack of fit, which chance explains, may grow.
+TEST(EffectSearch, DoesNotAskOfAnEffectThatALackOfFitFallsWhichChanceExplains) {
+  EffectProblem problem = band();
+  VectorXd odd = response(1, 8, beat);
+  for (Index i = 0; i < odd.size(); ++i)
+    if (i % places < 1.5 * in_region) odd(i) = -odd(i);
+  add_candidate(problem, "odd", odd + 0.15 * problem.changes.col(4));
+  const double named = share(
+      [&](std::mt19937_64& generator) {
+        problem.residual = noise(generator) + 6 * odd;
+        return effect_of(found(problem), 8).accepted;
+      },
+      50);
+  EXPECT_GE(named, 0.95);
+}
+
+/// What explains all, and is not named since its probability is not high enough, is not outside the catalogue.
+TEST(EffectSearch, IsUndecidedWhereWhatExplainsAllIsNotProbableEnough) {
+  std::mt19937_64 generator(37);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 8 * problem.changes.col(2);
+  const ResidualAt runs = linear_residual(problem);
+  const Weighing sure = weighed_fully(problem, {}, runs);
+  ASSERT_EQ(search_effects(problem, {}, runs, sure).verdict, Verdict::missing);
+  const auto found_with = [&](double probability, double least) {
+    Weighing weighing = sure;
+    weighing.weighed.groups.front().probability = probability;
+    weighing.weighed.groups.front().least = least;
+    return search_effects(problem, {}, runs, weighing);
+  };
+  for (const auto& [probability, least, objection] :
+       {std::tuple{0.8, 0.8, Objection::not_sure}, {0.99, 0.2, Objection::assumed}}) {
+    const SearchResult result = found_with(probability, least);
+    EXPECT_EQ(result.path.front().objection, objection);
+    EXPECT_EQ(result.verdict, Verdict::undecided);
+    EXPECT_LT(result.after.p, 1e-3) << "what is left without it";
+  }
+  EXPECT_EQ(found_with(0.3, 0.3).verdict, Verdict::not_in_catalogue) << "none is as probable as not";
 }
 
 /// What only a hundred times its size would show is improbable, however well it fits, and not out of the question.

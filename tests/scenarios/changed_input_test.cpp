@@ -110,8 +110,9 @@ TEST_F(ChangedInput, IsToldWhereAFileIsWrittenWhileProgramsStart) {
                                                           (folder / "case/aortic_flow.csv").string(),
                                                           fs::path(TETHER_PROGRAM).parent_path().string())),
                   fs::perms::owner_all);
-  folder.file("case/case.yaml", fmt::format("{}\n", std::string(text).replace(text.find("coupling: {"), 11,
-                                                                           "coupling: {programs: {solid: ./late.sh}, ")));
+  folder.file("case/case.yaml",
+              fmt::format("{}\n", std::string(text).replace(text.find("coupling: {"), 11,
+                                                            "coupling: {programs: {solid: ./late.sh}, ")));
   const ChildEnd ended = simulate(2);
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.errors.find("aortic_flow.csv: was written during the run"), std::string::npos) << ended.errors;
