@@ -251,8 +251,8 @@ class Search {
   }
 
   /// Accepts the most probable of a group that nothing speaks against, beside what is accepted already of those
-  /// that explain most together with that, in place of the group only what explains more than all of it; notes those
-  /// that these data cannot tell from it.
+  /// that explain most together with that; notes those that these data cannot tell from it. What is not of the group
+  /// counts only where runs say against the table that it explains more.
   void settle(const std::vector<Refinement>& all, const WeighedGroup& group) {
     std::vector<const Refinement*> order;
     for (const Refinement& one : all)
@@ -275,7 +275,8 @@ class Search {
       effect.held_out = confirmation(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
-      effect.rival = chosen && one != chosen && !was_too_weak(effect.candidate) &&
+      const bool may_be_it = !is_the_groups || group.has(effect.candidate);
+      effect.rival = chosen && one != chosen && may_be_it && !was_too_weak(effect.candidate) &&
                      (before.accepted.empty() || one->best() < chosen->best() + hopeless);
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);

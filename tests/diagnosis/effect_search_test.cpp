@@ -367,7 +367,10 @@ TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
   add_candidate(problem, "other", 0.75 * problem.changes.col(2) + 0.7 * problem.changes.col(1));
   problem.residual =
       noise(generator) + 12 * problem.changes.col(6) + 2.4 * problem.changes.col(2) + 0.6 * problem.changes.col(1);
-  ASSERT_TRUE(effect_of(found(problem), 2).accepted);
+  const SearchResult free = found(problem);
+  ASSERT_TRUE(effect_of(free, 2).accepted);
+  EXPECT_FALSE(effect_of(free, 8).rival);
+  EXPECT_EQ(free.verdict, Verdict::missing);
   problem.amplitudes[2].upper = 2;
   const SearchResult result = found(problem);
   ASSERT_EQ(result.weighed.groups.size() > 1 ? result.weighed.groups[1].members : std::vector<std::size_t>{},
