@@ -287,21 +287,15 @@ class Search {
     result_.dispersion = spread;
   }
 
-  static double best_of(const std::vector<const Refinement*>& order) {
-    double best = infinite;
-    for (const Refinement* one : order) best = std::min(best, one->best());
-    return best;
-  }
-
   /// What explains less together with what was accepted, by as much as rivals may, comes last.
   static void put_first_what_runs_ask_for(std::vector<const Refinement*>& order) {
-    const double best = best_of(order);
+    const double best = smallest_misfit(order);
     std::stable_partition(order.begin(), order.end(), [&](const auto* one) { return one->best() < best + hopeless; });
   }
 
   /// Whether runs do not say against the table that something else than the group is wanted.
   static bool explains_as_much(const std::vector<const Refinement*>& order, const WeighedGroup& group) {
-    const double best = best_of(order);
+    const double best = smallest_misfit(order);
     return std::any_of(order.begin(), order.end(), [&](const auto* one) {
       return group.has(one->effect().candidate) && one->best() < best + hopeless;
     });

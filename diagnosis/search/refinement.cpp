@@ -148,4 +148,10 @@ AmplitudeState Refinement::state() const {
   return state;
 }
 
+double smallest_misfit(const std::vector<const Refinement*>& all) {
+  double best = infinite;
+  for (const Refinement* one : all) best = std::min(best, one->best());
+  return best;
+}
+
 }  // namespace tether

@@ -69,4 +69,7 @@ class Refinement {
   bool done_ = false;
 };
 
+/// That any of them came down to so far.
+double smallest_misfit(const std::vector<const Refinement*>& all);
+
 }  // namespace tether

@@ -8,8 +8,8 @@ namespace tether::testing {
 namespace load_test {
 
 TEST_F(Load, ReadsASeriesByPatternInTheOrderOfNumbers) {
-  folder.file("wall_2.stl", stl(vessel(1.1, 10)));
-  folder.file("wall_10.stl", stl(vessel(1.3, 10)));
+  folder.file("wall_2.stl", stl_text(vessel(1.1, 10)));
+  folder.file("wall_10.stl", stl_text(vessel(1.3, 10)));
   folder.file("readme.txt", "");
   const Observations data =
       load("  surfaces: {ct: {folder: ., pattern: wall_*.stl, first_time: 0.1, interval: 0.2, unit: mm}}\n");
@@ -55,12 +55,12 @@ TEST_F(Load, RefusesNamesThatAreWrittenOtherwiseThanTheyRead) {
 }
 
 TEST_F(Load, TakesOneSurfaceForAllTimes) {
-  folder.file("a.stl", stl(vessel(1.1)));
+  folder.file("a.stl", stl_text(vessel(1.1)));
   EXPECT_NEAR(first_distance(load("  surfaces: {ct: {file: a.stl, unit: cm}}\n"), 17), 0.1, 2e-3);
 }
 
 TEST_F(Load, MasksRegionsAndBands) {
-  folder.file("a.stl", stl(vessel(1.1)));
+  folder.file("a.stl", stl_text(vessel(1.1)));
   model.from_inlet = model.points.row(2);
   model.region_names = {"spine", "rest"};
   for (std::size_t i = 0; i < model.region.size(); ++i)
@@ -78,8 +78,8 @@ TEST_F(Load, MasksRegionsAndBands) {
 }
 
 TEST_F(Load, RefusesBadSurfaces) {
-  folder.file("a.stl", stl(vessel(1.1)));
-  folder.file("mm.stl", stl(vessel(1.1, 10)));
+  folder.file("a.stl", stl_text(vessel(1.1)));
+  folder.file("mm.stl", stl_text(vessel(1.1, 10)));
   folder.file("gone.csv", "file,time [s]\nc.stl,0\n");
   folder.file("back.csv", "file,time [s]\na.stl,0.2\na.stl,0.1\n");
   folder.file("long.csv", "file,time [s]\na.stl,0\na.stl,0.8\n");
@@ -88,7 +88,7 @@ TEST_F(Load, RefusesBadSurfaces) {
   folder.file("nounit.csv", "file,time\na.stl,1\n");
   TriangleSurface neighbour = vessel(1);
   neighbour.points.row(0).array() += 2.1;
-  folder.file("beside.stl", stl(neighbour));
+  folder.file("beside.stl", stl_text(neighbour));
   const auto ct = [&](const std::string& fields) { return message("  surfaces: {ct: {" + fields + "}}\n"); };
   EXPECT_EQ(ct("file: gone.csv, unit: cm"), "gone.csv:2: c.stl does not exist");
   EXPECT_EQ(ct("file: back.csv, unit: cm"), "back.csv:3: the time 0.1 of a.stl does not come after 0.2");
@@ -117,7 +117,7 @@ TEST_F(Load, RefusesBadSurfaces) {
 }
 
 TEST_F(Load, RefusesWhatATableOfSurfacesNamesThatIsNoFile) {
-  folder.file("a.stl", stl(vessel(1.1)));
+  folder.file("a.stl", stl_text(vessel(1.1)));
   std::filesystem::create_directory(folder / "d.vtp");
   ASSERT_EQ(mkfifo((folder / "p.vtp").c_str(), 0600), 0);
   std::filesystem::create_symlink("/dev/zero", folder / "z.vtp");
@@ -143,12 +143,12 @@ TEST_F(Load, RefusesWhatATableOfSurfacesNamesThatIsNoFile) {
 /// Data that were displaced, turned about (0.1, 0, 1) and made too small read as the others do, once that is taken off.
 TEST_F(Load, TakesKnownErrorsOff) {
   const std::string exact = "  surfaces: {ct: {file: exact.stl, unit: cm}}\n";
-  folder.file("exact.stl", stl(vessel(1.1)));
+  folder.file("exact.stl", stl_text(vessel(1.1)));
   TriangleSurface wrong = vessel(1.05);
   const Vec3 middle(0.1, 0, 1), by(0.03, -0.02, 0.01);
   const Eigen::AngleAxisd turn(0.05, Vec3::UnitX());
   for (auto point : wrong.points.colwise()) point = turn * (point - middle) + middle + by;
-  folder.file("wrong.stl", stl(wrong));
+  folder.file("wrong.stl", stl_text(wrong));
   // x' = R^-1 (x - by - middle) + middle: turned back about middle + by, then displaced by -by.
   const Observations right = load(exact),
                      mended = load(
@@ -172,7 +172,7 @@ TEST_F(Load, TakesKnownErrorsOff) {
 }
 
 TEST_F(Load, LeavesFramesOut) {
-  for (const int i : {1, 2, 3}) folder.file(fmt::format("f_{}.stl", i), stl(vessel(1 + 0.1 * i)));
+  for (const int i : {1, 2, 3}) folder.file(fmt::format("f_{}.stl", i), stl_text(vessel(1 + 0.1 * i)));
   const std::string ct = "  surfaces: {ct: {folder: ., pattern: f_*.stl, first_time: 0, interval: 0.2, unit: cm, ";
   const Observations data = load(ct + "left_out: [1], held_out: [2]}}\n");
   const std::vector<Frame> frames = data.lumen[0]->frames();
@@ -209,13 +209,13 @@ TEST_F(Load, RefusesAWallForALumenAndNotesAPart) {
       if (first == 8) wall.triangles.insert(wall.triangles.end(), {{b, a, nodes + a}, {b, nodes + a, nodes + b}});
       if (first == 0) wall.triangles.insert(wall.triangles.end(), {{a, b, nodes + a}, {nodes + a, b, nodes + b}});
     }
-  folder.file("wall.stl", stl(wall));
+  folder.file("wall.stl", stl_text(wall));
   const std::string of_wall = message("  surfaces: {ct: {file: wall.stl, unit: cm}}\n");
   EXPECT_TRUE(of_wall.starts_with("wall.stl: its normals look against those of the model's lumen at 9")) << of_wall;
   EXPECT_TRUE(
       of_wall.ends_with(" % of the places that it faces: is it the surface of the wall, and not of the lumen alone?"))
       << of_wall;
-  folder.file("part.stl", stl(tube(16, 8, 1.2, [](double) { return 1.1; })));
+  folder.file("part.stl", stl_text(tube(16, 8, 1.2, [](double) { return 1.1; })));
   const std::vector<std::string> notes = load("  surfaces: {ct: {file: part.stl, unit: cm}}\n").notes();
   EXPECT_EQ(notes.back().substr(0, 21), "ct: part.stl: faces 2") << notes.back();
 }
@@ -225,7 +225,7 @@ TEST_F(Load, FlatEndsOfASegmentationAreNoWall) {
   TriangleSurface closed = vessel(1.1);
   const LumenSurface as_lumen = lumen(closed);
   closed = closed_by_fans(as_lumen);
-  folder.file("a.stl", stl(closed));
+  folder.file("a.stl", stl_text(closed));
   const Observations data = load("  surfaces: {ct: {file: a.stl, unit: cm}}\n");
   EXPECT_EQ(data.notes(), std::vector<std::string>{
                               "ct: a.stl: 2 flat ends with 32 triangles at the model's open ends are no wall, and "

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <string>
+
 #include "observation_manager/measurements/lumen_series.hpp"
 #include "observation_manager/measurements/lumen_surface.hpp"
 #include "tests/observation_manager/shapes.hpp"
@@ -28,6 +32,19 @@ inline SourceSettings settings_for(const LumenSurface& lumen) {
 inline TriangleSurface scaled(TriangleSurface surface, double factor) {
   surface.points *= factor;
   return surface;
+}
+
+/// As an ASCII file.
+inline std::string stl_text(const TriangleSurface& surface) {
+  std::string text = "solid s\n";
+  for (const Triangle& t : surface.triangles) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int node : t)
+      text +=
+          fmt::format("vertex {} {} {}\n", surface.points(0, node), surface.points(1, node), surface.points(2, node));
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid s\n";
 }
 
 }  // namespace tether::testing

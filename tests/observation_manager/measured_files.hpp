@@ -25,18 +25,6 @@ inline TriangleSurface vessel(double radius, double factor = 1) {
   return scaled(tube(16, 8, 4, [radius](double) { return radius; }), factor);
 }
 
-inline std::string stl(const TriangleSurface& surface) {
-  std::string text = "solid s\n";
-  for (const Triangle& t : surface.triangles) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const int node : t)
-      text +=
-          fmt::format("vertex {} {} {}\n", surface.points(0, node), surface.points(1, node), surface.points(2, node));
-    text += "endloop\nendfacet\n";
-  }
-  return text + "endsolid s\n";
-}
-
 inline std::string ply(const TriangleSurface& surface) {
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nelement face "

@@ -45,18 +45,6 @@ struct SimpleRun {
   }
 };
 
-inline std::string stl_text(const TriangleSurface& surface) {
-  std::string text = "solid s\n";
-  for (const Triangle& t : surface.triangles) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const int node : t)
-      text +=
-          fmt::format("vertex {} {} {}\n", surface.points(0, node), surface.points(1, node), surface.points(2, node));
-    text += "endloop\nendfacet\n";
-  }
-  return text + "endsolid s\n";
-}
-
 /// The times of all samples.
 inline const std::vector<double> sample_times{0.1, 0.3, 0.5};
 
