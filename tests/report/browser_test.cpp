@@ -29,6 +29,12 @@ ChildEnd tether(const std::vector<std::string>& words) {
   return capture({line, {}});
 }
 
+/// A browser without a screen need not draw a frame, and on a busy machine draws none in time: what waits for the next
+/// one gets its turn from the clock that the browser is run by.
+constexpr const char* frames_by_the_clock = R"js(<script>
+window.requestAnimationFrame = (act) => setTimeout(() => act(performance.now()), 16);
+</script>)js";
+
 /// Notes every field that the page's scripts ask of the report and that no result has: writers write all fields of
 /// their schemas, what does not exist as null. Objects by a unit's symbol have none for other units.
 constexpr const char* note_unknown_fields = R"js(<script>
@@ -47,17 +53,14 @@ JSON.parse = (text, ...more) => watched(parse(text, ...more), "report");
 /// What a script finds out about a page that it is added to: it leaves a value in `found`.
 Json found_in(const fs::path& page, const std::string& script) {
   std::string text = content_of(page);
-  text.insert(text.find("<head>") + 6, note_unknown_fields);
+  text.insert(text.find("<head>") + 6, std::string(frames_by_the_clock) + note_unknown_fields);
   const std::string end = "</body>";
   text.insert(text.rfind(end),
-              "<script>addEventListener('load', () => afterDrawing(() => { let found = {}; " + script +
+              "<script>addEventListener('load', () => setTimeout(() => { let found = {}; " + script +
                   " found.unknown = [...unknownFields]; const out = document.createElement('pre'); out.id = 'found'; "
                   "out.textContent = "
                   "JSON.stringify(found).replace(/[<>&]/g, (c) => '\\\\u00' + "
-                  "c.charCodeAt(0).toString(16)); document.body.append(out); }));"
-                  "function afterDrawing(act, tries = 40) { setTimeout(() => "
-                  "tries && [...document.querySelectorAll('.chart')].some((c) => !c.querySelector('svg')) "
-                  "? afterDrawing(act, tries - 1) : setTimeout(act, 100), 100); }</script>");  // no frame need come
+                  "c.charCodeAt(0).toString(16)); document.body.append(out); }, 200));</script>");
   const fs::path copy = page.parent_path() / "looked_at.html";
   std::ofstream(copy) << text;
   const std::string open = "<pre id=\"found\">";

@@ -11,7 +11,8 @@ export function responsive(draw) {
     drawn = width;
     host.replaceChildren(draw(width));
   };
-  new ResizeObserver(redraw).observe(host);
-  requestAnimationFrame(redraw);
+  const soon = () => requestAnimationFrame(redraw); // not within the observer: drawing changes what it observes
+  new ResizeObserver(soon).observe(host);
+  soon();
   return host;
 }
