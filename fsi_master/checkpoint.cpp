@@ -37,7 +37,7 @@ Checkpoint read_folder(const fs::path& folder) {
   std::vector<double> numbers;
   const CheckedContent master =
       unpack(folder / "master.bin", c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method,
-             c.snapshot.coupling, numbers, c.without_state, c.coupling, c.origin);
+             c.snapshot.coupling, numbers, c.without_state, c.coupling, c.origin, c.table);
   c.step = master.step;
   c.fingerprint = master.fingerprint;
   auto next = numbers.begin();
@@ -106,7 +106,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
     write_checked(next / name, checkpoint.fingerprint, checkpoint.step, bytes);
   };
   write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state,
-                             checkpoint.coupling, checkpoint.origin));
+                             checkpoint.coupling, checkpoint.origin, checkpoint.table));
   write("fluid.bin", packed(s.fluid));
   write("solid.bin", packed(s.solid));
   flush_to_disk(next);

@@ -32,7 +32,8 @@ struct Checkpoint {
   std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
   std::string coupling;       ///< how its steps were coupled: the section of the case, JSON
   StateOrigin origin{};
-  std::string refused{};  ///< why a newer one is not taken: it is damaged
+  std::int64_t table = 0;  ///< checksum of timeseries.csv
+  std::string refused{};   ///< why a newer one is not taken: it is damaged
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed

@@ -76,20 +76,20 @@ void Simulation::begin() {
 }
 
 Checkpoint Simulation::taken_up() {
-  const auto take_up_tables = [&](std::int64_t step) {
-    series_.resume(step);
-    motion_.resume(step + 1);
-    if (velocity_) velocity_->resume(step + 1);
+  const auto take_up_tables = [&](const Checkpoint& of) {
+    series_.resume(of.step, static_cast<std::uint64_t>(of.table));
+    motion_.resume(of.step + 1);
+    if (velocity_) velocity_->resume(of.step + 1);
   };
   Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
   try {
-    take_up_tables(checkpoint.step);
+    take_up_tables(checkpoint);
     return checkpoint;
   } catch (const InputError& error) {
     checkpoint.refused = error.what();
   }
   if (std::optional<Checkpoint> before = checkpoint_before(plan_.output, checkpoint)) try {
-      take_up_tables(before->step);
+      take_up_tables(*before);
       before->refused = checkpoint.refused;
       return *before;
     } catch (const InputError&) {  // what was wrong first is told
@@ -225,8 +225,8 @@ void Simulation::save(std::int64_t step) {
   series_.flush();
   motion_.flush();
   if (velocity_) velocity_->flush();
-  write_checkpoint(plan_.output,
-                   {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling, origin});
+  write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling,
+                                  origin, static_cast<std::int64_t>(series_.checksum())});
   saved_step_ = step;
 }
 

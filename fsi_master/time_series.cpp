@@ -42,20 +42,32 @@ void TimeSeries::open(std::ios::openmode mode) {
 
 void TimeSeries::start() {
   open(std::ios::trunc);
-  file_ << headings() << std::endl;
+  checksum_ = 0;
+  write(headings());
 }
 
-void TimeSeries::resume(std::int64_t rows) {
+void TimeSeries::write(const std::string& line) {
+  checksum_ = hash_values(line, checksum_);
+  file_ << line << std::endl;
+  if (!file_) throw write_error(path_);
+}
+
+void TimeSeries::resume(std::int64_t rows, std::uint64_t checksum) {
   std::ifstream old(path_);
   std::string line, kept;
   if (!std::getline(old, line) || line != headings())
     throw input_error("{}: is not the table that the checkpoint belongs to (other headings, or no file)",
                       path_.string());
   kept = line + "\n";
+  std::uint64_t found = hash_values(line, 0);
   for (std::int64_t row = 0; row < rows; ++row) {
     if (!std::getline(old, line)) throw input_error("{}: has {} rows, the checkpoint {}", path_.string(), row, rows);
     kept += line + "\n";
+    found = hash_values(line, found);
   }
+  if (found != checksum)
+    throw input_error("{}: was changed: its first {} rows are not those that the run wrote", path_.string(), rows);
+  checksum_ = checksum;
   write_whole(path_, kept);
   open(std::ios::app);
 }
@@ -65,8 +77,7 @@ void TimeSeries::append(const std::vector<double>& values) {
   std::string line = fmt::format("{}", values.front());
   for (std::size_t i = 1; i < values.size(); ++i) line += fmt::format(",{}", values[i]);
   for (const Copy& copy : copies_) line += fmt::format(",{}", copy.factor * values[copy.source]);
-  file_ << line << std::endl;
-  if (!file_) throw write_error(path_);
+  write(line);
 }
 
 }  // namespace tether

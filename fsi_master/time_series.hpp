@@ -25,12 +25,14 @@ class TimeSeries {
   /// A new file with its headings.
   void start();
   /// Goes on behind the first `rows` rows of the file; later ones are dropped. Throws InputError if the file has other
-  /// headings or fewer rows; it is as it was then.
-  void resume(std::int64_t rows);
+  /// headings, fewer rows or others than those of the checksum; it is as it was then.
+  void resume(std::int64_t rows, std::uint64_t checksum);
   /// To be read by others when this returns. Throws RunError if it cannot be written.
   void append(const std::vector<double>& values);
   /// To the disk: what a checkpoint counts on must outlast a loss of power. Throws RunError.
   void flush() const { flush_to_disk(path_); }
+  /// Of the headings and all rows so far.
+  std::uint64_t checksum() const { return checksum_; }
 
  private:
   struct Copy {
@@ -40,10 +42,12 @@ class TimeSeries {
   };
   std::string headings() const;
   void open(std::ios::openmode mode);
+  void write(const std::string& line);
 
   std::filesystem::path path_;
   std::vector<Column> columns_;
   std::vector<Copy> copies_;
+  std::uint64_t checksum_ = 0;
   std::ofstream file_;
 };
 

@@ -1,4 +1,4 @@
-"""Thirty scenarios beside those of benchmarks/diagnosis/run: what is hidden at four times what the data just show."""
+"""Scenarios beside those of benchmarks/diagnosis/run, 34 of which a coarse tube's data can show: what is hidden at four times what they just show."""
 import dataclasses
 
 BANDS = {"inlet half": "to: 0.5", "outlet half": "from: 0.5", "middle third": "from: 0.33, to: 0.67"}
@@ -20,7 +20,7 @@ class More:
     wrong: str = ""  # of the inputs
 
 
-CONTACT, SPRING, DAMPER = Hidden("contact"), Hidden("visco_elastic", "spine", "stiffness"), Hidden("visco_elastic", "spine", "damping")
+CONTACT, SPRING, DAMPER = Hidden("contact"), Hidden("visco_elastic", "spine", "stiffness"), Hidden("solid.support.regions.spine.damping")
 NORMAL, RING, PRESSURE = Hidden("normal_visco_elastic", "spine", "stiffness"), Hidden("loose_ring"), Hidden("external_pressure")
 AXIAL, FIBRES, STIFFER, THICKER = Hidden("axial_tension"), Hidden("fibres"), Hidden("stiffness_factor"), Hidden("thickness_factor")
 TANGENTIAL = Hidden("tangential_visco_elastic", "", "stiffness")
@@ -41,6 +41,8 @@ MORE = [
     More("stiffer_wall_and_external_pressure", "pair", [STIFFER, PRESSURE]),
     More("external_pressure_and_axial_tension", "pair", [PRESSURE, AXIAL]),
     More("thicker_wall_and_loose_ring", "pair", [THICKER, RING]),
+    More("spring_and_fibres", "pair", [SPRING, FIBRES]),
+    More("normal_spring_and_axial_tension", "pair", [NORMAL, AXIAL]),
     More("damper", "rate", [DAMPER]),
     More("normal_damper", "rate", [Hidden("normal_visco_elastic", "spine", "damping")]),
     More("tangential_damper", "rate", [Hidden("tangential_visco_elastic", "", "damping")]),
@@ -52,6 +54,7 @@ MORE = [
     More("contact_in_inlet_half", "place", [in_band(CONTACT, "inlet half")]),
     More("contact_in_outlet_half", "place", [in_band(CONTACT, "outlet half")]),
     More("spring_in_middle_third", "place", [in_band(SPRING, "middle third")]),
+    More("contact_in_middle_third", "place", [in_band(CONTACT, "middle third")]),
     More("wall_stiffer_in_inlet_half", "place", [Hidden("stiffness_factor", "inlet half")]),
     More("wall_stiffer_in_outlet_half", "place", [Hidden("stiffness_factor", "outlet half")]),
     More("spring_on_the_other_side", "place", [Hidden("solid.support.regions.opposite.stiffness")]),
@@ -59,6 +62,7 @@ MORE = [
     More("more_inflow_external_pressure", "inputs", [PRESSURE], "more_inflow"),
     More("less_compliance_contact", "inputs", [CONTACT], "less_compliance"),
     More("less_compliance_axial_tension", "inputs", [AXIAL], "less_compliance"),
+    More("less_compliance_spring", "inputs", [SPRING], "less_compliance"),
     More("wall_stiffer_damper", "inputs", [DAMPER], "wall_stiffer"),
     More("wall_softer_loose_ring", "inputs", [RING], "wall_softer"),
 ]

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <fstream>
+#include <sstream>
 
 #include "tests/study/bent_tube.hpp"
 #include "vessel/image/image_file.hpp"
@@ -280,6 +281,35 @@ TEST(BadImage, VoxelsBehindThoseThatTheHeaderStatesAreRefused) {
   std::ofstream(folder.path / "a.nrrd") << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 3 2\nencoding: raw\n\n"
                                         << bytes;
   expect_said(refusal("a.nrrd"), {"a.nrrd: its voxels take 18 bytes by its header, it has 27"});
+
+  for (const char* file : {"a.nii", "a.nii.gz"}) {
+    write_image(folder.path / file, tube_image());
+    std::ostringstream once;
+    once << std::ifstream(folder.path / file, std::ios::binary).rdbuf();
+    std::ofstream(folder.path / file, std::ios::binary | std::ios::app) << once.str();
+    expect_said(refusal(file), {file, "bytes by its header", "must be as many"});
+  }
+}
+
+/// Voxels as text: each is a number.
+TEST(BadImage, AsManyNumbersAsVoxelsAreAskedFor) {
+  const Folder folder("text");
+  const auto refusal = [&](const std::string& file) {
+    return folder.refusal("file: " + file + ", threshold: {above: 1}");
+  };
+  const std::string size = "NDims = 3\nDimSize = 3 3 2\nElementType = MET_UCHAR\nBinaryData = False\n";
+  std::string eighteen;
+  for (int voxel = 0; voxel < 18; ++voxel) eighteen += voxel % 3 == 2 ? "12\n" : "12 ";
+  for (const auto& [numbers, told] : {std::pair(eighteen + "7", "has 19 numbers, its header states 18"),
+                                      {eighteen.substr(3), "has 17 numbers, its header states 18"}}) {
+    folder.text("a.mha", size, numbers);
+    expect_said(refusal("a.mha"), {"a.mha", told});
+    std::ofstream(folder.path / "a.nrrd") << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 3 3 2\nencoding: ascii\n\n"
+                                          << numbers;
+    expect_said(refusal("a.nrrd"), {"a.nrrd", told});
+  }
+  folder.text("a.mha", size, eighteen);
+  EXPECT_EQ(refusal("a.mha").find("numbers"), std::string::npos) << refusal("a.mha");
 }
 
 /// A compressed file that ends early, of each kind.

@@ -45,13 +45,16 @@ class Diagnose : public ::testing::Test {
   fs::path written(const std::string& candidates, const std::string& truth, const std::string& hidden) const {
     return folder.file("model.yaml", fmt::format(model, TETHER_SOURCE, candidates, truth == "same", truth, hidden));
   }
-  Json diagnosed(const std::string& truth, const std::string& hidden) const {
+  void make_twin(const std::string& truth, const std::string& hidden) const {
     const fs::path file = written("tissue_mass", truth, hidden);
     folder.file("same.yaml", "base: model.yaml\nname: same\ntwin: ~\n");
     folder.file("held.yaml",
                 "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n");
     const ChildEnd made = tether({"twin", file.string(), "--output", (folder / "twin").string()});
-    EXPECT_EQ(made.exit_code, 0) << made.errors;
+    ASSERT_EQ(made.exit_code, 0) << made.errors;
+  }
+  Json diagnosed(const std::string& truth, const std::string& hidden) const {
+    make_twin(truth, hidden);
     return again();
   }
   Json again() const {
@@ -126,6 +129,23 @@ TEST_F(Diagnose, TellsBeforeItBeginsWhatItWouldTake) {
   EXPECT_NE(plan.output.find("30 steps of"), std::string::npos) << plan.output;
   EXPECT_NE(plan.output.find("of the coarser model 15 steps of"), std::string::npos) << plan.output;
   EXPECT_FALSE(fs::exists(folder / "planned")) << "nothing has begun";
+}
+
+/// By somebody else, while the group of programs starts: no run is made of data that are read already.
+TEST_F(Diagnose, RunsNothingWhereMeasurementsAreWrittenMeanwhile) {
+  make_twin("same", "{verdict: nothing_missing}");
+  fs::permissions(
+      folder.file("twin/late.sh", fmt::format("#!/bin/sh\necho >> {}/twin/data/lumen_03.vtp\n"
+                                              "exec {}/solid \"$@\"\n",
+                                              folder.path().string(), fs::path(TETHER_PROGRAM).parent_path().string())),
+      fs::perms::owner_all);
+  const fs::path file =
+      folder.file("twin/late.yaml", "base: case.yaml\nname: late\ncoupling: {programs: {solid: ./late.sh}}\n");
+  const ChildEnd ended = tether({"diagnose", file.string(), "--output", output().string(), "--processes", "1"});
+  EXPECT_EQ(ended.exit_code, 1) << ended.output;
+  EXPECT_NE(ended.errors.find("lumen_03.vtp: was written during the run"), std::string::npos) << ended.errors;
+  EXPECT_EQ(ended.output.find("run 1 of"), std::string::npos) << ended.output;
+  EXPECT_FALSE(fs::exists(output() / "diagnosis.json"));
 }
 
 /// Of the published quantities of one model.

@@ -167,6 +167,35 @@ TEST_F(ResumedRun, GoesOnFromTheCheckpointThatItsTablesReach) {
   }
 }
 
+/// Numbers that somebody changed in the table of an interrupted run would be its results.
+TEST_F(ResumedRun, TakesNoTableThatWasChanged) {
+  ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
+  ASSERT_EQ(simulate("late", 6).exit_code, 0);
+  fs::copy(folder / "late", folder / "early", fs::copy_options::recursive);
+  const auto change_a_digit_of_row = [&](const char* name, int row) {
+    const fs::path table = folder / name / "timeseries.csv";
+    std::string rows = content_of(table);
+    std::size_t begin = 0;
+    for (int line = 0; line < row; ++line) begin = rows.find('\n', begin) + 1;
+    char& digit = rows.at(rows.find('.', rows.find(',', begin)) + 3);
+    digit = digit == '1' ? '2' : '1';
+    std::ofstream(table) << rows;
+  };
+  change_a_digit_of_row("late", 5);
+  const ChildEnd end = simulate("late", all_steps, {"--resume"});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.errors.find("timeseries.csv: was changed: its first 6 rows are not those that the run wrote: the run "
+                            "goes on from the checkpoint before, step 4"),
+            std::string::npos)
+      << end.errors;
+  expect_same_results("whole", "late");
+  change_a_digit_of_row("early", 2);
+  const ChildEnd refused = simulate("early", all_steps, {"--resume"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("was changed"), std::string::npos) << refused.errors;
+  EXPECT_NE(refused.errors.find("start anew without --resume"), std::string::npos) << refused.errors;
+}
+
 INSTANTIATE_TEST_SUITE_P(Coupling, Resume, ::testing::Values("newton_krylov", "iqn_ils", "observed"),
                          [](const auto& info) { return std::string(info.param); });
 

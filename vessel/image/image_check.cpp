@@ -83,6 +83,23 @@ Place beside(const fs::path& file, const std::string& name) {
   return {voxels};
 }
 
+/// As many numbers as voxels, where they are written as text.
+void require_numbers(const Place& place, std::uint64_t wanted) {
+  constexpr std::uint64_t least = 2;  // a digit and a blank
+  require(place.file, product({wanted, least}) - 1, place.size());
+  std::ifstream in(place.file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(place.from));
+  std::uint64_t there = 0;
+  bool in_number = false;
+  for (auto c = std::istreambuf_iterator<char>(in); c != std::istreambuf_iterator<char>(); ++c) {
+    const bool is_blank = std::isspace(static_cast<unsigned char>(*c)) != 0 || *c == ',';
+    there += !is_blank && !in_number ? 1 : 0;
+    in_number = !is_blank;
+  }
+  if (there != wanted)
+    throw input_error("{}: has {} numbers, its header states {}", place.file.string(), there, wanted);
+}
+
 using GzipFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
 
 /// What compressed bytes become, of zlib's form or gzip's: they are read to their end, which a header does not tell, or
@@ -164,8 +181,8 @@ void check_meta(const fs::path& file) {
   };
   const Place voxels = data == "LOCAL" ? Place{file, header.end()} : beside(file, data);
   if (!is_true("BinaryData", "True")) {
-    factors.back() = 2;  // a digit and a blank
-    return require(voxels.file, product(factors) - 1, voxels.size());
+    factors.pop_back();
+    return require_numbers(voxels, product(factors));
   }
   const bool skips = header.has("HeaderSize") && header.get("HeaderSize") != "-1";
   const std::uint64_t wanted = product(factors), skipped = skips ? header.count("HeaderSize", 0, most_voxels) : 0;
@@ -258,8 +275,9 @@ void check_nrrd(const fs::path& file) {
     return require_all(voxels.file, product(factors), inflated_size(voxels), "");
   if (encoding != "hex" && encoding != "ascii" && encoding != "text" && encoding != "txt")
     header.refuse("encoding", "must be raw, gzip, ascii or hex");
-  if (encoding != "hex") factors.back() = 1;
-  require(voxels.file, product({product(factors), 2}) - 1, voxels.size());  // two digits, or one and a blank
+  if (encoding == "hex") return require(voxels.file, product({product(factors), 2}), voxels.size());
+  factors.pop_back();
+  require_numbers(voxels, product(factors));
 }
 
 /// The beginning of a .nii, compressed or not, in either order of bytes.
@@ -339,8 +357,8 @@ void check_image(const fs::path& file) {
     throw input_error("{}: {}", file.string(), fs::exists(file) ? "is not a file" : "no such file");
   if (is(".mha") || is(".mhd")) return check_meta(file);
   if (is(".nrrd") || is(".nhdr")) return check_nrrd(file);
-  if (is(".nii")) require(file, nifti_bytes(file, false), fs::file_size(file));
-  if (is(".nii.gz")) require(file, nifti_bytes(file, true), inflated_size({file}));
+  if (is(".nii")) require_all(file, nifti_bytes(file, false), fs::file_size(file), "");
+  if (is(".nii.gz")) require_all(file, nifti_bytes(file, true), inflated_size({file}), "");
 }
 
 }  // namespace tether
