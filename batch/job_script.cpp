@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.hpp"
+#include "common/base/shell_quoted.hpp"
 
 namespace tether {
 namespace {
@@ -92,12 +93,6 @@ exit "$code"
 
 }  // namespace
 
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string job_script(const Job& job, const std::filesystem::path& folder) {
   if (folder.string().find_first_of(" \t\n\"'\\%$`") != std::string::npos)
     throw input_error(
@@ -112,8 +107,13 @@ std::string job_script(const Job& job, const std::filesystem::path& folder) {
                                           ? shell_quoted(fmt::format("--processes {}", job.resources.processes))
                                           : "");
   text += list("names", job.cases, &JobCase::name) + list("cases", job.cases, &JobCase::case_file);
-  text += is_resumed(job.verb) ? "go_on() { [ -e \"$begun\" ] && [ -d \"$output/checkpoint\" ] && echo --resume; }\n"
-                               : "go_on() { :; }  # it finds by itself what was made\n";
+  const char* saved = job.verb == JobVerb::identify ? "identification" : "master";  // one folder may have both
+  text +=
+      is_resumed(job.verb)
+          ? fmt::format(
+                "go_on() {{ [ -e \"$begun\" ] && ls \"$output\"/checkpoint*/{}.* &>/dev/null && echo --resume; }}\n",
+                saved)
+          : "go_on() { :; }  # it finds by itself what was made\n";
   return text + body;
 }
 

@@ -17,7 +17,4 @@ inline constexpr int seconds_to_end = 240;
 /// Throws InputError for a folder that sbatch would not find by its name.
 std::string job_script(const Job& job, const std::filesystem::path& folder);
 
-/// For the shell: 'it'\''s'.
-std::string shell_quoted(const std::string& text);
-
 }  // namespace tether

@@ -73,8 +73,9 @@ void remove_what_was_made_of_runs(const fs::path& output) {
 /// Without --resume nothing of an earlier run may be either.
 void remove_old_results(const fs::path& output) {
   for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "blood.velocity", "fluid.pvd", "solid.pvd",
-                           "rest.json", "vtk", "checkpoint", "checkpoint.new", "checkpoint.previous"})
+                           "rest.json", "vtk"})
     fs::remove_all(output / name);
+  remove_checkpoints(output);
   remove_what_was_made_of_runs(output);
 }
 

@@ -1,5 +1,8 @@
 #include "fsi_master/checkpoint.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "common/base/checked_file.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
@@ -52,6 +55,7 @@ Checkpoint read_folder(const fs::path& folder) {
 
 constexpr const char *newest = "checkpoint", *before = "checkpoint.previous";
 constexpr const char* fresh = "checkpoint.new";  ///< not put in its place yet; whole if the run was killed just then
+constexpr std::array files{"master.bin", "fluid.bin", "solid.bin"};
 
 /// The newest that is whole.
 Checkpoint newest_in(const fs::path& output) {
@@ -85,13 +89,30 @@ bool is_whole(const fs::path& folder) {
   }
 }
 
+/// What others than runs have saved: an identification, whose job may be in the same folder.
+std::vector<fs::path> others_in(const fs::path& folder) {
+  std::vector<fs::path> others;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (std::find(files.begin(), files.end(), entry.path().filename()) == files.end()) others.push_back(entry.path());
+  return others;
+}
+
 void put_fresh_in_place(const fs::path& output) {
+  for (const fs::path& other : others_in(output / newest)) put_in_place(other, output / fresh / other.filename());
   fs::remove_all(output / before);
   if (fs::exists(output / newest)) put_in_place(output / newest, output / before);
   put_in_place(output / fresh, output / newest);
 }
 
 }  // namespace
+
+void remove_checkpoints(const fs::path& output) {
+  for (const char* folder : {fresh, newest, before}) {
+    for (const char* file : files) fs::remove(output / folder / file);
+    if (others_in(output / folder).empty()) fs::remove_all(output / folder);
+  }
+}
 
 void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   const fs::path next = output / fresh;

@@ -37,9 +37,12 @@ struct Checkpoint {
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed
-/// to the disk and renamed; the one before stays as checkpoint.previous. At each moment a whole one is there. Throws
-/// RunError if the disk refuses.
+/// to the disk and renamed; the one before stays as checkpoint.previous. At each moment a whole one is there. What an
+/// identification has saved there moves with it. Throws RunError if the disk refuses.
 void write_checkpoint(const std::filesystem::path& output, const Checkpoint& checkpoint);
+
+/// All that runs have saved there; what an identification has saved stays.
+void remove_checkpoints(const std::filesystem::path& output);
 
 /// The newest whole checkpoint in OUTPUT, or the one before if that is damaged. Throws InputError: none, both damaged,
 /// of another case, step or mesh (fingerprint), or without a code's state.

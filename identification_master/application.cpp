@@ -6,6 +6,7 @@
 #include "common/config/output_folder.hpp"
 #include "common/protocol/run.hpp"
 #include "common/protocol/socket_channel.hpp"
+#include "identification_master/checkpoint.hpp"
 #include "identification_master/estimate_files.hpp"
 #include "identification_master/groups.hpp"
 #include "identification_master/identification_job.hpp"
@@ -17,8 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 using protocol::Partner;
 
-std::size_t groups_for(const IdentifiedCase& given, const CommandLine& command, const protocol::Session& session) {
-  const int wanted = command.processes > 0 ? command.processes : given.identification.groups;
+/// Asked for, or as many as before a continuation, so that it ends with the same results, or what the case says.
+int wanted_groups(const IdentifiedCase& given, const CommandLine& command, const fs::path& output) {
+  if (command.processes > 0) return command.processes;
+  return command.resume ? static_cast<int>(groups_of_checkpoint(output)) : given.identification.groups;
+}
+
+std::size_t groups_for(const IdentifiedCase& given, int wanted, const protocol::Session& session) {
   return group_count({wanted, given.particles(), [&given] { return given.vessel(); }}, session);
 }
 
@@ -30,8 +36,8 @@ void run_identification(const CommandLine& command, protocol::Session& session) 
     mark_output(output, command.case_file);
   }
   const InputWatch inputs(command.case_file);
-  const std::vector<Partner*> groups =
-      launch_groups(groups_for(given, command, session), command.case_file, output, session);
+  const std::vector<Partner*> groups = launch_groups(groups_for(given, wanted_groups(given, command, output), session),
+                                                     command.case_file, output, session);
   GroupPool pool(session, groups);
   identify(given, command, pool, output, inputs);
   for (Partner* group : groups) group->stop("the identification is done");

@@ -173,6 +173,10 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
   flush_to_disk(folder);
 }
 
+std::size_t groups_of_checkpoint(const fs::path& output) {
+  return newest_whole_in(output / "checkpoint").second.at_hand.size();
+}
+
 IdentificationCheckpoint read_identification_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   const fs::path folder = output / "checkpoint";
   auto [of_case, checkpoint] = newest_whole_in(folder);

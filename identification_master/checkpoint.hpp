@@ -24,6 +24,10 @@ struct IdentificationCheckpoint {
 void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint, const IdentificationState& state,
                       const std::vector<std::vector<double>>& at_hand, const IdentificationCost& cost);
 
+/// On how many groups the steps before the newest whole one were made: what solves have taught each group is not the
+/// same on others, so that results differ within the coupling's tolerance. Throws InputError: none, both damaged.
+std::size_t groups_of_checkpoint(const std::filesystem::path& output);
+
 /// The newest whole one. Throws InputError: none, both damaged, of another case.
 IdentificationCheckpoint read_identification_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
 

@@ -145,6 +145,11 @@ class Job {
                    checkpoint.state.step);
       filter_.restore(std::move(checkpoint.state));
       pool_.take_up(checkpoint.at_hand);
+      if (checkpoint.at_hand.size() != pool_.size())
+        fmt::print(stderr,
+                   "the steps before were made on {} groups, these are on {}: results differ within the coupling's "
+                   "tolerance from those of as many as before (--processes {})\n",
+                   checkpoint.at_hand.size(), pool_.size(), checkpoint.at_hand.size());
       cost_before_ = checkpoint.cost;
       saved_ = filter_.state().step;
       mark_output(output_, command_.case_file);

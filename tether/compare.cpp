@@ -1,5 +1,6 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/config/input_watch.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/comparison/compared_wall.hpp"
@@ -79,6 +80,7 @@ std::string where_figures_are(const fs::path& output, const std::vector<std::str
 
 Made<ComparisonResult> compare(const CommandLine& command) {
   check_case(command);
+  const InputWatch inputs(command.case_file);
   const MeasuredCase measured(command.case_file);
   const fs::path output = output_of(command, measured.file);
   hold_output(output);
@@ -86,6 +88,7 @@ Made<ComparisonResult> compare(const CommandLine& command) {
   const FinishedRun run(output);
   const RunMotion motion = motion_of(run, measured.surface);
   const Comparison comparison = comparison_of(measured, run, motion, output);
+  inputs.check();
   ComparisonResult result = result_of(comparison);
   write_record(output / "comparison.json", result);
   write_record(output / "wall.json",

@@ -3,7 +3,6 @@
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
 #include "common/config/input_files.hpp"
-#include "common/config/input_watch.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/evidence/coarse_runs.hpp"
@@ -116,12 +115,12 @@ std::string where_evidence_is(const fs::path& output, const Diagnosis& diagnosis
 /// What the case lacks, by runs of the programs: diagnosis.json, suggested.yaml, corrected.yaml in `output`, and
 /// pictures.
 Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, const fs::path& output,
-                    const DiagnosisSettings& settings, const InputWatch& inputs, std::vector<std::string>& pictures) {
+                    const DiagnosisSettings& settings, std::vector<std::string>& pictures) {
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   const CandidateModels models(given, command, output);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
-  runs.parameters();  // a case that is refused is refused before anything else runs
-  inputs.check();     // the groups have read it, and the data are read
+  runs.parameters();     // a case that is refused is refused before anything else runs
+  given.inputs.check();  // the groups have read it
   std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
   RefinedModels refined(given, models, effects, coarse != nullptr);
   const auto extend = [&](const std::vector<PlacedEffect>& more) {
@@ -130,7 +129,7 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
     refined.add(more);
   };
   DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined.all(), extend}, settings);
-  inputs.check();
+  given.inputs.check();
   if (write_corrected(output / "corrected.yaml", given, report)) report.corrected = "corrected.yaml";
   if (write_suggested(output / "suggested.yaml", given, report)) report.suggested = "suggested.yaml";
   Diagnosis diagnosis = diagnosis_of(report);
@@ -145,13 +144,12 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
 
 Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSettings& settings) {
   check_case(command);
-  const InputWatch inputs(command.case_file);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
   fs::remove(output / "diagnosis.json");
   mark_output(output, command.case_file);
   std::vector<std::string> pictures;
-  Diagnosis diagnosis = diagnosed(given, command, output, settings, inputs, pictures);
+  Diagnosis diagnosis = diagnosed(given, command, output, settings, pictures);
   std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);
   return {std::move(diagnosis), std::move(told)};
 }

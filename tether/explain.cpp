@@ -37,7 +37,7 @@ class Verbs : public ExplanationWork {
     command.case_file = task.case_file;
     command.output = task.folder;
     command.overwrite = true;
-    command.resume = task.resume;
+    command.resume = task.resume && !command_.overwrite;
     return command;
   }
 
@@ -79,6 +79,7 @@ Made<Explanation> explain(const CommandLine& command) {
   mark_output(output, command.case_file);
   Verbs verbs(own);
   const ExplanationPath path = explain(given, output, verbs, own.quiet);
+  given.inputs.check();
   Explanation explanation = explanation_of(path);
   explanation.data = data_hashes(command.case_file);
   write_record(output / "explain.json", explanation);

@@ -39,6 +39,10 @@ WhenInterrupted::WhenInterrupted(const char* way_on) : tells_(told_way_on == nul
   if (tells_) told_way_on = way_on;
 }
 
+bool WhenInterrupted::is_told() {
+  return told_way_on != nullptr;
+}
+
 WhenInterrupted::~WhenInterrupted() {
   if (tells_) told_way_on = nullptr;
 }

@@ -10,6 +10,7 @@ namespace tether {
 std::filesystem::path temporary_folder() {
   std::error_code error;
   std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (!error) folder = std::filesystem::absolute(folder, error);  // programs of a run need not work where this one does
   if (!error) return folder;
   const char* given = std::getenv("TMPDIR");
   throw input_error("TMPDIR: {}: must name a folder, for the notes that a run's programs leave each other",

@@ -15,8 +15,11 @@
 #include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/base/interruption.hpp"
 #include "common/base/process.hpp"
 #include "common/base/session_folder.hpp"
+#include "common/base/shell_quoted.hpp"
+#include "common/base/temporary_folder.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/nodes.hpp"
@@ -25,8 +28,13 @@
 namespace tether {
 namespace {
 
+/// mpirun takes a colon alone for the next program.
+std::string path_for_mpirun(const std::filesystem::path& path) {
+  return path == ":" ? "./:" : path.string();
+}
+
 void add_options(std::vector<std::string>& words, const CommandLine& command) {
-  if (!command.output.empty()) words.insert(words.end(), {"--output", command.output.string()});
+  if (!command.output.empty()) words.insert(words.end(), {"--output", path_for_mpirun(command.output)});
   if (command.steps) words.insert(words.end(), {"--steps", std::to_string(*command.steps)});
   if (command.processes > 0) words.insert(words.end(), {"--processes", std::to_string(command.processes)});
   if (command.resume) words.push_back("--resume");
@@ -116,18 +124,30 @@ std::filesystem::path known_output(const CommandLine& command) {
   }
 }
 
-/// How to go on from the last state saved; nothing if there is none.
-std::string way_on(const char* verb, const CommandLine& command) {
+/// As a shell takes it for one word.
+std::string as_word(const std::string& text) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:,@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  return shell_quoted(text);
+}
+
+/// How to go on from the last state that the master saved; nothing if there is none, or if the verb that runs it says
+/// how.
+std::string way_on(const std::string& master, const char* verb, const CommandLine& command) {
   const std::filesystem::path output = known_output(command);
-  if (output.empty()) return {};
-  const auto is_saved = [&](const char* folder) {
-    std::error_code error;
-    const std::filesystem::directory_iterator files(output / folder, error);
-    return std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() != ".new"; });
-  };
-  if (!is_saved("checkpoint") && !is_saved("checkpoint.previous")) return {};
-  return fmt::format("To continue: tether {} {} --output {} --resume\n", verb, command.case_file.string(),
-                     output.string());
+  if (output.empty() || WhenInterrupted::is_told()) return {};
+  const bool is_run = master == "fsi_master";
+  const std::filesystem::path newest = is_run ? "checkpoint/master.bin" : "checkpoint/identification.bin",
+                              before = is_run ? "checkpoint.previous/master.bin" : "checkpoint/identification.previous";
+  if (!std::filesystem::exists(output / newest) && !std::filesystem::exists(output / before)) return {};
+  CommandLine resumed = command;
+  resumed.output = output;
+  resumed.resume = true;
+  resumed.overwrite = resumed.quiet = false;
+  std::vector<std::string> words{"tether", verb, command.case_file.string()};
+  add_options(words, resumed);
+  for (std::string& word : words) word = as_word(word);
+  return fmt::format("To continue: {}\n", fmt::join(words, " "));
 }
 
 /// The nodes of the job that do not answer any more, "h1, h2"; nothing if all do.
@@ -164,13 +184,14 @@ std::filesystem::path sibling(const std::string& name) {
 Command parallel_run(const std::string& master, const CommandLine& command) {
   check_circumstances(session_size(master));
   Command run{{"mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n",
-               "1", sibling(master).string(), command.case_file.string()},
+               "1", sibling(master).string(), path_for_mpirun(command.case_file)},
               {}};
   add_options(run.words, command);
   add_nodes(run);
   add_session_folder(run);
   add_terminal(run.environment);
   note_of_failure().take();
+  run.environment.emplace_back("TMPDIR", temporary_folder().string());
   run.environment.emplace_back(protocol::told_variable, note_of_failure().path());
   run.environment.emplace_back(holder_variable, holder_name());
   run.environment.emplace_back("EVENT_NOEPOLL", "1");  // Open MPI's libevent warns of descriptors closed too early
@@ -190,7 +211,7 @@ int report_failure(const ForegroundEnd& end, const std::string& master, const ch
   else if (told == protocol::Told::nothing && !end.was_still)
     std::cerr << fmt::format("tether: {}\n", how_it_failed(end, master));
   if (end.exit_code == exit_input_wrong) return exit_input_wrong;
-  std::cerr << way_on(verb, command);
+  std::cerr << way_on(master, verb, command);
   return exit_run_failed;
 }
 

@@ -22,7 +22,7 @@ void check_noise_of(const MeasurementFacts& facts, const std::string& where) {
 
 }  // namespace
 
-DiagnosedCase::DiagnosedCase(const fs::path& path) : file(path) {
+DiagnosedCase::DiagnosedCase(const fs::path& path) : inputs(path), file(path) {
   file.read("mesh", mesh);
   file.read("observations", observations);
   file.read("diagnosis", diagnosis);

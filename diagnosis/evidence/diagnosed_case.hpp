@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config/case_file.hpp"
+#include "common/config/input_watch.hpp"
 #include "diagnosis/evidence/candidates.hpp"
 #include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/evidence.hpp"
@@ -18,6 +19,7 @@ struct DiagnosedCase {
   /// Throws InputError if there are none, or if the noise of one is not given.
   explicit DiagnosedCase(const std::filesystem::path& path);
 
+  InputWatch inputs;  ///< since before they were read
   CaseFile file;
   MeshCase mesh;
   ObservationsCase observations;

@@ -72,9 +72,15 @@ std::vector<LeftFile> left_in(const fs::path& folder) {
   return left;
 }
 
+/// Of another step that was made in the folder.
+void remove_checkpoints(const fs::path& folder) {
+  for (const char* name : {"checkpoint", "checkpoint.new", "checkpoint.previous"}) fs::remove_all(folder / name);
+}
+
 }  // namespace
 
-ExplainedSteps::ExplainedSteps(fs::path output, bool quiet) : output_(std::move(output)), quiet_(quiet) {
+ExplainedSteps::ExplainedSteps(fs::path output, const InputWatch& inputs, bool quiet)
+    : output_(std::move(output)), inputs_(inputs), quiet_(quiet) {
   if (!fs::exists(output_ / "steps.json")) return;
   try {
     before_ = read_record<StepsMade>(output_ / "steps.json").steps;
@@ -85,6 +91,7 @@ ExplainedSteps::ExplainedSteps(fs::path output, bool quiet) : output_(std::move(
 void ExplainedSteps::make(const std::string& title, const fs::path& case_file, const std::string& folder,
                           const std::string& result, const std::function<void(bool)>& act, std::uint64_t asked) {
   const InputWatch inputs(case_file);
+  inputs_.check();
   const std::string key = key_of(case_file, asked);
   if (!quiet_) std::cout << fmt::format("\n== {}\n", title) << std::flush;
   if (const StepMade* before = kept({title, folder, 0, 0, key}); before && fs::exists(output_ / folder / result)) {
@@ -96,15 +103,19 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
   const double cpu = cpu_seconds_of_all();
   const std::string mark = title + " " + key;
   const bool was_begun = first_line(output_ / begun_step) == mark;
+  if (!was_begun) remove_checkpoints(output_ / folder);
   std::ofstream(output_ / begun_step) << mark << std::endl;
   try {
     act(was_begun);
   } catch (const ToldFailure& failure) {
-    throw run_error("{}: {}; the same command goes on from here", title, failure.what());
+    throw run_error("{}: {}; the same command goes on from here{}", title, failure.what(),
+                    was_begun ? ", with --overwrite it begins this step anew" : "");
   }
   inputs.check();
+  inputs_.check();
   done_.push_back({{title, folder, seconds_since(start), cpu_seconds_of_all() - cpu, key}, left_in(output_ / folder)});
   save();
+  fs::remove(output_ / begun_step);
 }
 
 const StepMade* ExplainedSteps::kept(const ExplainedStep& step) const {

@@ -77,7 +77,7 @@ void take_estimates(std::vector<Finding>& findings, const Estimate& estimate) {
 class Explainer {
  public:
   Explainer(const DiagnosedCase& given, fs::path output, ExplanationWork& work, bool quiet)
-      : given_(given), output_(std::move(output)), work_(work), steps_(output_, quiet) {
+      : given_(given), output_(std::move(output)), work_(work), steps_(output_, given.inputs, quiet) {
     const CommonCase& common = given.file.common();
     path_.case_name = common.name;
     path_.title = common.title;
@@ -132,7 +132,7 @@ class Explainer {
     if (fs::exists(compared) && damage_of(output_ / model.folder())) fs::remove(compared);  // the step is made again
     steps_.make(fmt::format("model {}, {}: against the data", model.told.number, model.told.name),
                 case_of(model.folder()), model.folder(), "comparison.json",
-                [&](bool) { return work_.compare(task(model.folder(), model.folder())); });
+                [&](bool was_begun) { return work_.compare(task(model.folder(), model.folder(), was_begun)); });
   }
 
   void set_misfit(PathModel& model, const VectorXd& residual) const {
@@ -290,7 +290,7 @@ class Explainer {
                 [&](bool was_begun) { return work_.identify(task("force_walk", "force/walk", was_begun)); });
     write_case("force_run", ", with these tractions", force.with_tractions());
     steps_.make("the model with these tractions", case_of("force_run"), "force/run", "comparison.json",
-                [&](bool) { return work_.compare(task("force_run", "force/run")); });
+                [&](bool was_begun) { return work_.compare(task("force_run", "force/run", was_begun)); });
     path_.force = force.laws();
     write_record(output_ / "force/force.json", *path_.force);
   }

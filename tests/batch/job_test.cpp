@@ -10,6 +10,7 @@
 #include "batch/job_status.hpp"
 #include "common/base/child_process.hpp"
 #include "common/base/error.hpp"
+#include "common/base/shell_quoted.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
 #include "identification_master/results/estimate.hpp"

@@ -18,7 +18,8 @@ class ExplainedStepsTest : public ::testing::Test {
   }
   bool is_made(std::uint64_t asked = 0) const {
     bool made = false;
-    ExplainedSteps steps(folder / "out", true);
+    const InputWatch inputs(folder / "case.yaml");
+    ExplainedSteps steps(folder / "out", inputs, true);
     steps.make(
         "model 0", folder / "case.yaml", "model_0", "comparison.json",
         [&](bool) {
@@ -66,7 +67,8 @@ TEST_F(ExplainedStepsTest, WhoseResultsAreDamagedAreMadeAnew) {
 
 /// What it read before and after is not known: it is not among the steps that were made.
 TEST_F(ExplainedStepsTest, DuringWhichAFileIsWrittenAreNone) {
-  ExplainedSteps steps(folder / "out", true);
+  const InputWatch inputs(folder / "case.yaml");
+  ExplainedSteps steps(folder / "out", inputs, true);
   const auto write = [&](bool) {
     folder.file("out/model_0/comparison.json", "{}");
     folder.file("frame.stl", "solid");
@@ -79,6 +81,51 @@ TEST_F(ExplainedStepsTest, DuringWhichAFileIsWrittenAreNone) {
   }
   EXPECT_TRUE(steps.all().empty());
   EXPECT_TRUE(is_made());
+}
+
+/// The explanation holds data that it has read, also between its steps: the next is not made of others.
+TEST_F(ExplainedStepsTest, AreNotMadeOnceAFileOfTheExplanationIsWritten) {
+  const InputWatch inputs(folder / "case.yaml");
+  folder.file("overlay.yaml", "base: case.yaml\n");
+  ExplainedSteps steps(folder / "out", inputs, true);
+  folder.file("frames.csv", "file, time [s]\nframe.stl, 0.1\n");
+  const auto act = [](bool) { ADD_FAILURE() << "was made"; };
+  try {
+    steps.make("model 0", folder / "overlay.yaml", "model_0", "comparison.json", act);
+    ADD_FAILURE() << "nothing was told";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("frames.csv: was written during the run"), std::string::npos);
+  }
+}
+
+/// A step that was broken off goes on from its own checkpoint, never from another's in the same folder.
+TEST_F(ExplainedStepsTest, GoOnFromTheirOwnCheckpointsOnly) {
+  const InputWatch inputs(folder / "case.yaml");
+  const auto began_with = [&](std::uint64_t asked) {
+    bool begun = false, is_there = false;
+    ExplainedSteps steps(folder / "out", inputs, true);
+    try {
+      steps.make(
+          "model 0", folder / "case.yaml", "model_0", "comparison.json",
+          [&](bool was_begun) {
+            begun = was_begun;
+            is_there = fs::exists(folder / "out/model_0/checkpoint/identification.bin");
+            fs::create_directories(folder / "out/model_0/checkpoint");
+            folder.file("out/model_0/checkpoint/identification.bin", "of this step");
+            throw ToldFailure(exit_run_failed);
+          },
+          asked);
+    } catch (const RunError&) {
+    }
+    return std::pair(begun, is_there);
+  };
+  EXPECT_EQ(began_with(1), std::pair(false, false));
+  EXPECT_EQ(began_with(1), std::pair(true, true));
+  EXPECT_EQ(began_with(2), std::pair(false, false)) << "other data, or another question";
+  EXPECT_EQ(began_with(2), std::pair(true, true));
+  EXPECT_TRUE(is_made(2));
+  fs::remove(folder / "out/model_0/comparison.json");
+  EXPECT_EQ(began_with(2), std::pair(false, false)) << "it was made, and what it left is gone";
 }
 
 TEST_F(ExplainedStepsTest, OfADamagedMemoryAreMadeAnew) {

@@ -54,7 +54,7 @@ class Hosts(unittest.TestCase):
         told = run.communicate(timeout=NOTICED)[1]
         self.assertEqual(run.returncode, 1, told)
         self.assertIn(f"tether: mpirun ended the run: no answer from {host}\n", told)
-        self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --resume\n", told)
+        self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --processes 3 --resume\n", told)
         ours = [line for line in told.splitlines() if not line.startswith("[")]  # not what mpirun's own servers log of each other
         self.assertLessEqual(len(ours), 4, told)
 

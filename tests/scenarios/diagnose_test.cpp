@@ -136,11 +136,11 @@ TEST_F(Diagnose, RunsNothingWhereMeasurementsAreWrittenMeanwhile) {
   make_twin("same", "{verdict: nothing_missing}");
   fs::permissions(
       folder.file("twin/late.sh", fmt::format("#!/bin/sh\necho >> {}/twin/data/lumen_03.vtp\n"
-                                              "exec {}/solid \"$@\"\n",
+                                              "exec {}/fluid \"$@\"\n",
                                               folder.path().string(), fs::path(TETHER_PROGRAM).parent_path().string())),
       fs::perms::owner_all);
   const fs::path file =
-      folder.file("twin/late.yaml", "base: case.yaml\nname: late\ncoupling: {programs: {solid: ./late.sh}}\n");
+      folder.file("twin/late.yaml", "base: case.yaml\nname: late\ncoupling: {programs: {fluid: ./late.sh}}\n");
   const ChildEnd ended = tether({"diagnose", file.string(), "--output", output().string(), "--processes", "1"});
   EXPECT_EQ(ended.exit_code, 1) << ended.output;
   EXPECT_NE(ended.errors.find("lumen_03.vtp: was written during the run"), std::string::npos) << ended.errors;

@@ -1,13 +1,16 @@
 /// `tether explain` with the real programs: a coarse configs/tube without the spine's support, against data with it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "common/base/child_process.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/processes.hpp"
 #include "tests/scenarios/valid_results.hpp"
 
 namespace tether {
@@ -111,6 +114,30 @@ TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
   EXPECT_TRUE(fs::exists(output() / "model_1/comparison.json"));
   EXPECT_EQ(again["effects"], found["effects"]);
   EXPECT_EQ(again["sentences"], found["sentences"]);
+}
+
+/// Broken off, the run of a model goes on from its checkpoint.
+TEST_F(Explain, GoesOnFromTheCheckpointOfARun) {
+  const fs::path file = folder / "twin/often.yaml";
+  write("twin/often.yaml", "base: case.yaml\nname: often\ntime: {step: 1e-3}\noutput: {checkpoint_every: 5}\n");
+  const auto broken_off_when = [&](const fs::path& is_there) {
+    auto end = std::async(std::launch::async, [&] {
+      return tether({"explain", file.string(), "--output", output().string(), "--quiet"});
+    });
+    while (!fs::exists(is_there) && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
+    const pid_t front_end = process_of("tether", file);
+    EXPECT_NE(front_end, 0);
+    if (front_end != 0) kill(front_end, SIGTERM);
+    const ChildEnd ended = end.get();
+    EXPECT_EQ(ended.exit_code, 1);
+    return ended.errors;
+  };
+  const std::string told = broken_off_when(output() / "model_0/checkpoint/master.bin");
+  EXPECT_NE(told.find("the same command goes on from here"), std::string::npos) << told;
+  EXPECT_EQ(told.find("To continue"), std::string::npos) << "one way on: " << told;
+  ASSERT_FALSE(fs::exists(output() / "model_0/summary.json"));
+  broken_off_when(output() / "model_0/summary.json");
+  EXPECT_GE(Json::parse(content_of(output() / "model_0/summary.json"))["resumed_at_step"], 5);
 }
 
 /// The catalogue is cut to what cannot explain the data: the force itself is sought, and holds the wall

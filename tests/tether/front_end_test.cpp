@@ -191,18 +191,20 @@ TEST_F(FrontEnd, CallsAKilledRunFailed) {
 }
 
 TEST_F(FrontEnd, AddsHowToGoOnToWhatTheRunSaid) {
-  program("fsi_master",
-          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; touch results/checkpoint/state; "
-          "echo 'fsi_master: solid died' >&2; touch $TETHER_TOLD; kill -KILL $$");
+  program(
+      "fsi_master",
+      "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; touch results/checkpoint/master.bin; "
+      "echo 'fsi_master: solid died' >&2; touch $TETHER_TOLD; kill -KILL $$");
   EXPECT_EQ(tether("simulate case.yaml --quiet --output results").errors,
             "fsi_master: solid died\nTo continue: tether simulate case.yaml --output results --resume\n");
 }
 
 /// The case says where results are; what failed is the run, all the same.
 TEST_F(FrontEnd, TellsOfAFailureAlsoWhereTheCaseIsGoneMeanwhile) {
-  program("fsi_master",
-          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p out/tube/checkpoint; touch out/tube/checkpoint/state; "
-          "rm case.yaml; echo 'fsi_master: solid died' >&2; touch $TETHER_TOLD; kill -KILL $$");
+  program(
+      "fsi_master",
+      "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p out/tube/checkpoint; touch out/tube/checkpoint/master.bin; "
+      "rm case.yaml; echo 'fsi_master: solid died' >&2; touch $TETHER_TOLD; kill -KILL $$");
   const ChildEnd end = tether("simulate case.yaml --quiet");
   EXPECT_EQ(end.exit_code, 1);
   EXPECT_EQ(end.errors, "fsi_master: solid died\n");
@@ -210,12 +212,30 @@ TEST_F(FrontEnd, TellsOfAFailureAlsoWhereTheCaseIsGoneMeanwhile) {
 
 /// A full disk, a step that does not converge: what was saved is there, and can be gone on from.
 TEST_F(FrontEnd, AddsHowToGoOnToAnyFailureOfARunThatWasSaved) {
-  program("fsi_master",
-          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; touch results/checkpoint/state; "
-          "echo 'fsi_master: lumen.motion: cannot be written' >&2; touch $TETHER_TOLD; exit 1");
+  program(
+      "fsi_master",
+      "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; touch results/checkpoint/master.bin; "
+      "echo 'fsi_master: lumen.motion: cannot be written' >&2; touch $TETHER_TOLD; exit 1");
   EXPECT_EQ(tether("simulate case.yaml --quiet --output results").errors,
             "fsi_master: lumen.motion: cannot be written\n"
             "To continue: tether simulate case.yaml --output results --resume\n");
+}
+
+/// Word for word what a shell takes, with all that decides what comes out.
+TEST_F(FrontEnd, TheWayOnIsTheSameCommandWithItsOptions) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p \"my out/checkpoint\"; "
+          "touch \"my out/checkpoint/master.bin\"; touch $TETHER_TOLD; exit 1");
+  EXPECT_EQ(tether("simulate case.yaml --steps 7 --output 'my out'").errors,
+            "To continue: tether simulate case.yaml --output 'my out' --steps 7 --resume\n");
+}
+
+/// A checkpoint of an identification in the same folder is none of a run.
+TEST_F(FrontEnd, TellsNoWayOnFromWhatAnotherVerbSaved) {
+  program("fsi_master",
+          "case \"$*\" in *--validate*) exit 0;; esac; mkdir -p results/checkpoint; "
+          "touch results/checkpoint/identification.bin; touch $TETHER_TOLD; exit 1");
+  EXPECT_EQ(tether("simulate case.yaml --quiet --output results").errors, "");
 }
 
 TEST_F(FrontEnd, ValidatesAnIdentificationToo) {
