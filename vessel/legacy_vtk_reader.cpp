@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -145,7 +146,16 @@ class LegacyVtkReader {
         {"edge_flags", [](auto& r) { r.read_attribute(1); }}};
     const auto found = sections.find(section);
     if (found == sections.end()) source_.fail_expected("a section (POINTS, CELLS, POLYGONS, CELL_DATA ...)", section);
+    check_is_first(section);
     found->second(*this);
+  }
+
+  /// Another one would take the place of what cells and arrays behind the first were held against.
+  void check_is_first(const std::string& section) {
+    static const std::set<std::string> single{"dataset",  "points",          "vertices", "lines",
+                                              "polygons", "triangle_strips", "cells",    "cell_types"};
+    if (single.contains(section) && !seen_.insert(section).second)
+      source_.fail(fmt::format("a second section {}: must be one", section));
   }
 
   void read_dataset() {
@@ -184,7 +194,6 @@ class LegacyVtkReader {
   }
   void read_cells(CellList& list, std::size_t least_nodes) {
     if (mesh_.points.cols() == 0) source_.fail("cells stand before the points that they name");
-    list = {};
     version_ < 5 ? read_counted_cells(list, least_nodes) : read_cells_with_offsets(list, least_nodes);
   }
 
@@ -253,7 +262,6 @@ class LegacyVtkReader {
       source_.fail(fmt::format("{} types of cells, the file has {} cells before them", cells, lists_[0].ends.size()));
     source_.require_numbers(cells, Scalar::int32, "cell types");
     begin_data();
-    types_.clear();
     for (std::uint64_t i = 0; i < cells; ++i) types_.push_back(source_.integer(Scalar::int32));
   }
 
@@ -404,6 +412,7 @@ class LegacyVtkReader {
   MeshFile mesh_;
   double version_ = 0;
   Dataset dataset_ = Dataset::none;
+  std::set<std::string> seen_;     ///< sections
   std::array<CellList, 4> lists_;  ///< of a surface: vertices, lines, polygons, strips; of a grid: all cells first
   std::vector<std::int64_t> types_;
   Where where_ = Where::dataset;  ///< what the arrays belong to

@@ -50,13 +50,14 @@ class PlyReader {
       const std::string_view word = source_.word();
       if (word == "end_header") break;
       if (word == "format") {
+        if (has_format) source_.fail("a second format: must be one");
         encoding = read_format();
         has_format = true;
       } else if (word == "element") {
         elements_.push_back(read_element_line());
       } else if (word == "property") {
         if (elements_.empty()) source_.fail("a property before any element");
-        elements_.back().properties.push_back(read_property());
+        add_property(elements_.back());
       } else if (word != "comment" && word != "obj_info") {
         source_.fail_expected("format, element, property, comment or end_header", word);
       }
@@ -80,8 +81,17 @@ class PlyReader {
 
   PlyElement read_element_line() {
     const std::string name(header_word());
+    if (std::any_of(elements_.begin(), elements_.end(), [&](const PlyElement& other) { return other.name == name; }))
+      source_.fail(fmt::format("a second element {}: must be one", name));
     if (source_.at_end_of_line()) source_.fail(fmt::format("the number of {} is missing", name));
     return {name, source_.count(name), {}};
+  }
+
+  void add_property(PlyElement& element) {
+    PlyProperty its = read_property();
+    for (const PlyProperty& other : element.properties)
+      if (other.name == its.name) source_.fail(fmt::format("{} has two properties {}", element.name, its.name));
+    element.properties.push_back(std::move(its));
   }
 
   PlyProperty read_property() {
