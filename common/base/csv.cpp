@@ -167,11 +167,28 @@ std::vector<std::string> CsvTable::names(std::string_view column) const {
 std::vector<double> CsvTable::quantities(std::string_view column, const UnitSystem& units, Dimension dimension,
                                          const std::string& unit) const {
   const std::size_t at = index(column);
+  check_stated(at, units, dimension, unit);
   std::vector<double> values = quantities_at(at, units, dimension, unit.empty() ? units_[at] : unit);
   for (const std::size_t copy : copies(at))
     if (by_ == TableOf::person && !agree(values, quantities_at(copy, units, dimension, units_[copy])))
       throw input_error("{}: has two columns '{}' of different values: leave one of them out", file_, column);
   return values;
+}
+
+void CsvTable::check_stated(std::size_t column, const UnitSystem& units, Dimension dimension,
+                            const std::string& unit) const {
+  const std::string& heading = units_[column];
+  if (unit.empty() || heading.empty() || unit == heading) return;
+  const double rounding = 1e-9;
+  double stated = 0, asked = 0;
+  try {
+    stated = units.quantity("1 " + heading, dimension), asked = units.quantity("1 " + unit, dimension);
+  } catch (const InputError& error) {
+    throw input_error("{}: column '{}': {}", where(0), columns_[column], error.what());
+  }
+  if (std::abs(stated - asked) > rounding * std::abs(stated))
+    throw input_error("{}: column '{}': is in {} by its heading, in {} by the case: must be the same, or stated once",
+                      where(0), columns_[column], heading, unit);
 }
 
 std::vector<double> CsvTable::quantities_at(std::size_t column, const UnitSystem& units, Dimension dimension,

@@ -31,7 +31,8 @@ class CsvTable {
   /// number, or larger than largest_given.
   std::vector<double> numbers(std::string_view column) const;
   /// In the case's units. `unit`: of the column; empty: that of its heading, or the case's. Throws InputError also for
-  /// a unit that is unknown or of another dimension. A column may be there again in another unit, with the same values.
+  /// a unit that is unknown, of another dimension, or another than that of the heading. A column may be there again in
+  /// another unit, with the same values.
   std::vector<double> quantities(std::string_view column, const UnitSystem& units, Dimension dimension,
                                  const std::string& unit = {}) const;
   std::vector<std::string> texts(std::string_view column) const;
@@ -48,6 +49,8 @@ class CsvTable {
   /// The same of a column that is there once.
   std::size_t single(std::string_view column) const;
   std::vector<double> numbers_at(std::size_t column) const;
+  /// Throws InputError if the unit and the heading's contradict each other: one of them would be a slip.
+  void check_stated(std::size_t column, const UnitSystem& units, Dimension dimension, const std::string& unit) const;
   std::vector<double> quantities_at(std::size_t column, const UnitSystem& units, Dimension dimension,
                                     const std::string& unit) const;
 

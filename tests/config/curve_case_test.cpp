@@ -21,11 +21,28 @@ std::string load_error(const std::string& csv) {
 TEST(CurveCase, ConvertsToTheUnitsOfTheCase) {
   const Curve headed = flow_from("time [ms], flow [ml/s]\n0, 0\n100, 50\n").load(UnitSystem::si());
   EXPECT_DOUBLE_EQ(headed(0.1), 50e-6);
-  auto stated = flow_from("time, flow [l/min]\n0, 0\n100, 50\n");
+  auto stated = flow_from("time, flow [ml/s]\n0, 0\n100, 50\n");
   stated.time_unit = "ms";
-  stated.value_unit = "ml/s";
+  stated.value_unit = "cm3/s";
   stated.scale = 2.0;
-  EXPECT_DOUBLE_EQ(stated.load(UnitSystem::cgs())(0.05), 50.0) << "the case file overrides the heading";
+  EXPECT_DOUBLE_EQ(stated.load(UnitSystem::cgs())(0.05), 50.0) << "the same unit by another name";
+}
+
+TEST(CurveCase, UnitsOfTheHeadingAndTheCaseAgree) {
+  const auto error = [](const std::string& heading, const std::string& unit, const std::string& time_unit = "") {
+    auto flow = flow_from(heading + "\n0, 1\n100, 1\n");
+    flow.value_unit = unit;
+    flow.time_unit = time_unit;
+    return input_error_of([&] { flow.load(UnitSystem::si()); });
+  };
+  EXPECT_EQ(
+      error("time, flow [l/min]", "ml/s"),
+      "q.csv:2: column 'flow': is in l/min by its heading, in ml/s by the case: must be the same, or stated once");
+  EXPECT_EQ(error("time [ms], flow", "ml/s", "s"),
+            "q.csv:2: column 'time': is in ms by its heading, in s by the case: must be the same, or stated once");
+  EXPECT_EQ(error("time, flow [L/min]", "l/min"), "no error");
+  EXPECT_EQ(error("time, flow [cc/s]", "ml/s"),
+            "q.csv:2: column 'flow': '1 cc/s': unknown unit 'cc/s'; this field is in m3/s");
 }
 
 TEST(CurveCase, ReadsFromACase) {
