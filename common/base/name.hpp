@@ -9,6 +9,9 @@ namespace tether {
 /// and parts of file names.
 inline constexpr std::string_view name_rule = "a name consists of letters, digits, spaces and _-.+=()%";
 
+/// The rule for those that a case gives to its own sections: fields are addressed by paths that are split at dots.
+inline constexpr std::string_view field_name_rule = "a name in a case has no dot, which stands between names of a path";
+
 /// Whether a text is such a name: not empty, of at most 100 bytes, without a space at either end, printable.
 bool is_name(std::string_view text);
 

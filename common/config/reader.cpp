@@ -282,9 +282,11 @@ std::vector<std::string> Reader::entry_names(const std::vector<std::string>&, Ne
   if (section.node)
     for (const auto& entry : section.node->entries) {
       section.known.push_back(entry.key);
-      if (is_name(entry.key)) continue;
+      const bool has_dot = entry.key.find('.') != std::string::npos;
+      if (is_name(entry.key) && !has_dot) continue;
       section.failed = true;
-      problems_.add(entry.place, fmt::format("{}{}: {}", section.path, entry.key, name_rule));
+      problems_.add(entry.place,
+                    fmt::format("{}{}: {}", section.path, entry.key, is_name(entry.key) ? field_name_rule : name_rule));
     }
   if (section.known.empty() && need == Need::required) {
     section.failed = true;

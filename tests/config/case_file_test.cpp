@@ -210,6 +210,14 @@ TEST(CaseFile, QuotesALongValueInPart) {
   EXPECT_NE(told.find("number"), std::string::npos) << told;
 }
 
+/// Paths of fields are split at dots where a case is written that builds on another.
+TEST(CaseFile, NamesOfSectionsHaveNoDot) {
+  EXPECT_EQ(errors_in<Blood>("fluid:\n  density: 1\n  outlets: {a.b: {compliance: 1}, c: {compliance: 1}}\n"),
+            "case.yaml:8: fluid.outlets.a.b: a name in a case has no dot, which stands between names of a path");
+  EXPECT_EQ(errors_in<Blood>("output: {points: {p.1: [0, 0, 0]}}\nfluid: {density: 1}\n"),
+            "case.yaml:6: output.points.p.1: a name in a case has no dot, which stands between names of a path");
+}
+
 TEST(CaseFile, NamesWhatTheHeadLacks) {
   EXPECT_EQ(error_of_whole(""),
             "case.yaml:1: name: missing: must be given (short name of the case, also of its output folder)\n"

@@ -246,9 +246,9 @@ TEST_F(Parameters, NamesThatTablesAndPlotsCannotCarryAreRefused) {
   for (const char* name : {"'a\"b'", "'a,b'", "'a`b'", "'a[b]'"})
     expect(fmt::format("    {}: {{of: [solid.a.stiffness]}}\n", name), "a name consists of");
   expect("    a: {of: [solid.a.stiffness]}\n    a.lower: {of: [solid.b.stiffness]}\n",
-         "two columns of estimate.csv would be called \"a.lower\"");
+         "identification.parameters.a.lower: a name in a case has no dot");
   expect("    time: {of: [solid.a.stiffness]}\n", "two columns");
-  EXPECT_EQ(refusal("    left spine.k_1: {of: [solid.a.stiffness]}\n"), "accepted");
+  EXPECT_EQ(refusal("    left spine+k_1: {of: [solid.a.stiffness]}\n"), "accepted");
 }
 
 }  // namespace
