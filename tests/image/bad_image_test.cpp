@@ -262,6 +262,61 @@ TEST(BadImage, PlacesAndSpacingsThatNoImageHasAreRefused) {
   }
 }
 
+/// ITK takes them for millimetres: a vessel ten times too large, or one whose spacing is right and whose place is not.
+TEST(BadImage, UnitsOtherThanMillimetresAreRefused) {
+  const Folder folder("units");
+  const auto refusal = [&](const std::string& file) {
+    return folder.refusal("file: " + file + ", threshold: {above: 1}");
+  };
+  const auto meta = [&](const std::string& field) {
+    folder.text("a.mha", "NDims = 3\nDimSize = 3 3 3\n" + field + "\nElementType = MET_UCHAR\n", std::string(27, '\2'));
+    return refusal("a.mha");
+  };
+  expect_said(meta("DistanceUnits = cm"), {"a.mha: DistanceUnits: 'cm': must be mm"});
+  expect_said(meta("ElementToIntensityFunctionSlope = 0.01"),
+              {"a.mha: ElementToIntensityFunctionSlope: '0.01': must be 1"});
+  expect_said(meta("ElementToIntensityFunctionOffset = -1024"),
+              {"a.mha: ElementToIntensityFunctionOffset: ", "must be 0"});
+  for (const char* plain : {"DistanceUnits = mm", "DistanceUnits = ?", "ElementToIntensityFunctionSlope = 1.0",
+                            "ElementToIntensityFunctionOffset = 0"})
+    EXPECT_EQ(meta(plain).find("a.mha: E") + meta(plain).find("a.mha: D"), 2 * std::string::npos) << meta(plain);
+
+  const auto nrrd = [&](const std::string& field) {
+    std::ofstream(folder.path / "a.nrrd") << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                                          << field << "\n\n\2\2\2\2\2\2\2\2";
+    return refusal("a.nrrd");
+  };
+  const std::string space = "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n";
+  expect_said(nrrd(space + "space units: \"mm\" \"mm\" \"cm\""),
+              {"a.nrrd: spaceunits: '\"mm\" \"mm\" \"cm\"': must be mm"});
+  expect_said(nrrd("spacings: 1 1 1\nunits: \"um\" \"um\" \"um\""), {"a.nrrd: units: ", "must be mm"});
+  const std::string plain = nrrd(space + "space units: \"mm\" \"mm\" \"\"");
+  EXPECT_EQ(plain.find("spaceunits"), std::string::npos) << plain;
+}
+
+TEST(BadImage, NiftisOfOtherUnitsOrTwoSpacingsAreRefused) {
+  const Folder folder("nifti");
+  const auto refusal = [&](auto place, auto value) {
+    write_image(folder.path / "a.nii", tube_image());
+    std::fstream nifti(folder.path / "a.nii", std::ios::in | std::ios::out | std::ios::binary);
+    nifti.seekp(place);
+    nifti.write(reinterpret_cast<const char*>(&value), sizeof value);
+    nifti.close();
+    return folder.refusal("file: a.nii, threshold: {above: 200}");
+  };
+  constexpr int units_at = 123, spacing_at = 80, rows_are_meant_at = 254, first_row_at = 280;
+  expect_said(refusal(units_at, std::uint8_t{1 + 8}),
+              {"a.nii: xyzt_units: its lengths are metres: must be millimetres (2)"});
+  expect_said(refusal(units_at, std::uint8_t{3}), {"a.nii: xyzt_units: its lengths are micrometres"});
+  expect_said(refusal(units_at, std::uint8_t{7}), {"a.nii: xyzt_units: its lengths are of the unit 7"});
+  expect_said(refusal(spacing_at, 3.0F),
+              {"a.nii: pixdim[1]: 3: the sform", "has a spacing of 1.5 there: must be the same"});
+  expect_said(refusal(first_row_at, -1.51F), {"a.nii: pixdim[1]: 1.5: the sform", "has a spacing of 1.51"});
+  EXPECT_EQ(refusal(first_row_at, -1.5001F), "was not refused");
+  EXPECT_EQ(refusal(units_at, std::uint8_t{0}), "was not refused");
+  EXPECT_EQ(refusal(rows_are_meant_at, std::int16_t{0}), "was not refused") << "the quaternion tells the axes";
+}
+
 /// A header that states a slice less than there is.
 TEST(BadImage, VoxelsBehindThoseThatTheHeaderStatesAreRefused) {
   const Folder folder("more");

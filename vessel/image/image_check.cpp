@@ -10,8 +10,10 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -165,6 +167,16 @@ void check_geometry(const TextHeader& header, std::size_t axes) {
   for (const char* name : {"TransformMatrix", "Rotation", "Orientation"}) check(name, axes * axes, false);
 }
 
+/// ITK reads all lengths as millimetres, and values as they stand.
+void check_units(const TextHeader& header) {
+  if (const std::string unit = header.get("DistanceUnits"); !unit.empty() && unit != "mm" && unit != "?")
+    header.refuse("DistanceUnits", "must be mm: save the image with its lengths in that unit");
+  for (const auto& [name, plain] :
+       {std::pair{"ElementToIntensityFunctionSlope", 1.0}, {"ElementToIntensityFunctionOffset", 0.0}})
+    if (header.has(name) && header.lengths(name) != std::vector{plain})
+      header.refuse(name, fmt::format("must be {:g}: save the image with its values as they are meant", plain));
+}
+
 void check_meta(const fs::path& file) {
   TextHeader header = meta_header(file);
   const std::string data = header.get("ElementDataFile");
@@ -173,6 +185,7 @@ void check_meta(const fs::path& file) {
   std::vector<std::uint64_t> factors = header.counts("DimSize", 1, most_voxels);
   if (factors.size() != header.count("NDims", 1, 10)) header.refuse("DimSize", "must be NDims numbers");
   check_geometry(header, factors.size());
+  check_units(header);
   if (header.has("ElementNumberOfChannels")) factors.push_back(header.count("ElementNumberOfChannels", 1, 1000));
   factors.push_back(type_size(header, "ElementType", meta_types));
   const auto is_true = [&](const char* name, const char* absent) {
@@ -256,11 +269,22 @@ void check_nrrd_geometry(const TextHeader& header, std::size_t axes) {
   }
 }
 
+/// teem knows units, ITK reads all lengths as millimetres. Axes that are none of space have other units, or none.
+void check_nrrd_units(const TextHeader& header) {
+  static const std::set<std::string> known{"mm", "millimeter", "millimeters", "", "none", "???", "s", "ms"};
+  for (const char* field : {"spaceunits", "units"}) {
+    std::istringstream text(header.get(field));
+    for (std::string unit; text >> std::quoted(unit);)
+      if (!known.contains(unit)) header.refuse(field, "must be mm: save the image with its lengths in that unit");
+  }
+}
+
 void check_nrrd(const fs::path& file) {
   TextHeader header = nrrd_header(file);
   std::vector<std::uint64_t> factors = header.counts("sizes", 1, most_voxels);
   if (factors.size() != header.count("dimension", 1, 16)) header.refuse("sizes", "must be as many as the dimension");
   check_nrrd_geometry(header, factors.size());
+  check_nrrd_units(header);
   factors.push_back(type_size(header, "type", nrrd_types()));
   const std::string data = header.get("datafile");
   if (data == "LIST" || data.find('%') != std::string::npos) header.refuse("datafile", "must be one file");
@@ -321,6 +345,38 @@ void check_geometry(const fs::path& file, const NiftiHeader& header) {
       throw input_error("{}: pixdim[{}]: {:g}: must be positive", file.string(), axis, spacing);
 }
 
+/// ITK turns spacings into millimetres, but not the places that stand beside them.
+void check_units(const fs::path& file, const NiftiHeader& header) {
+  constexpr std::size_t units_at = 123;
+  constexpr int of_space = 7, millimetre = 2;
+  static const std::map<int, std::string> known{{1, "metres"}, {3, "micrometres"}};
+  const int unit = header.get<std::uint8_t>(units_at) & of_space;
+  if (unit == 0 || unit == millimetre) return;
+  const auto found = known.find(unit);
+  throw input_error(
+      "{}: xyzt_units: its lengths are {}: must be millimetres (2): save the image with its lengths in "
+      "that unit",
+      file.string(), found == known.end() ? fmt::format("of the unit {}", unit) : found->second);
+}
+
+/// Spacings stand twice in a header, and ITK takes those of pixdim with the directions of the rows. Throws InputError
+/// unless they are the same.
+void check_spacings(const fs::path& file, const NiftiHeader& header) {
+  constexpr std::size_t rows_are_meant_at = 254, spacing_at = 76, rows_at = 280, number = sizeof(float);
+  constexpr double tolerance = 1e-3;
+  if (header.get<std::int16_t>(rows_are_meant_at) <= 0) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double stated = header.get<float>(spacing_at + (axis + 1) * number);
+    const auto part = [&](std::size_t row) -> double { return header.get<float>(rows_at + (4 * row + axis) * number); };
+    const double spacing = std::hypot(part(0), part(1), part(2));
+    if (std::abs(spacing - stated) > tolerance * stated)
+      throw input_error(
+          "{}: pixdim[{}]: {:g}: the sform (srow_x, srow_y, srow_z) has a spacing of {:g} there: must be "
+          "the same",
+          file.string(), axis + 1, stated, spacing);
+  }
+}
+
 /// What it takes by its header.
 std::uint64_t nifti_bytes(const fs::path& file, bool may_be_compressed) {
   constexpr std::size_t dimensions_at = 40, type_at = 70, offset_at = 108;
@@ -329,6 +385,8 @@ std::uint64_t nifti_bytes(const fs::path& file, bool may_be_compressed) {
                                                   {1024, 8}, {1280, 8}, {1792, 16}, {2304, 4}};
   const NiftiHeader header(file, may_be_compressed);
   check_geometry(file, header);
+  check_units(file, header);
+  check_spacings(file, header);
   const auto dimension = [&](int axis) {
     return header.get<std::int16_t>(dimensions_at + 2 * static_cast<std::size_t>(axis));
   };
