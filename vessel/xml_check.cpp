@@ -81,6 +81,7 @@ class XmlCheck {
 
  private:
   void check_root(const XmlTag& tag, const std::string& kind) {
+    kind_ = kind;
     if (tag.name != "VTKFile") tags_.fail(tag.begin, "is no VTK file: the first tag must be VTKFile");
     require_one_of(tag, "type", {kind});
     require_one_of(tag, "byte_order", {"", "LittleEndian", "BigEndian"});
@@ -107,6 +108,7 @@ class XmlCheck {
 
   void take(const XmlTag& tag) {
     if (tag.closing) return;
+    check_is_first(tag);
     for (const auto& [name, value] : tag.attributes)
       if (name.starts_with("NumberOf")) check_count(tag, name);
     if (tag.name == "Piece") {
@@ -120,6 +122,16 @@ class XmlCheck {
       require_one_of(tag, "encoding", {"", "raw", "base64"});
       appended_ = tag;
     }
+  }
+
+  /// VTK takes one of several, without a word; a file has one dataset, a piece one section of each kind.
+  void check_is_first(const XmlTag& tag) {
+    static const std::set<std::string_view> sections{"Points", "PointData", "CellData", "Verts",
+                                                     "Lines",  "Polys",     "Strips",   "Cells"};
+    const bool is_dataset = tag.name == kind_;
+    if ((is_dataset || sections.contains(tag.name)) &&
+        !seen_.emplace(is_dataset ? 0 : pieces_.size(), std::string(tag.name)).second)
+      tags_.fail(tag.begin, fmt::format("a second {}{}: must be one", tag.name, is_dataset ? "" : " of a piece"));
   }
 
   void check_count(const XmlTag& tag, std::string_view name) const {
@@ -145,7 +157,9 @@ class XmlCheck {
 
   /// VTK finds the arrays of data by their place among those of different names in the first piece.
   void take_name(const XmlTag& tag) {
-    const std::string section = section_of(tag), name(tag.attribute("Name"));
+    const std::string section = section_of(tag), name(section == "Points" ? section : tag.attribute("Name"));
+    if ((section == "Points" || is_cells(section)) && !names_[{pieces_.size(), section}].insert(name).second)
+      tags_.fail(tag.begin, fmt::format("a second array {} of a piece: must be one", name.substr(0, 40)));
     if (section != "PointData" && section != "CellData") return;
     if (name.empty()) refuse(tag, "Name", "an array of data must have one");
     if (pieces_.size() > 1 && !names_[{1, section}].contains(name)) refuse(tag, "Name", "the first piece has none");
@@ -442,11 +456,13 @@ class XmlCheck {
   XmlTags tags_;
   bool big_endian_ = false;
   std::size_t word_ = 4;    ///< bytes of the numbers in the headers of binary arrays
+  std::string kind_;        ///< of the dataset
   std::string compressor_;  ///< empty: none
   std::uint64_t most_ = 0;  ///< of anything that the file can hold
   std::vector<XmlPiece> pieces_;
   std::vector<XmlArray> arrays_;
   std::map<std::pair<std::size_t, std::string>, std::set<std::string>> names_;  ///< of arrays, by piece and section
+  std::set<std::pair<std::size_t, std::string>> seen_;                          ///< the dataset, and sections by piece
   std::optional<XmlTag> appended_;
   std::map<std::pair<std::size_t, std::string>, std::uint64_t> last_offset_;  ///< by piece and section
 };

@@ -261,6 +261,10 @@ TEST(DamagedFiles, OfXmlSurfacesAreNamed) {
        {"0 1 2\n1 3 2", "0 1 2\n1 3", "array connectivity of Polys: 6 values are needed, it has 5"},
        {"</Points>", "</Ponts>", "a.vtp:17: </Ponts> closes no open tag"},
        {"</Piece>", "...", "the file ends before </Piece>: cut short?"},
+       {"</PolyData>", "</PolyData>\n<PolyData></PolyData>", "a.vtp:29: a second PolyData: must be one"},
+       {"<Polys>", "<Polys></Polys>\n<Polys>", "a.vtp:19: a second Polys of a piece: must be one"},
+       {"<Points>", "<Points></Points><Points>", "a.vtp:10: a second Points of a piece: must be one"},
+       {"\"connectivity\"", "\"offsets\"", "a.vtp:23: a second array offsets of a piece: must be one"},
        {"<Polys>", "<!DOCTYPE x><Polys>", "a.vtp:18: no tag that a VTK file can have"}});
 }
 
