@@ -210,6 +210,25 @@ TEST(Vtk, ACellThatNamesNoPointIsNamed) {
   expect_part(message("nan.ply", without), "nan.ply:11: the coordinate nan is not a finite number");
 }
 
+TEST(Obj, WordsAreReadToTheirEnd) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& third, const std::string& face) {
+    const auto file = folder.file("x.obj", "# one\nv 0 0 0 1\nv 1 0 0 # two\n" + third + "\n" + face + "\n");
+    return message_of([&] { read_mesh_file(file); });
+  };
+  EXPECT_EQ(message("v 0 +1 1e-3 0.5 0.5 0.5\r", "f 1/7/8 2//3 -1/\r"), "accepted");
+  expect_part(message("v 0 1 3,333", "f 1 2 3"),
+              "x.obj:4: '3,333' is not a number (numbers have points, not commas: 0.5)");
+  expect_part(message("v 0 1 0 garbage", "f 1 2 3"), "x.obj:4: 'garbage' is not a number");
+  expect_part(message("v 0 1 nan", "f 1 2 3"), "x.obj:4: 'nan' is not a number");
+  expect_part(message("v 0 1", "f 1 2 3"), "x.obj:4: three coordinates were expected behind v");
+  for (const std::string node : {"3e1abc", "3.0", "3,1", "/3", "3/x", "99999999999"})
+    expect_part(message("v 0 1 0", "f 1 2 " + node),
+                "x.obj:5: '" + node + "' is no node: must be a number, or numbers with slashes between them");
+  expect_part(message("V 0 1 0", "f 1 2 3"), "x.obj:4: the line begins with V: must be a small letter");
+  expect_part(message("v 0 1 0\nF 1 2 3", "f 1 2 3"), "x.obj:5: the line begins with F: must be a small letter");
+}
+
 TEST(Vtk, MistakesAreNamed) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& name, const std::string& content) {
