@@ -188,33 +188,33 @@ void check_interface(const VesselMesh& vessel) {
     throw input_error("interface: fluid and wall have the same nodes but connect them by other triangles");
 }
 
-void check_lumen(const FluidMesh& fluid, const UnitSystem& units) {
+void check_lumen(const FluidMesh& fluid, const UnitSystem& units, const std::string& where) {
   const double diameter = mean_lumen_diameter(fluid), in_mm = units.to_mm(diameter);
   if (diameter > 0 && !(in_mm >= 0.3 && in_mm <= 120))
     throw input_error(
-        "mesh: the lumen's mean diameter is {:.4g} {} = {:.4g} mm: must be 0.3 to 120 mm in units: {}. Coordinates in "
+        "{}: the lumen's mean diameter is {:.4g} {} = {:.4g} mm: must be 0.3 to 120 mm in units: {}. Coordinates in "
         "another unit? "
         "Multiplied by {:g} it would be {:.3g} mm",
-        diameter, units.symbol(dimension::length), in_mm, units.name(), likely_factor(in_mm),
+        where, diameter, units.symbol(dimension::length), in_mm, units.name(), likely_factor(in_mm),
         in_mm * likely_factor(in_mm));
 }
 
-void check_thickness(const VesselMesh& vessel) {
+void check_thickness(const VesselMesh& vessel, const std::string& where) {
   const double diameter = mean_lumen_diameter(vessel.fluid);
   if (const double thickness = mean_wall_thickness(vessel.wall);
       thickness > 0.5 * diameter || thickness < 1e-3 * diameter)
-    throw input_error("mesh: the wall is {:.4g} thick on average, the lumen {:.4g} wide: must be 0.001 to 0.5 of it",
-                      thickness, diameter);
+    throw input_error("{}: the wall is {:.4g} thick on average, the lumen {:.4g} wide: must be 0.001 to 0.5 of it",
+                      where, thickness, diameter);
 }
 
 /// The size first, if there is a lumen: a lumen of 20 m has elements that are flat for its wall's sake, but that is not
 /// what is wrong.
-void check(const VesselMesh& vessel, const UnitSystem& units) {
-  check_lumen(vessel.fluid, units);
+void check(const VesselMesh& vessel, const UnitSystem& units, const std::string& where) {
+  check_lumen(vessel.fluid, units, where);
   check(vessel.fluid);
   check(vessel.wall);
   check_interface(vessel);
-  check_thickness(vessel);
+  check_thickness(vessel, where);
 }
 
 MeshReport report(const VesselMesh& vessel) {

@@ -22,8 +22,8 @@ void check_interface(const VesselMesh& vessel);
 /// Diameter and wall thickness of a vessel, not of a pipeline or a hair.
 void check_size(const VesselMesh& vessel, const UnitSystem& units);
 
-/// All of the above.
-void check(const VesselMesh& vessel, const UnitSystem& units);
+/// All of the above. `where` the mesh is given, for messages about its size: "case.yaml:7: mesh".
+void check(const VesselMesh& vessel, const UnitSystem& units, const std::string& where = "mesh");
 
 /// Four volumes over the lumen's surface: the diameter of a tube [length].
 double mean_lumen_diameter(const FluidMesh& fluid);

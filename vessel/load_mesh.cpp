@@ -98,10 +98,18 @@ NamedFaces sources_of(const Named<FaceCase>& faces, const std::string& field, co
   return sources;
 }
 
+std::shared_ptr<const Anatomy> anatomy_of(const std::filesystem::path& centreline, const UnitSystem& units) {
+  const CentrelineTree tree = read_centreline(centreline, units);
+  try {
+    return std::make_shared<const Anatomy>(tree);
+  } catch (const InputError& error) {
+    throw input_error("{}: {}", centreline.string(), error.what());
+  }
+}
+
 VesselFiles files_of(const FilesCase& given, const Where& where, const UnitSystem& units) {
   VesselFiles files;
-  if (!given.centreline.empty())
-    files.anatomy = std::make_shared<const Anatomy>(read_centreline(given.centreline, units));
+  if (!given.centreline.empty()) files.anatomy = anatomy_of(given.centreline, units);
   files.rules = rules_of(given.regions, files.anatomy.get(), units,
                          [&](const std::string& name) { return named(where, "mesh.files.regions." + name); });
   files.fluid = given.fluid;
@@ -164,7 +172,7 @@ ReadVessel from_source(const MeshCase& mesh, const UnitSystem& units, WallElemen
 ReadVessel checked_mesh(const MeshCase& mesh, const UnitSystem& units, WallElement element, const Where& where) {
   ReadVessel vessel = from_source(mesh, units, element, where);
   if (element == WallElement::p1) use_tetrahedra(vessel.mesh.wall);
-  check(vessel.mesh, units);
+  check(vessel.mesh, units, named(where, "mesh"));
   return vessel;
 }
 

@@ -219,12 +219,12 @@ const Mistake mistakes[] = {
      "without limits"},
     {"VesselOf20Metres", In::the_case, "radius: 2\n    length: 6\n    wall_thickness: 0.2",
      "radius: 2000\n    length: 6000\n    wall_thickness: 200",
-     "mesh: the lumen's mean diameter is 3864 cm = 3.864e+04 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
+     "case.yaml:4: mesh: the lumen's mean diameter is 3864 cm = 3.864e+04 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
      "another unit? Multiplied by 0.001 it would be 38.6 mm"},
     {"NegativeThickness", In::the_case, "wall_thickness: 0.2", "wall_thickness: -0.2",
      "case.yaml:9: mesh.swept.wall_thickness: -0.2 cm: must be positive (of the imaged wall)"},
     {"WallThickerThanLumen", In::the_case, "wall_thickness: 0.2", "wall_thickness: 3",
-     "mesh: the wall is 2.898 thick on average, the lumen 3.864 wide: must be 0.001 to 0.5 of it"},
+     "case.yaml:4: mesh: the wall is 2.898 thick on average, the lumen 3.864 wide: must be 0.001 to 0.5 of it"},
     {"NoSuchColumn", In::the_case, "value: q", "value: flow",
      "case.yaml:18: fluid.inlets.inlet.flow.value: flow: inflow.csv has no column 'flow'; its columns are t, q"},
     {"CellIsNoNumber", In::the_curve, "100", "much", "inflow.csv:3: q: 'much' is not a number"},
@@ -262,7 +262,7 @@ const Mistake mistakes[] = {
      "fluid/mesh.vtu: the one of the same "
      "GlobalNodeID lies 2.55 away (at most 0.0001)"},
     {"MillimetresForCentimetres", In::mesh_in_files, "    wall:", "    scale: 10\n    wall:",
-     "mesh: the lumen's mean diameter is 39.66 cm = 396.6 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
+     "case.yaml:4: mesh: the lumen's mean diameter is 39.66 cm = 396.6 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
      "another unit? Multiplied by 0.1 it would be 39.7 mm"},
 };
 

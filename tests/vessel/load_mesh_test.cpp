@@ -115,10 +115,10 @@ TEST(MeshCase, FilesWithAGrownWall) {
 }
 
 /// A tube's centreline beside the case, and more of the section `files`.
-VesselMesh load_with_centreline(const std::string& more) {
+VesselMesh load_with_centreline(const std::string& more,
+                                const std::string& rows = "tube,,0,0,0,20\ntube,,0,0,100,20\n") {
   const TemporaryFolder folder;
-  folder.file("centreline.csv",
-              "branch, parent, x [mm], y [mm], z [mm], radius [mm]\ntube,,0,0,0,20\ntube,,0,0,100,20\n");
+  folder.file("centreline.csv", "branch, parent, x [mm], y [mm], z [mm], radius [mm]\n" + rows);
   return load_mesh(read_case(folder, peer_case("    centreline: centreline.csv\n" + more)), UnitSystem::cgs(),
                    WallElement::prism);
 }
@@ -152,6 +152,33 @@ TEST(MeshCase, RegionsOfAVesselAreNamedWithTheirMistakes) {
                     "along: [0, 1]}, rest: {}}\n");
               }),
               "mesh.files.regions.a: the centreline has no branch 'arch'; it has tube");
+}
+
+TEST(MeshCase, MistakesOfACentrelineAreNamedWithItsFile) {
+  const auto fault = [](const std::string& rows) {
+    return message_of([&] { load_with_centreline("    grown_wall: {fraction_of_radius: 0.1}\n", rows); });
+  };
+  expect_part(fault("tube,,0,0,0,20\ntube,,0,0,100,-1\n"), "/centreline.csv:3: radius: -0.1: must be positive");
+  expect_part(fault("tube,,0,0,0,20\ntube,,0,0,100,20\nb,tube,0,0,1,1\n"),
+              "/centreline.csv:4: branch b: has no length: must have at least two points apart");
+  expect_part(fault("tube,,0,0,0,20\ntube,,0,0,100,20\nb,tube,0,0,50,1\nb,tube,0,0,51,1\n"),
+              "/centreline.csv: centreline b: lies within its parent's lumen all along");
+}
+
+TEST(MeshCase, SizesThatNoVesselHasAreNamedWithTheirLine) {
+  const TemporaryFolder folder;
+  const auto fault = [&](const std::string& swept) {
+    CaseFile file(folder.file("case.yaml", head + "mesh:\n  source: swept\n  swept: " + swept + "\n"));
+    MeshCase mesh;
+    file.read("mesh", mesh);
+    file.finish();
+    return message_of([&] { load_mesh(mesh, file, WallElement::prism); });
+  };
+  EXPECT_TRUE(fault("{radius: 2, length: 10, wall_thickness: 100}")
+                  .starts_with((folder / "case.yaml:4: mesh: the wall is ").string()))
+      << fault("{radius: 2, length: 10, wall_thickness: 100}");
+  EXPECT_TRUE(fault("{radius: 200, length: 1000, wall_thickness: 10}")
+                  .starts_with((folder / "case.yaml:4: mesh: the lumen's mean diameter ").string()));
 }
 
 /// A vessel bent by a right angle, in files.

@@ -27,7 +27,9 @@ CentrelineTree read_centreline(const std::filesystem::path& file, const UnitSyst
   const auto lengths = [&](const char* column) { return table.quantities(column, units, dimension::length); };
   const std::vector<double> x = lengths("x"), y = lengths("y"), z = lengths("z"), radius = lengths("radius");
   CentrelineTree tree;
+  std::vector<std::size_t> first_rows;  // of the branches
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (!(radius[row] > 0)) throw input_error("{}: radius: {:g}: must be positive", table.where(row), radius[row]);
     if (tree.branches.empty() || tree.branches.back().name != names[row]) {
       if (index_of(tree, names[row]) >= 0)
         throw input_error("{}: branch {} occurs in two places: its rows must stand together", table.where(row),
@@ -37,9 +39,16 @@ CentrelineTree read_centreline(const std::filesystem::path& file, const UnitSyst
         throw input_error("{}: branch {} leaves {}, which does not stand before it", table.where(row), names[row],
                           parents[row]);
       tree.branches.push_back(std::move(branch));
+      first_rows.push_back(row);
     }
     tree.branches.back().points.emplace_back(x[row], y[row], z[row]);
     tree.branches.back().radii.push_back(radius[row]);
+  }
+  for (std::size_t i = 0; i < first_rows.size(); ++i) {
+    const std::vector<Vec3>& points = tree.branches[i].points;
+    if (std::all_of(points.begin(), points.end(), [&](const Vec3& point) { return point == points.front(); }))
+      throw input_error("{}: branch {}: has no length: must have at least two points apart", table.where(first_rows[i]),
+                        tree.branches[i].name);
   }
   return tree;
 }
