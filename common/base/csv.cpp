@@ -214,7 +214,7 @@ std::vector<double> CsvTable::numbers_at(std::size_t column) const {
     double value = 0.0;
     const char* end = text.data() + text.size();
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
-    if (error != std::errc{} || last != end || !std::isfinite(value))
+    if (error != std::errc{} || last != end || !std::isfinite(value) || text.starts_with("+-"))
       throw input_error("{}: {}: '{}' is not a number", where(values.size()), columns_[column], text);
     if (by_ == TableOf::person && std::abs(value) > largest_given)
       throw input_error("{}: {}: {}: must be from -{:g} to {:g}", where(values.size()), columns_[column], text,

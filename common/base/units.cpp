@@ -129,7 +129,7 @@ double UnitSystem::quantity(std::string_view text, Dimension dimension) const {
   double number = 0.0;
   const char* begin = whole.data() + (whole.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, whole.data() + whole.size(), number);
-  if (error != std::errc{}) throw input_error("'{}' is not a number", whole);
+  if (error != std::errc{} || whole.starts_with("+-")) throw input_error("'{}' is not a number", whole);
   const std::string_view unit = trimmed(whole.substr(static_cast<std::size_t>(end - whole.data())));
   if (unit.empty() || unit == symbol(dimension)) return number;
   for (const auto& known : named_units) {

@@ -38,6 +38,7 @@ TEST(Units, WrongQuantitiesAreNamed) {
   const UnitSystem cgs = UnitSystem::cgs();
   EXPECT_EQ(error_of(cgs, "thick", dimension::length), "'thick' is not a number");
   EXPECT_EQ(error_of(cgs, "", dimension::length), "'' is not a number");
+  EXPECT_EQ(error_of(cgs, "+-5 cm", dimension::length), "'+-5 cm' is not a number");
   EXPECT_EQ(error_of(cgs, "3 ell", dimension::length), "'3 ell': unknown unit 'ell'; this field is in cm");
   EXPECT_EQ(error_of(cgs, "3 s", dimension::length), "'3 s': s is no unit of this field, which is in cm");
   EXPECT_THROW(UnitSystem::named("imperial"), InputError);

@@ -64,6 +64,8 @@ TEST(CurveCase, NamesWhatIsWrongWithTheTable) {
   EXPECT_EQ(load_error("time, flux\n0,1\n"), "q.csv: has no column 'flow'; its columns are time, flux");
   EXPECT_EQ(load_error("time, flow\n0,1\n0.1,x\n"), "q.csv:3: flow: 'x' is not a number");
   EXPECT_EQ(load_error("time, flow\n0,nan\n"), "q.csv:2: flow: 'nan' is not a number");
+  EXPECT_EQ(load_error("time, flow\n0,+5\n"), "no error");
+  EXPECT_EQ(load_error("time, flow\n0,+-5\n"), "q.csv:2: flow: '+-5' is not a number");
   EXPECT_EQ(load_error("time, flow\n\n0,\n"), "q.csv:3: flow: '' is not a number");
   EXPECT_EQ(load_error("# measured\ntime, flow\n0,1\n0.2,1\n0.2,3\n"), "q.csv:5: the time 0.2 does not come after 0.2");
   EXPECT_EQ(load_error("time, flow\n0,1,2\n"),

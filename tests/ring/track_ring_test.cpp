@@ -70,7 +70,7 @@ class TrackRing : public ::testing::Test {
 
  private:
   int count_ = 0;
-  std::string table_ = "file, time\n", landmarks_ = "time, x [cm], y, z\n";
+  std::string table_ = "file, time [s]\n", landmarks_ = "time [s], x [cm], y, z\n";
 };
 
 TEST_F(TrackRing, IsTheMotionOfTheBodyIfALandmarkTellsTheTurn) {
@@ -124,20 +124,41 @@ TEST_F(TrackRing, MistakesNameTheFrame) {
   RingTrackCase labelled = asked(false);
   labelled.ring.label = 7;
   EXPECT_NE(fault(labelled).find("no triangle has the label 7"), std::string::npos) << fault(labelled);
-  std::ofstream(folder / "landmark.csv") << "time,x,y,z\n0,4,-3,0\n1,4,-3,0\n";
+  std::ofstream(folder / "landmark.csv") << "time [s],x,y,z\n0,4,-3,0\n1,4,-3,0\n";
   RingTrackCase on_axis = asked(false);
   on_axis.landmark.emplace();
   on_axis.landmark->file = folder / "landmark.csv";
-  std::ofstream(folder / "landmark.csv") << "time,x,y,z\n0,4,-3,0\n1,4,-3,0\n";
+  std::ofstream(folder / "landmark.csv") << "time [s],x,y,z\n0,4,-3,0\n1,4,-3,0\n";
   EXPECT_NE(fault(on_axis).find("cannot tell a turn"), std::string::npos) << fault(on_axis);
-  std::ofstream(folder / "frames.csv") << "file,time\nframe_0.stl,0\nframe_1.stl,0\n";
+  std::ofstream(folder / "frames.csv") << "file,time [s]\nframe_0.stl,0\nframe_1.stl,0\n";
   RingTrackCase twice = on_axis;
-  EXPECT_NE(fault(twice).find("two frames at 0 s"), std::string::npos) << fault(twice);
-  std::ofstream(folder / "frames.csv") << "file,time\nlost.stl,0\n";
+  EXPECT_NE(fault(twice).find("frames.csv:3: the time 0 s of frame_1.stl does not come after 0 s"), std::string::npos)
+      << fault(twice);
+  std::ofstream(folder / "frames.csv") << "file,time [s]\nlost.stl,0\n";
   EXPECT_NE(fault(twice).find("lost.stl"), std::string::npos) << fault(twice);
   std::ofstream(folder / "lines.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 1 2\nf 3 3 4\n";
-  std::ofstream(folder / "frames.csv") << "file,time\nlines.obj,0\n";
+  std::ofstream(folder / "frames.csv") << "file,time [s]\nlines.obj,0\n";
   EXPECT_NE(fault(twice).find("lines.obj: all its triangles are without area"), std::string::npos) << fault(twice);
+}
+
+TEST_F(TrackRing, TimesStandInOrderAndHaveAUnit) {
+  frame(0, {Vec3::Zero(), 0, Vec3::UnitX()});
+  frame(0.4, {{0, -0.5, 0}, 0.1, Vec3::UnitX()});
+  RingTrackCase given = asked(true);
+  EXPECT_EQ(fault(given), "accepted");
+  const auto refused = [&](const std::string& file, const std::string& table, const std::string& message) {
+    std::ofstream(folder / file) << table;
+    EXPECT_EQ(fault(given), (folder / file).string() + message);
+  };
+  refused("frames.csv", "file,time [ms]\nframe_0.stl,400\nframe_1.stl,0\n",
+          ":3: the time 0 s of frame_1.stl does not come after 0.4 s");
+  refused("frames.csv", "file,time\nframe_0.stl,0\nframe_1.stl,0.4\n",
+          ":2: the unit of time must stand in its heading, as in time [ms]");
+  refused("frames.csv", "file,time [s]\nframe_0.stl,0\nframe_1.stl,+-0.4\n", ":3: time: '+-0.4' is not a number");
+  given = asked(true);
+  refused("landmark.csv", "time [s],x,y,z\n0.4,4,0,1\n0,4,0,1\n", ":3: the time 0 s does not come after 0.4 s");
+  refused("landmark.csv", "time,x,y,z\n0,4,0,1\n0.4,4,0,1\n",
+          ":2: the unit of time must stand in its heading, as in time [ms]");
 }
 
 }  // namespace track_ring_test

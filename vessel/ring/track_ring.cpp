@@ -22,16 +22,23 @@ struct FrameFile {
   fs::path path;
 };
 
+/// Frames and landmarks come from other programs: the unit of their times is stated, never guessed.
+std::vector<double> times_of(const CsvTable& table, const std::string& column) {
+  if (table.unit(column).empty())
+    throw input_error("{}: the unit of {} must stand in its heading, as in {} [ms]", table.where(0), column, column);
+  return table.quantities(column, UnitSystem::cgs(), dimension::time);
+}
+
 std::vector<FrameFile> frames_of(const FramesCase& given) {
   const CsvTable table(given.file);
-  const std::vector<double> times = table.quantities(given.time, UnitSystem::cgs(), dimension::time);
+  const std::vector<double> times = times_of(table, given.time);
   const std::vector<std::string> files = table.texts(given.column);
   std::vector<FrameFile> frames;
   for (std::size_t i = 0; i < times.size(); ++i) frames.push_back({times[i], given.file.parent_path() / files[i]});
-  std::stable_sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   for (std::size_t i = 1; i < frames.size(); ++i)
-    if (frames[i].time == frames[i - 1].time)
-      throw input_error("{}: two frames at {} s", given.file.string(), frames[i].time);
+    if (frames[i].time <= frames[i - 1].time)
+      throw input_error("{}: the time {} s of {} does not come after {} s", table.where(i), frames[i].time, files[i],
+                        frames[i - 1].time);
   return frames;
 }
 
@@ -99,9 +106,10 @@ using Path = std::function<Vec3(double time)>;
 Path landmark_of(const LandmarkCase& given) {
   const CsvTable table(given.file);
   const UnitSystem units = UnitSystem::cgs();
-  const std::vector<double> times = table.quantities(given.time, units, dimension::time);
-  if (!std::is_sorted(times.begin(), times.end()))
-    throw input_error("{}: its times are not in order", given.file.string());
+  const std::vector<double> times = times_of(table, given.time);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] <= times[i - 1])
+      throw input_error("{}: the time {} s does not come after {} s", table.where(i), times[i], times[i - 1]);
   std::vector<Curve> curves;
   for (const std::string& column : {given.x, given.y, given.z})
     curves.emplace_back(times, table.quantities(column, units, dimension::length, given.unit));
