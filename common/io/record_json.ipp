@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/error.hpp"
@@ -155,10 +158,23 @@ struct Read {
   /// 2.0 is one, too, as in a schema.
   template <class T>
   static T whole(const Json& json, const Place& place) {
-    if (json.is_number_integer()) return json.get<T>();
-    if (!json.is_number_float() || std::trunc(json.get<double>()) != json.get<double>())
-      throw place.wrong(json, "a whole number");
-    return static_cast<T>(json.get<double>());
+    if (json.is_number_unsigned()) return fitting<T>(json.get<std::uint64_t>(), json, place);
+    if (json.is_number_integer()) return fitting<T>(json.get<std::int64_t>(), json, place);
+    const double number = json.is_number_float() ? json.get<double>() : 0.5;
+    if (std::trunc(number) != number) throw place.wrong(json, "a whole number");
+    constexpr double most = 9e15;  // each whole number up to it is a double
+    if (!(std::abs(number) <= most)) throw place.wrong(json, allowed<T>());
+    return fitting<T>(static_cast<std::int64_t>(number), json, place);
+  }
+  /// What a type cannot hold would be another number.
+  template <class T, class Number>
+  static T fitting(Number number, const Json& json, const Place& place) {
+    if (!std::in_range<T>(number)) throw place.wrong(json, allowed<T>());
+    return static_cast<T>(number);
+  }
+  template <class T>
+  static std::string allowed() {
+    return fmt::format("a whole number from {} to {}", std::numeric_limits<T>::min(), std::numeric_limits<T>::max());
   }
   static double number(const Json& json, const Place& place) {
     if (json.is_null()) return std::numeric_limits<double>::quiet_NaN();
@@ -249,10 +265,30 @@ void write_record(const std::filesystem::path& path, const T& record) {
   write_whole(path, json_of(record) + "\n");
 }
 
+namespace record_json {
+
+/// Throws InputError for what is no JSON, and for an object that has a key twice: one of its values would be lost.
+inline Json parsed(const std::string& text, const std::string& from) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::string twice;
+  const Json::parser_callback_t look = [&](int, Json::parse_event_t event, Json& key) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(key.get_ref<const std::string&>()).second)
+      twice = key.get_ref<const std::string&>();
+    return true;
+  };
+  Json json = Json::parse(text, look, false);
+  if (json.is_discarded()) throw input_error("{}: is no JSON", from);
+  if (!twice.empty()) throw input_error("{}: {}: stands twice in one object: must stand once", from, twice);
+  return json;
+}
+
+}  // namespace record_json
+
 template <class T>
 T record_of(const std::string& text, const std::string& from) {
-  const auto json = record_json::Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw input_error("{}: is no JSON", from);
+  const auto json = record_json::parsed(text, from);
   T record;
   record_json::Read::into(record, json, {from, ""});
   return record;

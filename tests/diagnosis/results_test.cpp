@@ -140,6 +140,14 @@ TEST(Results, WholeNumbersMayHaveAPoint) {
   EXPECT_EQ(record_of<Diagnosis>(with("17.0"), "d.json").cost.runs, 17);
   EXPECT_EQ(message_of([&] { record_of<Diagnosis>(with("17.5"), "d.json"); }),
             "d.json: cost.runs: 17.5: must be a whole number");
+  for (const std::string large : {"3000000000", "-3000000000", "1e10", "99999999999999999999", "1e300"})
+    EXPECT_NE(message_of([&] {
+                record_of<Diagnosis>(with(large), "d.json");
+              }).find(": must be a whole number from -2147483648 to 2147483647"),
+              std::string::npos)
+        << large;
+  EXPECT_EQ(message_of([&] { record_of<Diagnosis>(with("17, \"runs\": 18"), "d.json"); }),
+            "d.json: runs: stands twice in one object: must stand once");
 }
 
 TEST(Results, TellFileAndFieldOfWhatIsWrong) {
