@@ -83,6 +83,9 @@ std::vector<Points> marks_of(const CsvTable& table, const std::vector<std::strin
 Poses read_poses(const MotionCase& given, const CsvTable& table, const UnitSystem& units) {
   std::vector<double> times;
   if (given.clock == "phase") {
+    if (const std::string unit = table.unit(given.time); !unit.empty())
+      throw input_error("{}: {} is in {}, but with clock: phase times are parts of the period: must have no unit",
+                        table.where(0), given.time, unit);
     times = table.numbers(given.time);
     for (double& time : times) time *= *given.period;
   } else {

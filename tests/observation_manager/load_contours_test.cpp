@@ -36,6 +36,9 @@ TEST_F(Load, RefusesBadContours) {
   EXPECT_EQ(csv(heading + good), "accepted");
   EXPECT_EQ(csv("slice,frame,time [ms],x,y,z\n" + good),
             "c.csv: the unit of x is stated neither in its heading (x [mm]) nor in the case (unit)");
+  EXPECT_EQ(csv(heading + good, ", unit: mm"), "accepted");
+  EXPECT_EQ(csv(heading + good, ", unit: cm"),
+            "c.csv:2: column 'x': is in mm by its heading, in cm by the case: must be the same, or stated once");
   EXPECT_EQ(csv(heading + good + circle_rows("B", 0, 0, 11, 25) + good),
             "c.csv:50: slice A, frame 0 occurs in two places: the rows of a contour must stand together");
   for (const std::string frame : {"-1", "0.5", "99999999999999999999"})

@@ -71,6 +71,10 @@ TEST(MotionOfARing, MistakesAreNamed) {
   says(rows, ", clock: phase", "needs 'period'");
   says(rows, ", period: 0.8, harmonics: 2", "5 different phases");
   says(rows, ", time: when", "when");
+  says("time [ms],x,y,z\n0,0,0,0\n1,0,0,1\n", ", clock: phase, period: 0.8",
+       "ring.csv:2: time is in ms, but with clock: phase times are parts of the period: must have no unit");
+  says("time,x [mm],y,z\n0,0,0,0\n1,0,0,1\n", ", unit: cm",
+       "ring.csv:2: column 'x': is in mm by its heading, in cm by the case: must be the same, or stated once");
   says("time,x,y,z\n0,0,0,0\n0,0,0,1\n", "", "ring.csv:3: the time 0 does not come after 0");
   says("time,x,y,z\n1,0,0,0\n0,0,0,1\n", "", "ring.csv:3");
   says("time,x,y,z\n0,0,0,0\n1,0,nan,1\n", "", "ring.csv:3");
