@@ -28,6 +28,15 @@ TriangleSurface surface_in(const fs::path& file) {
   return checked_surface(file.string(), read_surface(file, 1)).surface;
 }
 
+SeenNoise noise_of_both(const fs::path& first, const fs::path& second) {
+  const TriangleSurface one = surface_in(first), other = surface_in(second);
+  try {
+    return noise_between(one, other);
+  } catch (const InputError& error) {
+    throw input_error("{} and {}: {}", first.string(), second.string(), error.what());
+  }
+}
+
 }  // namespace
 
 Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
@@ -53,7 +62,7 @@ Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
 
 Made<NoiseMeasurements> measure_noise(const fs::path& first, const fs::path& second, const fs::path& output) {
   hold_output(output);
-  SeenNoise seen = noise_between(surface_in(first), surface_in(second));
+  SeenNoise seen = noise_of_both(first, second);
   seen.source = first.filename().string() + " and " + second.filename().string();
   seen.frames = {first.filename().string(), second.filename().string()};
   NoiseMeasurements noise;

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/error.hpp"
 #include "diagnosis/noise/seen_frames.hpp"
 #include "observation_manager/measurements/signed_surface.hpp"
+#include "observation_manager/measurements/surface_check.hpp"
 
 namespace tether {
 namespace {
@@ -205,6 +207,25 @@ std::vector<SeenNoise> residual_noise(const Observations& data, const RunMotion&
   return all;
 }
 
+namespace {
+
+/// Throws InputError for surfaces that are no two segmentations of one moment: what they differ by is no noise.
+void check_apart(const VectorXd& apart, Index points, double size) {
+  constexpr Index least = 20;
+  constexpr double same = 1e-6, farthest = 0.1;
+  if (apart.size() < least)
+    throw input_error("of {} points of the first {} lie beside the second: must be at least {}; other units?", points,
+                      apart.size(), least);
+  if (const double mean = apart.cwiseAbs().mean(); mean > farthest * size)
+    throw input_error(
+        "lie {:.3g} apart in the mean, the smaller is {:.3g} long: must be two surfaces of one moment in one unit",
+        mean, size);
+  if (root_mean_square(apart) < same * size)
+    throw input_error("are the same surface: must be two segmentations, which differ by their noise");
+}
+
+}  // namespace
+
 SeenNoise noise_between(const TriangleSurface& first, const TriangleSurface& second) {
   std::vector<Closest> closest = SignedSurface(second).closest(first.points);
   constexpr std::size_t most = 3000;  // five times what is used
@@ -221,6 +242,7 @@ SeenNoise noise_between(const TriangleSurface& first, const TriangleSurface& sec
     places.col(i) = (first.points.col(used[static_cast<std::size_t>(i)]) + at.point) / 2;
     apart(i) = at.distance / std::sqrt(2);
   }
+  check_apart(std::sqrt(2) * apart, first.points.cols(), std::min(box_size(first.points), box_size(second.points)));
   NoiseField field{places, offset_and_shift(places, normals), {}};
   field.frames.push_back({apart, MatrixXd(apart.size(), 0), 0});
   return {NoiseOrigin::repeated, "", {}, {}, {std::move(field)}};

@@ -29,7 +29,8 @@ std::vector<SeenNoise> noise_at_rest(const Observations& data, const RunMotion& 
 /// of the model's motion in all of them together. It holds what the model does wrong too.
 std::vector<SeenNoise> residual_noise(const Observations& data, const RunMotion& run);
 
-/// Two surfaces of one moment, at the points of the first, those beside a rim left out.
+/// Two surfaces of one moment, at the points of the first, those beside a rim left out. Throws InputError if they are
+/// the same surface, or farther apart than two segmentations can be.
 SeenNoise noise_between(const TriangleSurface& first, const TriangleSurface& second);
 
 }  // namespace tether

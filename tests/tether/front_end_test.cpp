@@ -101,7 +101,7 @@ In results:
 }
 
 /// A tube of radius 10 and length 60 with errors of the deviation 0.3, alike over 5, a fifth of the variance nowhere.
-void write_tube(const fs::path& path, std::uint64_t seed) {
+void write_tube(const fs::path& path, std::uint64_t seed, double scale = 1) {
   constexpr int around = 20, along = 21;
   Points x(3, around * along), out(3, around * along);
   for (int i = 0; i < x.cols(); ++i) {
@@ -117,7 +117,7 @@ void write_tube(const fs::path& path, std::uint64_t seed) {
     const int side = i / around * around + (i + 1) % around;
     triangles.push_back({i, side, side + around}), triangles.push_back({i, side + around, i + around});
   }
-  write_stl(path, x, triangles);
+  write_stl(path, scale * x, triangles);
 }
 
 TEST_F(FrontEnd, WritesAndTellsTheNoiseOfTwoSurfaces) {
@@ -136,6 +136,24 @@ TEST_F(FrontEnd, WritesAndTellsTheNoiseOfTwoSurfaces) {
   EXPECT_EQ(one.line.rfind("noise: {deviation: ", 0), 0u) << one.line;
   EXPECT_TRUE(fs::exists(folder_ / "noise/plots/noise_repeated_one_stl_and_two_stl.png"));
   EXPECT_EQ(tether("measure-noise one.stl none.stl").exit_code, 2);
+}
+
+TEST_F(FrontEnd, TellsNoNoiseOfSurfacesThatAreNoTwoOfOneMoment) {
+  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "large.stl", 2, 10), write_tube(folder_ / "two.stl", 2);
+  fs::copy_file(folder_ / "one.stl", folder_ / "same.stl");
+  const auto refusal = [&](const std::string& files) {
+    const ChildEnd end = tether("measure-noise " + files);
+    EXPECT_EQ(end.exit_code, 2) << end.output;
+    return end.errors;
+  };
+  EXPECT_EQ(refusal("one.stl same.stl"),
+            "one.stl and same.stl: are the same surface: must be two segmentations, which differ by their noise\n");
+  for (const auto& [files, named] :
+       {std::pair{"one.stl large.stl", "one.stl and large.stl: "}, {"large.stl one.stl", "large.stl and one.stl: "}}) {
+    const std::string said = refusal(files);
+    EXPECT_EQ(said.rfind(named, 0), 0u) << said;
+    EXPECT_NE(said.find("unit"), std::string::npos) << said;
+  }
 }
 
 TEST_F(FrontEnd, HandsTheOptionsOn) {
