@@ -219,7 +219,8 @@ const Mistake mistakes[] = {
      "without limits"},
     {"VesselOf20Metres", In::the_case, "radius: 2\n    length: 6\n    wall_thickness: 0.2",
      "radius: 2000\n    length: 6000\n    wall_thickness: 200",
-     "case.yaml:4: mesh: the lumen's mean diameter is 3864 cm = 3.864e+04 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
+     "case.yaml:4: mesh: the lumen's mean diameter is 3864 cm = 3.864e+04 mm: must be 0.3 to 120 mm in units: cgs. "
+     "Coordinates in "
      "another unit? Multiplied by 0.001 it would be 38.6 mm"},
     {"NegativeThickness", In::the_case, "wall_thickness: 0.2", "wall_thickness: -0.2",
      "case.yaml:9: mesh.swept.wall_thickness: -0.2 cm: must be positive (of the imaged wall)"},
@@ -262,7 +263,8 @@ const Mistake mistakes[] = {
      "fluid/mesh.vtu: the one of the same "
      "GlobalNodeID lies 2.55 away (at most 0.0001)"},
     {"MillimetresForCentimetres", In::mesh_in_files, "    wall:", "    scale: 10\n    wall:",
-     "case.yaml:4: mesh: the lumen's mean diameter is 39.66 cm = 396.6 mm: must be 0.3 to 120 mm in units: cgs. Coordinates in "
+     "case.yaml:4: mesh: the lumen's mean diameter is 39.66 cm = 396.6 mm: must be 0.3 to 120 mm in units: cgs. "
+     "Coordinates in "
      "another unit? Multiplied by 0.1 it would be 39.7 mm"},
 };
 
