@@ -12,8 +12,9 @@ namespace fs = std::filesystem;
 
 Made<FittedOutlets> fit_outlets(const CommandLine& command) {
   const OutletsCase asked = read_outlets_case(command.case_file);
-  const fs::path folder = command.output.empty() ? fs::path("out") / asked.name : command.output;
-  hold_output(folder);
+  std::vector<fs::path> also;
+  if (!asked.case_file.empty()) also.push_back(asked.case_file);
+  const fs::path folder = claim_for_made(command, "fit-outlets", asked.name, also);
   for (const char* old : {"outlets.json", "outlets.csv", "case.yaml", "plots/outlets.png"}) fs::remove(folder / old);
   OutletsFit fit = [&] {
     try {

@@ -53,11 +53,14 @@ struct Truth {
 };
 
 /// Throws InputError for a folder that holds anything but a twin.
-fs::path claim_folder(const CommandLine& command, const CaseFile& file) {
-  const fs::path folder = command.output.empty() ? fs::path("out") / (file.common().name + "_twin") : command.output;
+fs::path claim_folder(const CommandLine& command, const CaseWithTwin& given) {
+  const fs::path folder =
+      command.output.empty() ? fs::path("out") / (given.file.common().name + "_twin") : command.output;
   if (fs::exists(folder) && !command.overwrite && !fs::is_empty(folder) && !fs::exists(folder / "sealed"))
     throw input_error("{}: holds files that are not a twin's; choose another folder with --output, or give --overwrite",
                       folder.string());
+  for (const char* made : {"data", "case.yaml"})
+    for (const fs::path& read : {command.case_file, given.twin.truth}) check_keeps_inputs(folder / made, read);
   hold_output(folder);
   fs::remove_all(folder / "data");
   fs::create_directories(folder / "data");
@@ -162,7 +165,7 @@ std::string where_frames_are(const fs::path& folder, const TwinFrames& made, con
 Made<std::filesystem::path> make_twin(const CommandLine& command) {
   check_case(command);
   const CaseWithTwin given(command.case_file);
-  const fs::path folder = claim_folder(command, given.file);
+  const fs::path folder = claim_folder(command, given);
   CommandLine run = command;
   run.case_file = given.twin.truth;
   run.output = folder / "sealed" / "run";

@@ -9,6 +9,7 @@
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/input_files.hpp"
 
 namespace tether {
 namespace {
@@ -23,12 +24,68 @@ bool is_empty_but_for_lock(const fs::path& folder) {
                      [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
 }
 
+constexpr int levels_looked_at = 3;  ///< results of an explanation's runs stand two below, their checkpoints three
+constexpr int entries_looked_at = 200'000;  ///< half a second; of a longer run's frames no more are looked at
+
+/// Runs that several diagnoses share, and a twin's truth: whoever writes there takes the link away, or means it.
+bool is_lent_folder(const fs::directory_entry& link) {
+  std::error_code none;
+  const fs::path in = link.path().parent_path().filename();
+  return (in == "runs" || in == "sealed") && (link.is_directory(none) || !link.exists(none));
+}
+
 void refuse_pipes_and_links(const fs::path& folder) {
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (entry.is_fifo(none)) throw input_error("{}: is a pipe, not a file of results", entry.path().string());
-    if (entry.is_symlink(none)) throw input_error("{}: is a link, not a file of results", entry.path().string());
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, none), end;
+  for (int looked_at = 0; entry != end && looked_at < entries_looked_at; entry.increment(none), ++looked_at) {
+    if (entry->is_fifo(none)) throw input_error("{}: is a pipe, not a file of results", entry->path().string());
+    if (entry->is_symlink(none) && !is_lent_folder(*entry))
+      throw input_error("{}: is a link, not a file of results", entry->path().string());
+    if (entry.depth() == levels_looked_at) entry.disable_recursion_pending();
   }
+}
+
+void gather_files(const YamlNode& node, const fs::path& folder, std::vector<fs::path>& found) {
+  std::error_code none;
+  const fs::path path = folder / node.text;
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::is_regular_file(path, none)) {
+    found.push_back(path);
+    for (const fs::path& named : files_named_in(path)) found.push_back(named);
+  }
+  for (const YamlNode& item : node.items) gather_files(item, folder, found);
+  for (const YamlNode::Entry& entry : node.entries) gather_files(entry.value, folder, found);
+}
+
+bool is_in(const fs::path& path, const fs::path& place) {
+  const fs::path from_it = fs::weakly_canonical(path).lexically_relative(fs::weakly_canonical(fs::absolute(place)));
+  return !from_it.empty() && *from_it.begin() != "..";
+}
+
+/// As long as a path may be.
+std::string first_line_of(const fs::path& mark) {
+  std::string begin(8192, '\0');
+  std::ifstream file(mark, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  return begin.substr(0, begin.find('\n'));
+}
+
+/// What a mark says.
+std::string mark_of(const std::string& verb, const fs::path& file) {
+  return verb + " " + fs::absolute(file).lexically_normal().string();
+}
+
+void check_made_by(const fs::path& folder, const std::string& verb, const fs::path& file) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
+  check_writable_through(folder);
+  if (is_empty_but_for_lock(folder)) return;
+  const std::string maker = first_line_of(folder / made_by);
+  if (maker == mark_of(verb, file)) return;
+  if (maker.starts_with(verb + " "))
+    throw input_error("{}: holds what tether {} made of {}; {}", folder.string(), verb, maker.substr(verb.size() + 1),
+                      way_out);
+  throw input_error("{}: holds files that are not what tether {} made; {}", folder.string(), verb, way_out);
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -60,14 +117,11 @@ void check_writable_through(const fs::path& folder) {
   const fs::path plots = folder / "plots";
   if (fs::exists(plots, none) && !fs::is_directory(plots, none))
     throw input_error("{}: is not a folder", plots.string());
-  refuse_pipes_and_links(plots);
 }
 
 std::optional<fs::path> owner_of(const fs::path& folder) {
   if (!fs::is_regular_file(folder / case_as_run)) return std::nullopt;
-  std::ifstream mark(folder / case_as_run);
-  std::string first;
-  std::getline(mark, first);
+  const std::string first = first_line_of(folder / case_as_run);
   if (!first.starts_with(case_file_key)) return std::nullopt;
   return first.substr(case_file_key.size());
 }
@@ -94,6 +148,32 @@ fs::path claim_output(const CommandLine& command, const CaseFile& file) {
   check();
   hold_output(folder);
   check();  // another run may have been there until now
+  return folder;
+}
+
+void check_keeps_inputs(const fs::path& place, const fs::path& file) {
+  std::vector<fs::path> read;
+  for (const fs::path& one : files_of_case(file)) read.push_back(one);
+  gather_files(as_one_file(read_case_tree(file)), fs::absolute(file).parent_path(), read);
+  for (const fs::path& one : read)
+    if (is_in(one, place))
+      throw input_error(
+          "{}: is read, and what is written into {} would replace it; choose another folder with --output",
+          one.string(), place.string());
+}
+
+fs::path claim_for_made(const CommandLine& command, const std::string& verb, const std::string& name,
+                        const std::vector<fs::path>& also) {
+  const fs::path folder = command.output.empty() ? fs::path("out") / name : command.output;
+  const auto check = [&] {
+    check_keeps_inputs(folder, command.case_file);
+    for (const fs::path& file : also) check_keeps_inputs(folder, file);
+    if (!command.overwrite) check_made_by(folder, verb, command.case_file);
+  };
+  check();
+  hold_output(folder);
+  check();  // another may have been there until now
+  write_whole(folder / made_by, mark_of(verb, command.case_file) + "\n");
   return folder;
 }
 

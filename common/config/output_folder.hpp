@@ -12,8 +12,9 @@ inline constexpr const char* case_as_run = "case_as_run.yaml";
 /// The case file whose results a folder holds; nothing if it does not say. It need not exist any more.
 std::optional<std::filesystem::path> owner_of(const std::filesystem::path& folder);
 
-/// Throws InputError if a file of results, or of its plots, is a link, through which files elsewhere would be written
-/// and removed, or a pipe, which would be waited for without end.
+/// Throws InputError if a file of results, or of the folders in it, is a link, through which files elsewhere would be
+/// written and removed, or a pipe, which would be waited for without end. Runs that are shared, and a twin's truth, may
+/// be links to their folders.
 void check_writable_through(const std::filesystem::path& folder);
 
 /// Where a run's results are, or will be: --output, or out/NAME.
@@ -26,6 +27,19 @@ void hold_output(const std::filesystem::path& folder);
 /// there are another case's results in it, or files that are no results, unless --overwrite. With --resume another case
 /// file may go on, one that lasts longer: whether it is the same run is for the checkpoint to say.
 std::filesystem::path claim_output(const CommandLine& command, const CaseFile& file);
+
+/// The file in a folder of what a verb made of a file that is no case: the verb, and that file.
+inline constexpr const char* made_by = ".made_by";
+
+/// The folder for what a verb that makes no run makes of its file: --output, or out/NAME. It is made if need be, held,
+/// and marked. Throws InputError before anything in it is touched, if it holds anything but what the same verb made of
+/// the same file, unless --overwrite; and always if a file stands in it that is read: the verb's, those of `also`, or
+/// one that they name.
+std::filesystem::path claim_for_made(const CommandLine& command, const std::string& verb, const std::string& name,
+                                     const std::vector<std::filesystem::path>& also = {});
+
+/// Throws InputError if the file, or one that it names, is `place` or stands in it: it would be removed.
+void check_keeps_inputs(const std::filesystem::path& place, const std::filesystem::path& file);
 
 /// Marks a folder as this case's, as the case and its files now are. To be called when no results of an earlier state
 /// of the case are left in it.

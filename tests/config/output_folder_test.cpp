@@ -116,10 +116,96 @@ TEST_F(OutputFolder, IsRefusedWhereAPlotIsALinkOrAPipe) {
   EXPECT_EQ(claim("tube"), "results/plots/plots.gp: is a pipe, not a file of results");
 }
 
+/// Meshes, checkpoints and the runs of an explanation are written through folders below.
+TEST_F(OutputFolder, IsRefusedWhereAFolderInItHoldsALinkOrAPipe) {
+  for (const char* name : {"mesh/fluid.vtu", "model_0/checkpoint/fluid.bin", "force/run/vtk/wall_1.vtu", "model"}) {
+    std::filesystem::remove_all(test_folder() / "results");
+    EXPECT_EQ(claim("tube"), "no error");
+    const auto place = test_folder() / "results" / name;
+    std::filesystem::create_directories(place.parent_path());
+    std::filesystem::create_symlink("/precious", place);
+    for (const bool overwrite : {false, true})
+      EXPECT_EQ(claim("tube", overwrite), std::string("results/") + name + ": is a link, not a file of results");
+    std::filesystem::remove(place);
+    ASSERT_EQ(mkfifo(place.c_str(), 0600), 0);
+    EXPECT_EQ(claim("tube"), std::string("results/") + name + ": is a pipe, not a file of results");
+  }
+}
+
+/// Several diagnoses share runs, and several twins a truth, by links to their folders.
+TEST_F(OutputFolder, MayHoldRunsThatAreElsewhere) {
+  std::filesystem::create_directories(test_folder() / "elsewhere");
+  for (const char* name : {"coarse/runs/base", "sealed/run"}) {
+    EXPECT_EQ(claim("tube"), "no error");
+    const auto place = test_folder() / "results" / name;
+    std::filesystem::create_directories(place.parent_path());
+    std::filesystem::create_directory_symlink(test_folder() / "elsewhere", place);
+    EXPECT_EQ(claim("tube"), "no error");
+  }
+  std::filesystem::create_symlink(write_file("precious", ""), test_folder() / "results/sealed/answer");
+  EXPECT_EQ(claim("tube"), "results/sealed/answer: is a link, not a file of results");
+}
+
 TEST_F(OutputFolder, IsRefusedBeforeTheRunWhereItsPlotsCannotBeAFolder) {
   EXPECT_EQ(claim("tube"), "no error");
   write_file("results/plots", "a file");
   for (const bool overwrite : {false, true}) EXPECT_EQ(claim("tube", overwrite), "results/plots: is not a folder");
+}
+
+/// For what a verb makes that is no run.
+class MadeFolder : public OutputFolder {
+ protected:
+  void SetUp() override {
+    OutputFolder::SetUp();
+    write_file("ct.stl", "a surface");
+    study_ = write_file("study.yaml", "name: arch\nsurface: {file: ct.stl}\n");
+  }
+  std::string claim(const std::filesystem::path& folder, bool overwrite = false,
+                    const std::string& verb = "build-model", const std::string& file = "study.yaml") const {
+    CommandLine command;
+    command.case_file = test_folder() / file;
+    command.output = test_folder() / folder;
+    command.overwrite = overwrite;
+    return input_error_of([&] { claim_for_made(command, verb, "arch"); });
+  }
+  std::filesystem::path study_;
+};
+
+TEST_F(MadeFolder, IsMadeAndMayBeUsedAgainByTheSameVerbAndFile) {
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("made/surface.vtp", "");
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("other.yaml", "name: arch\n");
+  EXPECT_EQ(claim("made", false, "build-model", "other.yaml"),
+            "made: holds what tether build-model made of study.yaml; choose another folder with --output, or give "
+            "--overwrite");
+  EXPECT_EQ(claim("made", false, "fit-outlets"),
+            "made: holds files that are not what tether fit-outlets made; choose another folder with --output, or give "
+            "--overwrite");
+  EXPECT_EQ(claim("made", true, "fit-outlets"), "no error");
+}
+
+TEST_F(MadeFolder, IsNotTakenFromOtherFiles) {
+  std::filesystem::create_directories(test_folder() / "mine");
+  write_file("mine/case.yaml", "precious");
+  EXPECT_EQ(claim("mine"),
+            "mine: holds files that are not what tether build-model made; choose another folder with --output, or give "
+            "--overwrite");
+  EXPECT_FALSE(std::filesystem::exists(test_folder() / "mine" / folder_lock_name));
+  EXPECT_FALSE(std::filesystem::exists(test_folder() / "mine" / made_by));
+}
+
+/// Not with --overwrite either: what is made of a file cannot stand in its place.
+TEST_F(MadeFolder, IsNotWhereTheFilesAreThatAreRead) {
+  EXPECT_EQ(claim(".", true),
+            "study.yaml: is read, and what is written into . would replace it; choose another folder with --output");
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("made/surface.vtp", "");
+  write_file("study.yaml", "name: arch\nsurface: {file: made/surface.vtp}\n");
+  for (const bool overwrite : {false, true})
+    EXPECT_EQ(claim("made", overwrite),
+              "made/surface.vtp: is read, and what is written into made would replace it; choose another folder with "
+              "--output");
 }
 
 }  // namespace

@@ -54,6 +54,19 @@ TEST(BuildModel, WritesAModelThatRuns) {
   EXPECT_EQ(valid.exit_code, exit_done) << valid.errors;
 }
 
+TEST(BuildModel, LeavesFilesOfOthersAlone) {
+  const fs::path folder = study_in("study_beside_others", "", testing::bent_tube());
+  fs::create_directories(folder / "out" / "model");
+  std::ofstream(folder / "out" / "model" / "case.yaml") << "precious";
+  std::ofstream(folder / "out" / "surface.vtp") << "precious";
+  const ChildEnd end = built(folder);
+  EXPECT_EQ(end.exit_code, exit_input_wrong);
+  EXPECT_EQ(end.errors, (folder / "out").string() +
+                            ": holds files that are not what tether build-model made; choose another folder with "
+                            "--output, or give --overwrite\n");
+  for (const char* name : {"surface.vtp", "model/case.yaml"}) EXPECT_EQ(fs::file_size(folder / "out" / name), 8U);
+}
+
 TEST(BuildModel, MarksThePlaceOfWhatItRefuses) {
   RawSurface hole = testing::bent_tube();
   for (int row = 3; row >= 0; --row) {

@@ -64,6 +64,21 @@ TEST(FitOutlets, MeetsPressuresAndSplit) {
   EXPECT_NEAR(made.outlets[1].proximal_resistance / r, 0.056, 1e-9);
 }
 
+/// A folder of the person's with files of the names that are written.
+TEST(FitOutlets, LeavesFilesOfOthersAlone) {
+  const fs::path folder = asked(flow + targets + two_outlets);
+  fs::create_directories(folder / "out");
+  std::ofstream(folder / "out" / "case.yaml") << "precious";
+  const ChildEnd end = fitted(folder);
+  EXPECT_EQ(end.exit_code, exit_input_wrong);
+  EXPECT_EQ(end.errors, (folder / "out").string() +
+                            ": holds files that are not what tether fit-outlets made; choose another folder with "
+                            "--output, or give --overwrite\n");
+  EXPECT_EQ(fs::file_size(folder / "out" / "case.yaml"), 8U);
+  fs::remove(folder / "out" / "case.yaml");
+  for (int again = 0; again < 2; ++again) EXPECT_EQ(fitted(folder).exit_code, exit_done) << "the same may be made anew";
+}
+
 TEST(FitOutlets, SplitsByAreasAndByMurray) {
   const std::string areas = "outlets: {left: {area: 1}, right: {area: 4}}\n";
   EXPECT_NEAR(result_of(flow + targets + areas + "split: {by: area}\n").outlets[0].flow_share, 1.0 / 5, 1e-6);
