@@ -9,6 +9,7 @@
 #include "common/base/end_request.hpp"
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
+#include "common/base/process.hpp"
 #include "common/protocol/programs.hpp"
 #include "fluid/windkessels/outlets_case.hpp"
 #include "tether/plan.hpp"
@@ -171,6 +172,7 @@ int answered(int argc, char** argv) {
 }  // namespace
 
 int front_end(int argc, char** argv) {
+  prepare_process();  // before a file is opened
   end_when_interrupted();
   const EndRequests requests;
   return told_to_the_end(answered(argc, argv));

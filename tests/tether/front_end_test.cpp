@@ -1,6 +1,7 @@
 // The front-end beside a fsi_master that is a shell script: what reaches it, what comes back, what a person reads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -154,6 +155,16 @@ TEST_F(FrontEnd, TellsNoNoiseOfSurfacesThatAreNoTwoOfOneMoment) {
     EXPECT_EQ(said.rfind(named, 0), 0u) << said;
     EXPECT_NE(said.find("unit"), std::string::npos) << said;
   }
+}
+
+/// A closed stream's number would be that of the next file, into which what is told would go.
+TEST_F(FrontEnd, TellsNothingIntoAFileWhereItsOutputIsClosed) {
+  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2);
+  const ChildEnd end = tether("measure-noise one.stl two.stl --output noise >&-");
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  const std::string holder = content("noise/.lock");
+  EXPECT_EQ(std::count(holder.begin(), holder.end(), '\n'), 1) << holder;
+  EXPECT_LT(holder.size(), 300U);
 }
 
 TEST_F(FrontEnd, HandsTheOptionsOn) {
