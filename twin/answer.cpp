@@ -4,6 +4,7 @@
 
 #include "common/base/base64.hpp"
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/write_error.hpp"
 #include "common/io/record_file.hpp"
 
@@ -34,9 +35,8 @@ void seal(const std::filesystem::path& file, const Answer& answer) {
 }
 
 Answer unsealed(const std::filesystem::path& file) {
-  std::ifstream from(file);
-  if (!from) throw input_error("{}: no such file: not the folder of a twin", file.string());
-  const std::string text{std::istreambuf_iterator<char>(from), {}};
+  if (!std::filesystem::exists(file)) throw input_error("{}: no such file: not the folder of a twin", file.string());
+  const std::string text = content_of(file, 1'000'000);
   try {
     return record_of<Answer>(from_base64(text), file.string());
   } catch (const InputError& error) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/write_error.hpp"
 
 namespace tether {
@@ -62,7 +63,7 @@ void write_checked(const std::filesystem::path& path, std::uint64_t fingerprint,
 
 CheckedContent read_checked(const std::filesystem::path& path) {
   Header header;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = input_stream(path, std::ios::binary);  // to open a pipe would wait without end
   file.read(reinterpret_cast<char*>(&header), sizeof header);
   if (!file || header.magic != Header{}.magic) throw input_error("{}: is no file of a checkpoint", path.string());
   if (header.version != Header{}.version)

@@ -1,5 +1,7 @@
 #include "common/base/input_stream.hpp"
 
+#include <iterator>
+
 #include "common/base/error.hpp"
 
 namespace tether {
@@ -14,6 +16,11 @@ std::ifstream input_stream(const std::filesystem::path& file, std::ios::openmode
   std::ifstream stream(file, mode);
   if (!stream) throw input_error("{}: cannot be opened", file.string());
   return stream;
+}
+
+std::string content_of(const std::filesystem::path& file, std::uintmax_t most) {
+  std::ifstream stream = input_stream(file, std::ios::binary, most);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace tether

@@ -28,6 +28,8 @@ std::uint64_t hash_text(std::string_view text, std::uint64_t seed) {
 }
 
 std::uint64_t hash_file(const fs::path& path, std::uint64_t seed) {
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return seed;  // to open a pipe would wait without end
   std::ifstream file(path, std::ios::binary);
   std::vector<char> block(1 << 20);  // a multiple of what hash_bytes takes at a time
   while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)

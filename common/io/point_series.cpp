@@ -4,6 +4,7 @@
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/write_error.hpp"
 
 namespace tether {
@@ -81,8 +82,7 @@ void PointSeriesWriter::append(double time, const Points& vectors) {
 
 PointSeries::PointSeries(const PointSeriesKind& kind, const std::filesystem::path& path, std::int64_t most)
     : path_(path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw input_error("{}: no such file", path.string());
+  std::ifstream file = input_stream(path, std::ios::binary);
   std::string found(first_line(kind).size(), ' ');
   std::int64_t count = 0;
   const auto fitting = static_cast<std::int64_t>(std::filesystem::file_size(path) / (3 * sizeof(double)));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/types.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/io/record.hpp"
@@ -251,6 +252,32 @@ class Schema {
   Json records_ = Json::object();
 };
 
+/// What a file of a record may have [bytes]: the JSON of a list takes twenty times its text in memory, and what is told
+/// of a run is some MB. One with packed numbers, which take no more than they have, says so by `largest_file`.
+template <class T>
+constexpr std::uintmax_t largest_file_of() {
+  if constexpr (requires { T::largest_file; }) return T::largest_file;
+  return 64'000'000;
+}
+
+/// A parser takes memory, and then its stack, for each list that is begun.
+inline void check_depth(const std::string& text, const std::string& from) {
+  constexpr int most = 64;  // a record of records has ten
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') in_text = !in_text;
+    if (in_text) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++depth > most) throw input_error("{}: is nested deeper than any record: {} levels", from, most);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
 }  // namespace tether::record_json
 
 namespace tether {
@@ -288,6 +315,7 @@ inline Json parsed(const std::string& text, const std::string& from) {
 
 template <class T>
 T record_of(const std::string& text, const std::string& from) {
+  record_json::check_depth(text, from);
   const auto json = record_json::parsed(text, from);
   T record;
   record_json::Read::into(record, json, {from, ""});
@@ -296,9 +324,7 @@ T record_of(const std::string& text, const std::string& from) {
 
 template <class T>
 T read_record(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw input_error("{}: cannot be read", path.string());
-  return record_of<T>({std::istreambuf_iterator<char>(file), {}}, path.string());
+  return record_of<T>(content_of(path, record_json::largest_file_of<T>()), path.string());
 }
 
 template <class T>

@@ -36,6 +36,7 @@ struct WallSourceTold {
 
 struct ComparedWall {
   static constexpr const char* type_name = "compared_wall";
+  static constexpr std::uintmax_t largest_file = 250'000'000;  ///< 20 moments of a million triangles
   std::string units;
   std::vector<int> triangles;
   std::vector<std::string> regions;

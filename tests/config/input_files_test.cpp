@@ -1,5 +1,7 @@
 #include "common/config/input_files.hpp"
 
+#include <sys/stat.h>
+
 #include "tests/config/case_text.hpp"
 
 namespace tether {
@@ -66,6 +68,9 @@ TEST_F(InputFiles, OfARunTheStateCountsWhereACaseBeginsFromIt) {
   EXPECT_EQ(content(), before);
   write_file("data/checkpoint/solid.bin", "another state");
   EXPECT_NE(content(), before);
+  fs::remove(test_folder() / "data/checkpoint/solid.bin");
+  ASSERT_EQ(mkfifo((test_folder() / "data/checkpoint/solid.bin").c_str(), 0600), 0);
+  EXPECT_NE(content(), before) << "a pipe, which is not waited for";
 }
 
 /// A mesh may stand beside its case, and results too.

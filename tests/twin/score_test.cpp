@@ -1,6 +1,7 @@
 #include "twin/score.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fmt/format.h>
 
@@ -131,6 +132,10 @@ TEST(Answer, IsSealedAndOpened) {
     EXPECT_EQ(opened.effects[0].amplitude, 1e6);
     EXPECT_EQ(opened.image_error, 0.01);
   }
+  EXPECT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(message_of([&] { unsealed(folder / "pipe"); }), (folder / "pipe").string() + ": is not a file");
+  EXPECT_EQ(message_of([&] { read_claim(folder / "pipe"); }),
+            "is no diagnosis: " + (folder / "pipe").string() + ": is not a file");
   EXPECT_TRUE(message_of([&] { unsealed(folder.file("b", "nonsense")); }).find("is no sealed answer") !=
               std::string::npos);
 }
