@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "common/base/base64.hpp"
 #include "common/base/error.hpp"
@@ -16,6 +17,7 @@
 #include "identification_master/results/estimate.hpp"
 #include "report/estimate_table.hpp"
 #include "report/provenance.hpp"
+#include "report/result_folder.hpp"
 #include "report/run_sentences.hpp"
 #include "report/wall.hpp"
 
@@ -24,16 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string embedded(const fs::path& picture) {
-  const std::string bytes = text_of(picture);
-  return base64(bytes.data(), bytes.size());
-}
 
 /// By name.
 std::vector<fs::path> pictures_in(const fs::path& folder) {
@@ -45,10 +37,9 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return found;
 }
 
-/// A result as its schema has it; null if there is no such file. Throws InputError if it is another one.
-template <class Result>
-Json read_result(const fs::path& path) {
-  return fs::is_regular_file(path) ? Json::parse(json_of(read_record<Result>(path))) : Json();
+bool is_there(const fs::path& path) {
+  std::error_code none;
+  return fs::exists(fs::symlink_status(path, none));
 }
 
 /// Without the groups of single contours: the page shows regions.
@@ -77,6 +68,11 @@ Json facts_of(Json summary) {
   return summary;
 }
 
+/// "The diagnosis of model 0"
+std::string titled(const std::string& what, const std::string& label) {
+  return label.empty() ? what : what + " of " + label;
+}
+
 /// A folder with a compared run, as the page shows it.
 struct ShownRun {
   std::string label;
@@ -95,7 +91,7 @@ Json clinical_units(const UnitSystem& units) {
 
 class Collector {
  public:
-  explicit Collector(fs::path folder) : folder_(std::move(folder)) {
+  explicit Collector(fs::path folder) : folder_(std::move(folder)), files_(folder_) {
     document_ = {{"made", {{"version", version()}, {"commit", commit()}, {"date", date_now()}}},
                  {"title", ""},
                  {"case", ""},
@@ -110,11 +106,12 @@ class Collector {
                  {"plots", Json::array()},
                  {"wall", nullptr},
                  {"provenance", nullptr},
+                 {"warnings", Json::array()},
                  {"notes", Json::array()}};
   }
 
   Json document() {
-    const Json explain = read_result<Explanation>(folder_ / "explain.json");
+    const Json explain = result<Explanation>(folder_ / "explain.json");
     if (explain.is_null())
       take_folder();
     else
@@ -139,17 +136,21 @@ class Collector {
 
   /// A run that was compared with nothing.
   void take_simulation() {
-    if (!fs::is_regular_file(folder_ / "summary.json")) return;
+    if (!is_there(folder_ / "summary.json")) return;
+    files_.check_holds(folder_ / "summary.json");
     const auto run = read_record<RunSummary>(folder_ / "summary.json");
     introduce("simulation", {{"title", run.title}, {"case", run.case_name}, {"sentences", sentences_of(run)}});
     for (const fs::path& plot : pictures_in(folder_ / "plots"))
-      document_["plots"].push_back({{"name", plot.stem().string()}, {"png", embedded(plot)}});
+      if (const Json picture = embedded(plot); !picture.is_null())
+        document_["plots"].push_back({{"name", plot.stem().string()}, {"png", picture}});
   }
 
   void take_explained(const Json& explain) {
     const Json& models = explain.at("models");
     const Json *given = &models.at(0), *best = given;
+    check_named(explain, "missing_force");
     for (const Json& model : models) {
+      for (const char* folder : {"run", "diagnosis", "identification"}) check_named(model, folder);
       if (model.at("number") == explain.at("best")) best = &model;
       const std::string name = fmt::format("model {}", model.at("number").get<int>());
       if (const Json& at = model.at("diagnosis"); at.is_string()) take_diagnosis(at, name);
@@ -166,9 +167,9 @@ class Collector {
 
   /// A force without a law, and the model with it.
   void take_force(const std::string& name) {
-    document_["force"] = read_result<ForceFound>(folder_ / name);
+    document_["force"] = result<ForceFound>(folder_ / name);
     const fs::path run = fs::path(name).parent_path() / "run";
-    if (fs::exists(folder_ / run / "comparison.json")) take_run("with the force that is missing", run.string(), true);
+    if (is_there(folder_ / run / "comparison.json")) take_run("with the force that is missing", run.string(), true);
   }
 
   /// What the whole is called and what it says.
@@ -181,12 +182,13 @@ class Collector {
 
   void take_run(const std::string& label, const std::string& name, bool forced = false) {
     const fs::path folder = folder_ / name;
-    const Json comparison = read_result<ComparisonResult>(folder / "comparison.json");
+    const Json comparison = result<ComparisonResult>(folder / "comparison.json");
     if (comparison.is_null()) {
       if (!name.empty()) note("{} holds no comparison.json", name);
       return;
     }
     if (name.empty()) introduce("comparison", comparison);
+    dated_.emplace_back(titled("The comparison", label), folder / "comparison.json");
     const UnitSystem units = UnitSystem::named(comparison.at("units").at("system").get<std::string>());
     shown_.push_back({label, folder, comparison});
     document_["runs"].push_back({{"label", label},
@@ -198,24 +200,27 @@ class Collector {
   }
 
   void take_diagnosis(const std::string& name, const std::string& label) {
-    const Json diagnosis = read_result<Diagnosis>(folder_ / name / "diagnosis.json");
+    const Json diagnosis = result<Diagnosis>(folder_ / name / "diagnosis.json");
     if (diagnosis.is_null()) return;
     if (name.empty()) introduce("diagnosis", diagnosis);
+    dated_.emplace_back(titled("The diagnosis", label), folder_ / name / "diagnosis.json");
     const fs::path misfit = folder_ / name / "plots/misfit.png";
-    const Json picture = fs::is_regular_file(misfit) ? Json(embedded(misfit)) : Json();
+    const Json picture = is_there(misfit) ? embedded(misfit) : Json();
     document_["diagnoses"].push_back(
         {{"label", label}, {"folder", name}, {"diagnosis", diagnosis}, {"misfit", picture}});
   }
 
   void take_estimate(const std::string& name, const std::string& label) {
     const fs::path folder = folder_ / name;
-    const Json estimate = read_result<Estimate>(folder / "estimate.json");
+    const Json estimate = result<Estimate>(folder / "estimate.json");
     if (estimate.is_null()) return;
     if (name.empty()) introduce("estimate", estimate);
+    dated_.emplace_back(titled("The identification", label), folder / "estimate.json");
     std::vector<std::string> names;
     for (const Json& parameter : estimate.at("parameters")) names.push_back(parameter.at("name"));
     Json over_time;
     try {
+      files_.check_holds(folder / "estimate.csv");
       over_time = Json::parse(estimate_over_time(folder / "estimate.csv", names));
     } catch (const InputError& error) {
       note("no estimates over time: {}", error.what());
@@ -228,7 +233,10 @@ class Collector {
   Json wall() {
     try {
       std::vector<fs::path> folders;
-      for (const ShownRun& run : shown_) folders.push_back(run.folder);
+      for (const ShownRun& run : shown_) {
+        files_.check_holds(run.folder / "wall.json");
+        folders.push_back(run.folder);
+      }
       return Json::parse(json_of(wall_of(folders)));
     } catch (const InputError& error) {
       note("The moving wall is not shown: {}", error.what());
@@ -244,8 +252,12 @@ class Collector {
     try {
       const CaseInputs inputs = inputs_of(*case_file_);
       for (const auto& file : inputs.files)
-        json["files"].push_back(
-            {{"field", file.field}, {"name", file.name}, {"bytes", file.bytes}, {"modified", file.modified}});
+        json["files"].push_back({{"field", file.field},
+                                 {"name", file.name},
+                                 {"bytes", file.bytes},
+                                 {"modified", file.modified},
+                                 {"changed", is_changed(file)}});
+      warn_of_other_data(inputs);
       for (const auto& seed : inputs.seeds) json["seeds"].push_back({{"field", seed.field}, {"value", seed.value}});
     } catch (const InputError& error) {
       note("The files of the case are not listed: {}", error.what());
@@ -253,11 +265,59 @@ class Collector {
     return json;
   }
 
-  static void add_facts(Json& json, const fs::path& folder, const std::string& label) {
-    if (const std::string text = text_of(folder / case_as_run); !text.empty())
-      json["cases"].push_back({{"label", label}, {"text", text}});
-    if (const Json facts = facts_of(read_result<RunSummary>(folder / "summary.json")); !facts.is_null())
-      json["runs"].push_back({{"label", label}, {"finished", date_of(folder / "summary.json")}, {"summary", facts}});
+  /// Whether a file holds something else than when the run began.
+  bool is_changed(const CaseInputs::File& file) const {
+    const auto then = recorded_.find(file.field);
+    return then != recorded_.end() && !then->second.contains(file.content);
+  }
+
+  /// Results of several verbs stand in one folder, and may be of other measurements than the case has by now.
+  void warn_of_other_data(const CaseInputs& inputs) {
+    for (const auto& [what, result] : dated_)
+      for (const auto& file : inputs.files)
+        if (file.field.starts_with("observations.") && is_changed(file) &&
+            (came_after(file.path, result) || came_after(*case_file_, result))) {
+          document_["warnings"].push_back(fmt::format("{} is of other data: {} was changed since", what, file.name));
+          break;
+        }
+  }
+
+  void add_facts(Json& json, const fs::path& folder, const std::string& label) {
+    try {
+      if (is_there(folder / case_as_run))
+        json["cases"].push_back({{"label", label}, {"text", files_.content(folder / case_as_run)}});
+    } catch (const InputError& error) {
+      note("A case is not shown: {}", error.what());
+    }
+    const Json facts = facts_of(result<RunSummary>(folder / "summary.json"));
+    if (facts.is_null()) return;
+    json["runs"].push_back({{"label", label}, {"finished", date_of(folder / "summary.json")}, {"summary", facts}});
+    for (const Json& file : facts.at("made_from").at("files")) recorded_[file.at("field")].insert(file.at("content"));
+  }
+
+  /// A result as its schema has it; null if there is none. Throws InputError if it is another one.
+  template <class Result>
+  Json result(const fs::path& path) const {
+    if (!is_there(path)) return {};
+    files_.check_holds(path);
+    return Json::parse(json_of(read_record<Result>(path)));
+  }
+
+  /// A picture for the page; null, with a note, if it cannot be shown.
+  Json embedded(const fs::path& picture) {
+    try {
+      const std::string bytes = files_.content(picture);
+      return base64(bytes.data(), bytes.size());
+    } catch (const InputError& error) {
+      note("A picture is not shown: {}", error.what());
+      return nullptr;
+    }
+  }
+
+  /// What a record names in this folder.
+  void check_named(const Json& record, const char* field) const {
+    if (const Json name = record.value(field, Json()); name.is_string())
+      files_.check_names(name.get<std::string>(), "explain.json", field);
   }
 
   template <class... Args>
@@ -266,8 +326,11 @@ class Collector {
   }
 
   fs::path folder_;
+  ResultFolder files_;
   std::optional<fs::path> case_file_;
   std::vector<ShownRun> shown_;
+  std::map<std::string, std::set<std::string>> recorded_;  ///< what files of a field held when the runs began
+  std::vector<std::pair<std::string, fs::path>> dated_;    ///< "The comparison", and its file
   Json document_;
 };
 

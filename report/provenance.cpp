@@ -1,11 +1,13 @@
 #include "report/provenance.hpp"
 
 #include <fmt/chrono.h>
+#include <sys/stat.h>
 
 #include <chrono>
 
 #include "common/base/built_from.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 
 namespace tether {
@@ -24,7 +26,8 @@ void gather(const YamlNode& node, const std::string& field, const fs::path& fold
     const fs::path file = folder / node.text;
     if (field.ends_with(".seed")) inputs.seeds.push_back({field, node.text});
     if (!node.text.empty() && fs::is_regular_file(file, none))
-      inputs.files.push_back({field, node.text, date_of(file), fs::file_size(file, none)});
+      inputs.files.push_back({field, node.text, date_of(file), fs::file_size(file, none),
+                              fmt::format("{:016x}", hash_content(file)), file});
   }
   for (const YamlNode& item : node.items) gather(item, field, folder, inputs);
   for (const YamlNode::Entry& entry : node.entries)
@@ -44,6 +47,14 @@ std::string date_of(const fs::path& file) {
   const auto written = fs::last_write_time(file, error);
   if (error) return {};
   return date(std::chrono::time_point_cast<Clock::duration>(std::chrono::file_clock::to_sys(written)));
+}
+
+bool came_after(const fs::path& file, const fs::path& result) {
+  struct stat of_file {
+  }, of_result{};
+  if (stat(file.c_str(), &of_file) != 0 || stat(result.c_str(), &of_result) != 0) return false;
+  const timespec &came = of_file.st_ctim, &made = of_result.st_mtim;
+  return std::pair(came.tv_sec, came.tv_nsec) > std::pair(made.tv_sec, made.tv_nsec);
 }
 
 std::string date_now() {

@@ -13,6 +13,8 @@ struct CaseInputs {
     std::string field, name,
         modified;  ///< "observations.contours.cine_mr.file"; as the case has it; "2026-01-31 12:00"
     std::uintmax_t bytes = 0;
+    std::string content;  ///< a hash of what it holds, as records have it
+    std::filesystem::path path;
   };
   struct Seed {
     std::string field, value;
@@ -28,6 +30,9 @@ CaseInputs inputs_of(const std::filesystem::path& case_file);
 std::string date_of(const std::filesystem::path& file);
 /// The date of this moment.
 std::string date_now();
+
+/// Whether a file was written, or put in its place, after another one: by the time of change, which no program sets.
+bool came_after(const std::filesystem::path& file, const std::filesystem::path& result);
 
 /// The case file whose results a folder holds, as the folder's mark says; nothing if it does not say or it is gone.
 std::optional<std::filesystem::path> case_of_results(const std::filesystem::path& folder);

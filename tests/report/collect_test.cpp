@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.hpp"
+#include "common/config/input_files.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/results/comparison.hpp"
 #include "diagnosis/results/explanation.hpp"
@@ -109,8 +113,7 @@ TEST_F(Collect, AComparison) {
   EXPECT_EQ(source["moments"][0]["groups"][0]["l2"], 0.2) << "the file's own figures";
   EXPECT_TRUE(report["wall"].is_null());
   ASSERT_EQ(report["notes"].size(), 1U);
-  EXPECT_EQ(report["notes"][0],
-            "The moving wall is not shown: " + (folder / "wall.json").string() + ": cannot be read");
+  EXPECT_EQ(report["notes"][0], "The moving wall is not shown: " + (folder / "wall.json").string() + ": no such file");
 }
 
 TEST_F(Collect, ARunThatWasComparedWithNothing) {
@@ -206,6 +209,111 @@ TEST_F(Collect, WhatCannotBeReported) {
   EXPECT_TRUE(message_of([&] { collected(folder.path()); }).starts_with((folder / "comparison.json").string() + ": "));
   write("comparison.json", "{}");
   EXPECT_THROW(collected(folder.path()), InputError);
+}
+
+std::string explanation_text(const std::string& run, std::optional<std::string> diagnosis = {}) {
+  Explanation made;
+  made.case_name = "tube";
+  made.models = {model(0, "as given", nullptr, nullptr)};
+  made.models[0].run = run;
+  made.models[0].diagnosis = std::move(diagnosis);
+  return json_of(made);
+}
+
+/// A page is mailed, and a folder of results may be somebody else's.
+TEST_F(Collect, NothingFromElsewhere) {
+  const TemporaryFolder elsewhere;
+  elsewhere.file("comparison.json", comparison), elsewhere.file("diagnosis.json", diagnosis);
+  const std::string beside = "../" + elsewhere.path().filename().string();
+  for (const std::string& name : {elsewhere.path().string(), beside, std::string("model_0/../..")}) {
+    write("explain.json", explanation_text(name));
+    EXPECT_EQ(message_of([&] { document(); }),
+              (folder / "explain.json").string() + ": run: " + name + ": must name what stands in this folder");
+    write("explain.json", explanation_text("model_0", name));
+    EXPECT_EQ(message_of([&] { document(); }),
+              (folder / "explain.json").string() + ": diagnosis: " + name + ": must name what stands in this folder");
+  }
+  write("explain.json", explanation_text("model_0"));
+  fs::create_directories(folder / "model_0");
+  fs::create_symlink(elsewhere / "comparison.json", folder / "model_0/comparison.json");
+  EXPECT_EQ(message_of([&] { document(); }), (folder / "model_0/comparison.json").string() + ": leads out of " +
+                                                 folder.path().string() + ": a page shows what stands in its folder");
+  fs::remove(folder / "model_0/comparison.json");
+  write("model_0/comparison.json", comparison);
+  write("model_0.yaml", "name: tube\n");
+  fs::create_symlink(elsewhere.file("secret", "a name"), folder / "model_0/case_as_run.yaml");
+  const Json report = document();
+  EXPECT_TRUE(report["provenance"]["cases"].empty());
+  EXPECT_EQ(report["notes"].back(), "A case is not shown: " + (folder / "model_0/case_as_run.yaml").string() +
+                                        ": leads out of " + folder.path().string() +
+                                        ": a page shows what stands in its folder");
+}
+
+TEST_F(Collect, NoPipeAndNoFolderInThePlaceOfAFile) {
+  ASSERT_EQ(mkfifo((folder / "summary.json").c_str(), 0600), 0);
+  EXPECT_EQ(message_of([&] { document(); }), (folder / "summary.json").string() + ": is not a file");
+  fs::remove(folder / "summary.json");
+  write("summary.json", summary_text());
+  write("plots/flows.png", "PNG");
+  fs::create_directories(folder / "plots/walls.png");
+  ASSERT_EQ(mkfifo((folder / "plots/pressures.png").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder / "case_as_run.yaml").c_str(), 0600), 0);
+  const Json report = document();
+  EXPECT_EQ(report["plots"], Json::parse(R"([{"name": "flows", "png": "UE5H"}])"));
+  ASSERT_EQ(report["notes"].size(), 3U);
+  EXPECT_EQ(report["notes"][0],
+            "A picture is not shown: " + (folder / "plots/pressures.png").string() + ": is not a file");
+  EXPECT_EQ(report["notes"][1], "A picture is not shown: " + (folder / "plots/walls.png").string() + ": is not a file");
+  EXPECT_EQ(report["notes"][2], "A case is not shown: " + (folder / "case_as_run.yaml").string() + ": is not a file");
+}
+
+/// Sparse files, which take no disk, would take all memory.
+TEST_F(Collect, NothingThatIsFarTooLarge) {
+  const auto begin = std::chrono::steady_clock::now();
+  write("summary.json", summary_text());
+  for (const char* name : {"plots/wall.png", "case_as_run.yaml"}) {
+    write(name, "");
+    fs::resize_file(folder / name, 3'000'000'000);
+  }
+  const Json report = document();
+  EXPECT_TRUE(report["plots"].empty());
+  EXPECT_EQ(report["notes"][0], "A picture is not shown: " + (folder / "plots/wall.png").string() +
+                                    ": has 3000 MB: larger than any such file that is read here (16 MB)");
+  EXPECT_EQ(
+      report["notes"][1].get<std::string>().find("A case is not shown: " + (folder / "case_as_run.yaml").string()), 0U);
+  fs::resize_file(folder / "summary.json", 3'000'000'000);
+  EXPECT_EQ(message_of([&] { document(); }),
+            (folder / "summary.json").string() + ": has 3000 MB: larger than any such file that is read here (64 MB)");
+  write("summary.json", std::string(24'000'000, '['));
+  EXPECT_EQ(message_of([&] { document(); }),
+            (folder / "summary.json").string() + ": is nested deeper than any record: 64 levels");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+/// compare, new measurements, identify: all in one folder.
+TEST_F(Collect, AWarningOfResultsOfOtherData) {
+  write("case/data.csv", "t, q\n");
+  const fs::path file = folder / "case/case.yaml";
+  write("case/case.yaml", "name: tube\nfluid: {curve: data.csv}\nobservations: {surfaces: {ct: {file: data.csv}}}\n");
+  RunSummary run;
+  for (const InputFile& input : input_files(file))
+    run.made_from.files.push_back({input.field, input.name, fmt::format("{:016x}", input.content)});
+  write("summary.json", json_of(run));
+  write("comparison.json", comparison);
+  write("case_as_run.yaml", fmt::format("# case_file: {}\nname: tube\n", file.string()));
+  Json report = document();
+  EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
+  EXPECT_EQ(report["provenance"]["files"][0]["changed"], false);
+  const auto before = fs::last_write_time(folder / "comparison.json") - std::chrono::seconds(10);
+  fs::last_write_time(folder / "comparison.json", before);
+  write("case/data.csv", "t, q\n0, 1\n");
+  fs::last_write_time(folder / "case/data.csv", before - std::chrono::seconds(10));  // as cp -p would
+  write("estimate.json", estimate);
+  fs::last_write_time(folder / "estimate.json", before + std::chrono::seconds(100));
+  report = document();
+  EXPECT_EQ(report["warnings"],
+            Json::parse(R"(["The comparison of the model is of other data: data.csv was changed since"])"));
+  EXPECT_EQ(report["provenance"]["files"][0]["changed"], true);
 }
 
 }  // namespace collect_test

@@ -39,6 +39,7 @@ export function head(report) {
     ...headline(report, sentences[0] || "Results"),
     furtherSentences(sentences.slice(1, 5)),
     moreSentences(sentences.slice(5)),
+    ...report.warnings.map((warning) => element("p", { class: "warning" }, warning)),
     tiles(report),
   ].filter(Boolean);
 }

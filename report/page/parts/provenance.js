@@ -124,7 +124,12 @@ export function provenanceSection(report) {
     dataNotes(report),
     tableOf(
       ["file", "named by", "size", "last change"],
-      p.files.map((f) => [f.name, f.field, sizeText(f.bytes), f.modified]),
+      p.files.map((f) => [
+        f.name,
+        f.field,
+        sizeText(f.bytes),
+        f.changed ? `${f.modified}: changed since it was read for the run` : f.modified,
+      ]),
     ),
     p.seeds.length
       ? element("p", {}, "Seeds of random numbers: ", p.seeds.map((s) => `${s.field} = ${s.value}`).join(", "))
