@@ -60,7 +60,9 @@ Program solid_program() {
           .validate =
               [](const CommandLine& command) {
                 const WallCase wall(command.case_file);
-                check_against_mesh(wall.solid, wall.wall(), wall.file);
+                const WallMesh mesh = wall.wall();
+                check_against_mesh(wall.solid, mesh, wall.file);
+                check_motions(wall.solid, mesh, wall.file);
               },
           .list_effects =
               [](const CommandLine& command) {

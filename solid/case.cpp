@@ -210,6 +210,12 @@ void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const Case
   check_names(file.common().observer.regions, mesh.outside, "observer.regions", file);
 }
 
+void check_motions(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file) {
+  std::vector<std::string> notices;
+  std::vector<DrivenRing> given = given_rings(solid, mesh, file, notices);
+  make_supports(solid, mesh, file, given, notices);
+}
+
 PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
   check_against_mesh(solid, mesh, file);
   const WallSettings settings{.material = solid.material.type,

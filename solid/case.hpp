@@ -42,6 +42,8 @@ struct SolidCase {
 
 /// Throws InputError for a region or ring that the mesh does not have.
 void check_against_mesh(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file);
+/// Reads the tables of what moves rings and tissue. Throws InputError for one that is wrong.
+void check_motions(const SolidCase& solid, const WallMesh& mesh, const CaseFile& file);
 
 /// A wall ready to move, and what a person should know of it.
 struct PreparedWall {

@@ -170,6 +170,9 @@ const Mistake mistakes[] = {
     {"TooIncompressible", In::the_case, "poisson: 0.45", "poisson: 0.5",
      "case.yaml:23: solid.material.poisson: 0.5: must be at least 0 and at most 0.4999 (Poisson's ratio at small "
      "strain; 0.5 would be incompressible)"},
+    {"RingMotionOfNoLengths", In::the_case, "  support:\n",
+     "  rings: {inlet_ring: {type: driven, motion: {file: inflow.csv, time: t, x: q, y: q, z: q}}}\n  support:\n",
+     "inflow.csv:2: column 'q': '1 ml/s': ml/s is no unit of this field, which is in cm"},
     {"WrongUnit", In::the_case, "compliance: 1.5e-3", "compliance: 1.5 mmHg",
      "case.yaml:20: fluid.outlets.outlet.compliance: '1.5 mmHg': mmHg is no unit of this field, which is in cm4 s2/g "
      "(volume the reservoir takes up per pressure)"},
