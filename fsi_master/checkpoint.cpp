@@ -98,20 +98,36 @@ std::vector<fs::path> others_in(const fs::path& folder) {
   return others;
 }
 
+/// They stand in both folders until these have changed places: a run may be killed at each moment.
+void lend_others(const fs::path& from, const fs::path& to) {
+  for (const fs::path& other : others_in(from)) {
+    const fs::path lent = to / other.filename();
+    std::error_code error;
+    fs::remove(lent);
+    fs::create_hard_link(other, lent, error);
+    if (error && !fs::copy_file(other, lent, error)) throw write_error(lent);
+  }
+}
+
 void put_fresh_in_place(const fs::path& output) {
-  for (const fs::path& other : others_in(output / newest)) put_in_place(other, output / fresh / other.filename());
+  lend_others(output / newest, output / fresh);
   fs::remove_all(output / before);
   if (fs::exists(output / newest)) put_in_place(output / newest, output / before);
   put_in_place(output / fresh, output / newest);
+  for (const fs::path& other : others_in(output / before)) fs::remove(other);
 }
 
 }  // namespace
 
 void remove_checkpoints(const fs::path& output) {
-  for (const char* folder : {fresh, newest, before}) {
+  for (const char* folder : {fresh, newest, before})
     for (const char* file : files) fs::remove(output / folder / file);
-    if (others_in(output / folder).empty()) fs::remove_all(output / folder);
+  for (const char* folder : {fresh, before}) {
+    const bool is_all_there_is = !fs::exists(output / newest) && !others_in(output / folder).empty();
+    if (is_all_there_is) put_in_place(output / folder, output / newest);  // killed as they changed places
+    fs::remove_all(output / folder);
   }
+  if (others_in(output / newest).empty()) fs::remove_all(output / newest);
 }
 
 void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {

@@ -13,9 +13,9 @@ class WhenInterrupted {
   explicit WhenInterrupted(const char* way_on);
   ~WhenInterrupted();
   WhenInterrupted(const WhenInterrupted&) = delete;
+  WhenInterrupted& operator=(const WhenInterrupted&) = delete;
   /// Whether one lives.
   static bool is_told();
-  WhenInterrupted& operator=(const WhenInterrupted&) = delete;
 
  private:
   bool tells_;

@@ -100,6 +100,28 @@ TEST_F(Output, TheCheckpointBeforeIsKeptAndFoundIfTheNewestIsMissing) {
   EXPECT_EQ(read_checkpoint(folder, 77).step, 7);
 }
 
+/// Two verbs may share a folder: a run's states change places, and go, without an identification's.
+TEST_F(Output, WhatAnIdentificationSavedStays) {
+  fs::create_directories(folder / "checkpoint");
+  std::ofstream(folder / "checkpoint/identification.bin") << "saved";
+  for (const int step : {7, 8}) {
+    write_checkpoint(folder, some_checkpoint(step));
+    EXPECT_EQ(content("checkpoint/identification.bin"), "saved");
+    EXPECT_FALSE(fs::exists(folder / "checkpoint.previous/identification.bin")) << "an old one would be taken for it";
+  }
+  EXPECT_EQ(read_checkpoint(folder, 77).step, 8);
+
+  fs::rename(folder / "checkpoint", folder / "checkpoint.new");  // killed between the two renames
+  remove_checkpoints(folder);
+  EXPECT_EQ(content("checkpoint/identification.bin"), "saved");
+  for (const char* gone : {"checkpoint/master.bin", "checkpoint.new", "checkpoint.previous"})
+    EXPECT_FALSE(fs::exists(folder / gone)) << gone;
+  fs::remove(folder / "checkpoint/identification.bin");
+  write_checkpoint(folder, some_checkpoint(9));
+  remove_checkpoints(folder);
+  EXPECT_FALSE(fs::exists(folder / "checkpoint"));
+}
+
 TEST_F(Output, RefusedCheckpointsSayWhy) {
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("holds no checkpoint"), std::string::npos);
   Checkpoint stateless = some_checkpoint(7);
