@@ -1,9 +1,23 @@
 #include "identification_master/earlier_estimate.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 #include "common/base/error.hpp"
 #include "common/io/record_file.hpp"
 
 namespace tether {
+namespace {
+
+/// To the digits that a record has.
+bool is_covariance(const MatrixXd& matrix) {
+  constexpr double digits = 1e-9;
+  if (!matrix.allFinite() || (matrix - matrix.transpose()).norm() > digits * matrix.norm()) return false;
+  const VectorXd variances = matrix.selfadjointView<Eigen::Lower>().eigenvalues();
+  return matrix.size() == 0 || variances.minCoeff() >= -digits * variances.maxCoeff();
+}
+
+}  // namespace
 
 EarlierEstimate::EarlierEstimate(const std::filesystem::path& file) : told_(read_record<Estimate>(file)) {
   if (!told_.corrected)
@@ -11,6 +25,12 @@ EarlierEstimate::EarlierEstimate(const std::filesystem::path& file) : told_(read
   const auto count = std::ssize(told_.parameters);
   if (told_.covariance_of_theta.rows() != count || told_.covariance_of_theta.cols() != count)
     throw input_error("{}: covariance_of_theta is not that of {} parameters", file.string(), count);
+  if (!is_covariance(told_.covariance_of_theta))
+    throw input_error("{}: covariance_of_theta is no covariance: it is to be symmetric, with no negative variance",
+                      file.string());
+  for (const EstimatedParameter& parameter : told_.parameters)
+    if (!std::isfinite(parameter.estimate.theta))
+      throw input_error("{}: the estimate of {} has no theta", file.string(), parameter.name);
 }
 
 std::optional<Eigen::Index> EarlierEstimate::find(const std::string& name) const {

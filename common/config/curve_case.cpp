@@ -20,6 +20,15 @@ void check_times(const CsvTable& table, const std::vector<double>& times, double
                       period);
 }
 
+/// From its last row back to the first value a curve is straight: nearly everywhere, where a table is so short.
+void check_told(const CsvTable& csv, const CurveCase::Table& told, double period) {
+  constexpr double most_periods = 10;
+  const double length = told.times.back() - told.times.front();
+  if (told.times.size() > 1 && period > most_periods * length && told.values.back() != told.values.front())
+    throw input_error("{}: the table tells {:.3g} of a period of {:.3g} and does not end as it begins",
+                      csv.where(told.times.size() - 1), length, period);
+}
+
 }  // namespace
 
 void CurveCase::declare(Fields& f) {
@@ -51,7 +60,9 @@ CurveCase::Table CurveCase::table(const UnitSystem& units) const {
   const CsvTable csv(file);
   std::vector<double> times = csv.quantities(time, units, dimension::time, time_unit);
   check_times(csv, times, period.value_or(0.0));
-  return {std::move(times), csv.quantities(value, units, dimension, value_unit)};
+  Table told{std::move(times), csv.quantities(value, units, dimension, value_unit)};
+  check_told(csv, told, period.value_or(0.0));
+  return told;
 }
 
 }  // namespace tether

@@ -90,7 +90,7 @@ class Explainer {
     add_first();
     identify_own();
     while (diagnose_best())
-      if (add_model() ? is_settled() : !refuse()) break;
+      if (add_model() ? is_settled(path_) : !refuse()) break;
     if (verdict_of(path_) == Verdict::not_in_catalogue && has_catalogue("solid", given_.file)) seek_force();
     path_.odd_frames = odd_frames(*evidence_, problem_, residuals_.back(), wrong_frames());
     path_.steps = steps_.all();
@@ -177,17 +177,6 @@ class Explainer {
     const std::vector<Finding> errors = accepted_of(*best().diagnosis, true);
     return std::any_of(errors.begin(), errors.end(),
                        [](const Finding& error) { return error.kind == CandidateKind::data && !error.frame; });
-  }
-
-  /// Whether the last diagnosis foresaw that so little would be left, and the model keeps what it promised.
-  bool is_settled() const {
-    const auto before = std::find_if(path_.models.rend() - static_cast<long>(path_.best), path_.models.rend(),
-                                     [](const auto& model) { return model.told.accepted; });
-    const Diagnosis& diagnosis = *before->diagnosis;
-    if (diagnosis.more || diagnosis.verdict == Verdict::not_in_catalogue) return false;
-    const std::optional<Gain> foreseen = accepted_of(diagnosis, false).front().held_out_gain;
-    const std::optional<Gain>& gain = path_.models[path_.best].told.gain;
-    return !foreseen || !gain || gain->value > 0.8 * foreseen->value;
   }
 
   /// What was not confirmed is not to be accepted again: another may be. False if that was often enough.

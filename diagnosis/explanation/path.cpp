@@ -43,6 +43,17 @@ std::optional<std::string> corrected_case(const ExplanationPath& path) {
   return last.diagnosis_folder() + "/" + *last.diagnosis->corrected_case;
 }
 
+bool is_settled(const ExplanationPath& path) {
+  constexpr double kept = 0.8;  // of what was promised
+  const auto made_by = std::find_if(path.models.rend() - static_cast<long>(path.best), path.models.rend(),
+                                    [](const PathModel& model) { return model.told.accepted; });
+  const Diagnosis& diagnosis = *made_by->diagnosis;
+  if (diagnosis.more || diagnosis.doubtful || diagnosis.verdict == Verdict::not_in_catalogue) return false;
+  const std::optional<Gain> foreseen = accepted_of(diagnosis, false).front().held_out_gain;
+  const std::optional<Gain>& gain = best_of(path).told.gain;
+  return !foreseen || !gain || gain->value > kept * foreseen->value;
+}
+
 Verdict verdict_of(const ExplanationPath& path) {
   const Diagnosis& last = last_diagnosis(path);
   if (last.verdict == Verdict::not_in_catalogue) return last.verdict;

@@ -37,6 +37,11 @@ struct ExplanationPath {
 /// The diagnosis of the first model that has one; null: none was made.
 const Diagnosis* first_diagnosis(const ExplanationPath& path);
 
+/// Whether the diagnosis that the best model was made by foresaw that nothing but noise would be left, and the model
+/// keeps what it promised. What is left beside a strong effect is for runs about the model that has it: what other
+/// candidates do was known about the model before.
+bool is_settled(const ExplanationPath& path);
+
 /// Of the whole path.
 Verdict verdict_of(const ExplanationPath& path);
 

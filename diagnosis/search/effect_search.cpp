@@ -8,6 +8,7 @@
 
 #include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/search/amplitude_interval.hpp"
+#include "diagnosis/search/confirmation.hpp"
 #include "diagnosis/search/phase_gain.hpp"
 #include "diagnosis/search/refinement.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double sure = 0.95;       ///< probability of a gain on held-out data
+constexpr double sure = 0.95;       ///< probability of a group
 constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr double the_same = 0.99;   ///< cosine
 constexpr double look_alike = 0.5;  ///< squared cosine of two that do much the same
@@ -35,13 +36,12 @@ class Search {
   Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
          const Weighed& weighed)
       : problem_(with_discrepancy(problem, weighed.discrepancy)),
-        counted_(counted(problem_)),
         settings_(settings),
         refused_(refused_in(problem_, settings)),
         residual_at_(residual_at),
         plain_(problem_),
         naming_(naming(problem_)),
-        foretold_(counted_) {
+        confirmation_(problem_) {
     now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
     result_.weighed = weighed;
     result_.independent = problem.independent(problem.training).sum();
@@ -182,37 +182,6 @@ class Search {
       if (one.hope() > best + hopeless) one.give_up();
   }
 
-  /// Of the held-out data that count.
-  std::vector<int> held_out_blocks() const {
-    std::vector<int> block;
-    for (const Index i : counted_.held_out) block.push_back(problem_.block[static_cast<std::size_t>(i)]);
-    return block;
-  }
-
-  /// With the numbers that may be anything as they fit the training data best.
-  VectorXd refitted(const VectorXd& residual) const {
-    const VectorXd found = plain_.amplitudes(residual);
-    VectorXd fitted = residual;
-    for (Index k = 0; k < found.size(); ++k)
-      if (problem_.allowed_deviation(k) == infinite) fitted -= problem_.allowed.col(k) * found(k);
-    return fitted;
-  }
-
-  std::optional<Gain> held_out_gain(const VectorXd& before, const VectorXd& after) const {
-    const auto& rows = counted_.held_out;
-    if (rows.size() < 2) return std::nullopt;
-    return gain_of(problem_.precision(rows), held_out_blocks(), before(rows), after(rows),
-                   problem_.independent(rows).sum());
-  }
-
-  /// The same, or if that is not sure of what the training data and the allowed errors do not foretell.
-  std::optional<Gain> confirmation(const VectorXd& before, const VectorXd& after) const {
-    const auto plain = held_out_gain(refitted(before), refitted(after));
-    if (!plain || plain->positive >= sure) return plain;
-    return gain_in_misfit(held_out_blocks(), foretold_.misfit(before), foretold_.misfit(after),
-                          problem_.independent(counted_.held_out).sum());
-  }
-
   /// Probability that noise makes the gain of one of so many candidates as large, over all data that name.
   double by_chance(const TestedEffect& effect, const VectorXd& residual, double dispersion) const {
     const double gain = naming_.misfit(now_.residual) - naming_.misfit(residual);
@@ -222,7 +191,7 @@ class Search {
   /// By data that are held out, or by each moment that the others foretell; where neither can be asked it stands.
   static bool is_confirmed(const TestedEffect& effect, const WeighedGroup& group) {
     return (group.foretold && foretells(*group.foretold)) ||
-           (effect.held_out ? effect.held_out->positive >= sure : !group.foretold);
+           (effect.held_out ? effect.held_out->positive >= sure_gain : !group.foretold);
   }
 
   /// Why the data at hand and those held out do not ask for the effect; none if they do.
@@ -272,7 +241,7 @@ class Search {
     for (const Refinement* one : order) {
       TestedEffect effect = one->effect();
       effect.run = one->state().amplitudes;
-      effect.held_out = confirmation(before.residual, one->state().residual);
+      effect.held_out = confirmation_.of(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
       const bool may_be_it = !is_the_groups || group.has(effect.candidate);
@@ -282,9 +251,24 @@ class Search {
       keep(effect);
     }
     if (!chosen) return;
+    keep_others_as_good(group, *chosen);
     now_ = chosen->state();
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
+  }
+
+  /// Members that moments do not tell from the first, of which there are more than were refined: each as the run of it
+  /// showed it.
+  void keep_others_as_good(const WeighedGroup& group, const Refinement& chosen) {
+    for (std::size_t k = 0; k < group.as_good.size(); ++k) {
+      TestedEffect effect = *std::find_if(result_.effects.begin(), result_.effects.end(),
+                                          [&](const TestedEffect& e) { return e.candidate == group.members[k]; });
+      if (!group.as_good[k] || effect.confirmed || effect.accepted) continue;
+      effect.amplitudes(0) = group.amplitudes[k];
+      effect.rival = true;
+      rival_of_[effect.candidate] = chosen.effect().candidate;
+      keep(std::move(effect));
+    }
   }
 
   /// What explains less together with what was accepted, by as much as rivals may, comes last.
@@ -311,7 +295,7 @@ class Search {
   SearchStep attempt(const Refinement& one, const WeighedGroup& group) const {
     const VectorXd residual = one.state().residual;
     TestedEffect effect = one.effect();
-    effect.held_out = confirmation(now_.residual, residual);
+    effect.held_out = confirmation_.of(now_.residual, residual);
     SearchStep step{
         effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
     step.objection = objection(effect, residual, step.left, group);
@@ -393,9 +377,9 @@ class Search {
     found.local = result_.after.p;
     if (!result_.strained.empty())
       found.errors = std::min(1.0, 2 * static_cast<double>(named) * normal_tail(result_.strained.front().deviations));
-    if (!counted_.held_out.empty())
-      found.held_out = chi_square_tail(foretold_.misfit(now_.residual).sum(),
-                                       static_cast<int>(problem_.independent(counted_.held_out).sum()));
+    if (confirmation_.has_data())
+      found.held_out =
+          chi_square_tail(confirmation_.missed(now_.residual), static_cast<int>(confirmation_.independent()));
     return found;
   }
 
@@ -407,7 +391,7 @@ class Search {
     result_.strained = strained_errors();
     result_.adequacy = adequacy();
     result_.doubtful = result_.adequacy.p() < settings_.alpha;
-    if (accepted) result_.held_out = held_out_gain(refitted(problem_.residual), refitted(result_.residual));
+    if (accepted) result_.held_out = confirmation_.held_out(problem_.residual, result_.residual);
     if (leaves_too_much() && !result_.more)
       result_.verdict = !accepted && some_explain_it() ? Verdict::undecided : Verdict::not_in_catalogue;
     else if (ambiguous)
@@ -445,13 +429,12 @@ class Search {
   }
 
   EffectProblem problem_;  ///< the model is as far off as the data say
-  EffectProblem counted_;
   const SearchSettings& settings_;
   std::vector<bool> refused_;
   const ResidualAt& residual_at_;
   Trained plain_;
   Trained naming_;
-  Foretold foretold_;
+  Confirmation confirmation_;
   AmplitudeState now_;
   SearchResult result_;
   std::vector<std::size_t> rival_of_;

@@ -82,6 +82,15 @@ TEST(CurveCase, NamesWhatIsWrongWithTheTable) {
   periodic.period = 1.0;
   EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }),
             "q.csv:3: the time 1.1 lies beyond one period of 1");
+  auto short_one = flow_from("time, flow\n0,1\n0.4,2\n0.8,3\n");
+  short_one.period = 100.0;
+  EXPECT_EQ(input_error_of([&] { short_one.load(UnitSystem::si()); }),
+            "q.csv:4: the table tells 0.8 of a period of 100 and does not end as it begins");
+  short_one.period = 7.9;
+  EXPECT_NEAR(short_one.load(UnitSystem::si())(8.3), 2.0, 1e-12);
+  auto pulse = flow_from("time, flow\n0,1\n0.4,2\n0.8,1\n");
+  pulse.period = 100.0;
+  EXPECT_EQ(pulse.load(UnitSystem::si())(50.0), 1.0) << "rests between its beats";
   periodic.file = "no.csv";
   EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "no.csv: no such file");
   periodic.file = "/dev/zero";

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "diagnosis/explanation/path.hpp"
 
@@ -68,6 +69,26 @@ TEST(Explanation, SaysWhatWasIdentifiedOfWhatCannotBeToldApart) {
   path.models.push_back(model(2, std::nullopt, {effect("loose_ring", Role::accepted, 5)}));
   path.best = 2;
   EXPECT_TRUE(said_of(path).front().ends_with("; beside it loose_ring at spine, factor 5 (2.5 .. 10)"));
+}
+
+/// A path ends where the diagnosis said that noise is left, and the model with its effect does what was foreseen.
+TEST(Explanation, EndsWhereNothingButNoiseIsLeft) {
+  const auto settled = [](const std::function<void(Diagnosis&)>& change, double gain) {
+    Finding spring = effect("spring", Role::accepted, 3);
+    spring.held_out_gain = Gain{.value = 0.5};
+    Diagnosis made = diagnosis(Verdict::missing, {spring});
+    change(made);
+    ExplanationPath path;
+    path.models = {model(0, made, {}), refused(1, "with contact at spine"), model(2, std::nullopt, {spring})};
+    path.models[2].told.gain = Gain{.value = gain};
+    path.best = 2;
+    return is_settled(path);
+  };
+  EXPECT_TRUE(settled([](Diagnosis&) {}, 0.45));
+  EXPECT_FALSE(settled([](Diagnosis&) {}, 0.35)) << "less than was foreseen";
+  EXPECT_FALSE(settled([](Diagnosis& made) { made.doubtful = true; }, 0.45));
+  EXPECT_FALSE(settled([](Diagnosis& made) { made.more = true; }, 0.45));
+  EXPECT_FALSE(settled([](Diagnosis& made) { made.verdict = Verdict::not_in_catalogue; }, 0.45));
 }
 
 /// What a later diagnosis could not tell apart, and was not confirmed, takes nothing from what was found before.

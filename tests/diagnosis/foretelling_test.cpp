@@ -54,7 +54,7 @@ TEST(PhaseGain, IsExpectedAsItIsDrawn) {
 constexpr double strong = 10;
 
 /// Groups of the band with "late", which does much the same as the third spring; each was run alone.
-Weighed weighed_with_late(const EffectProblem& problem) {
+Weighing weighed_with_late(const EffectProblem& problem) {
   std::vector<ShownRun> runs;
   for (const Index c : {Index{4}, problem.changes.cols() - 1}) {
     const VectorXd amplitudes = strong * VectorXd::Unit(problem.changes.cols(), c);
@@ -64,7 +64,8 @@ Weighed weighed_with_late(const EffectProblem& problem) {
   const Posterior posterior = posterior_of(problem, evidence, std::vector<bool>(problem.candidates.size(), false));
   Weighed all = weighed(problem, evidence, posterior);
   foretell_moments(all, problem, runs, posterior);
-  return all;
+  all.detectable.assign(problem.candidates.size(), 1.0);
+  return {all, runs};
 }
 
 /// The largest fifth of the terms, rounded up, does not count: here there is one moment that says anything.
@@ -97,7 +98,7 @@ TEST(PhaseGain, FewMomentsTellNoLookAlikesApart) {
         1.2 * strong *
         (problem.changes.col(static_cast<Index>(late)) - problem.changes.col(static_cast<Index>(spring)))
             .segment(m * places, places);
-  const Weighed few = weighed_with_late(problem);
+  const Weighed few = weighed_with_late(problem).weighed;
   ASSERT_FALSE(few.groups.empty());
   ASSERT_EQ(few.groups[0].members[0], late);
   EXPECT_GT(few.groups[0].shares[0], 0.98);
@@ -105,9 +106,37 @@ TEST(PhaseGain, FewMomentsTellNoLookAlikesApart) {
   EXPECT_TRUE(few.groups[0].as_good[1]);
 
   data_of(late);
-  const Weighed all = weighed_with_late(problem);
+  const Weighed all = weighed_with_late(problem).weighed;
   ASSERT_EQ(all.groups[0].members[0], late);
   for (std::size_t k = 1; k < all.groups[0].members.size(); ++k) EXPECT_FALSE(all.groups[0].as_good[k]);
+}
+
+/// Both are told where one only is run again.
+TEST(PhaseGain, AllThatMomentsDoNotTellApartAreTold) {
+  EffectProblem problem = band(true);
+  add_candidate(problem, "late", response(2, 8, [](int m) { return std::pow(beat(m), 1.6); }));
+  const std::size_t spring = 4, late = problem.candidates.size() - 1;
+  std::mt19937_64 generator(31);
+  std::normal_distribution<double> normal;
+  problem.residual = strong * problem.changes.col(static_cast<Index>(late));
+  for (double& datum : problem.residual) datum += normal(generator);
+  Weighing weighing = weighed_with_late(problem);
+  WeighedGroup& group = weighing.weighed.groups[0];
+  group.members = {late, spring};
+  group.least = group.probability;
+  group.shares = {1, 0};
+  group.amplitudes = {strong, 0.9 * strong};
+  group.by_runs = {true, true};
+  SearchSettings settings;
+  settings.confirmed = 1;
+  for (const bool as_good : {false, true}) {
+    group.as_good = {false, as_good};
+    const SearchResult result = search_effects(problem, settings, linear_residual(problem), weighing, {});
+    EXPECT_TRUE(effect_of(result, late).accepted);
+    EXPECT_EQ(effect_of(result, spring).rival, as_good);
+    EXPECT_EQ(result.verdict, as_good ? Verdict::ambiguous : Verdict::missing);
+    EXPECT_EQ(effect_of(result, spring).group, effect_of(result, late).group);
+  }
 }
 
 /// The 95 % interval of what is named, where what is hidden is as large as expected beforehand, and beside something

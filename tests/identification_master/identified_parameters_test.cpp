@@ -147,6 +147,16 @@ class Inherited : public Parameters {
     write_record(folder / "estimate.json", earlier);
     earlier.corrected = false;
     write_record(folder / "watched.json", earlier);
+    earlier.corrected = true;
+    earlier.covariance_of_theta(1, 1) = -0.5;
+    write_record(folder / "negative.json", earlier);
+    earlier.covariance_of_theta << 0.25, 0.4, 0.4, 0.5;
+    write_record(folder / "impossible.json", earlier);
+    earlier.covariance_of_theta << 0.25, 0.1, -0.1, 0.5;
+    write_record(folder / "lopsided.json", earlier);
+    earlier.covariance_of_theta = covariance;
+    earlier.parameters.back().estimate.theta = undefined;
+    write_record(folder / "empty.json", earlier);
   }
   const MatrixXd covariance = (MatrixXd(2, 2) << 0.25, -0.1, -0.1, 0.5).finished();
   const std::string prior = "  prior_from: estimate.json\n";
@@ -202,6 +212,9 @@ TEST_F(Inherited, FromWhatIsNoEstimateAreRefusedByValidate) {
   EXPECT_NE(refused("out").find("out: "), std::string::npos) << refused("out");
   EXPECT_NE(refused("foreign.json").find("foreign.json: "), std::string::npos) << refused("foreign.json");
   EXPECT_NE(refused("watched.json").find("corrected nothing"), std::string::npos) << refused("watched.json");
+  for (const std::string name : {"negative.json", "impossible.json", "lopsided.json"})
+    EXPECT_NE(refused(name).find(name + ": covariance_of_theta is no covariance"), std::string::npos) << refused(name);
+  EXPECT_NE(refused("empty.json").find("the estimate of rest has no theta"), std::string::npos);
   EXPECT_NE(refused("estimate.json").find("names no measurements"), std::string::npos) << "it goes on to the data";
 }
 
