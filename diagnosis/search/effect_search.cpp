@@ -257,14 +257,16 @@ class Search {
     result_.dispersion = spread;
   }
 
-  /// Members that moments do not tell from the first, of which there are more than were refined: each as the run of it
-  /// showed it.
+  /// Members that moments do not tell from the first, of which there are more than were refined: with a run each.
   void keep_others_as_good(const WeighedGroup& group, const Refinement& chosen) {
     for (std::size_t k = 0; k < group.as_good.size(); ++k) {
       TestedEffect effect = *std::find_if(result_.effects.begin(), result_.effects.end(),
                                           [&](const TestedEffect& e) { return e.candidate == group.members[k]; });
       if (!group.as_good[k] || effect.confirmed || effect.accepted) continue;
       effect.amplitudes(0) = group.amplitudes[k];
+      effect.run = now_.amplitudes;
+      effect.run(problem_.candidates[effect.candidate].amplitudes.front()) = group.amplitudes[k];
+      if (!residual_at_(effect.run).allFinite()) continue;
       effect.rival = true;
       rival_of_[effect.candidate] = chosen.effect().candidate;
       keep(std::move(effect));

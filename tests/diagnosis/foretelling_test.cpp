@@ -129,10 +129,19 @@ TEST(PhaseGain, AllThatMomentsDoNotTellApartAreTold) {
   group.by_runs = {true, true};
   SearchSettings settings;
   settings.confirmed = 1;
+  const ResidualAt linear = linear_residual(problem);
+  std::vector<double> run;  // of the spring
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    for (Index k = 0; k < amplitudes.cols(); ++k)
+      if (amplitudes(static_cast<Index>(spring), k) != 0) run.push_back(amplitudes(static_cast<Index>(spring), k));
+    return linear(amplitudes);
+  };
   for (const bool as_good : {false, true}) {
     group.as_good = {false, as_good};
-    const SearchResult result = search_effects(problem, settings, linear_residual(problem), weighing, {});
+    run.clear();
+    const SearchResult result = search_effects(problem, settings, runs, weighing, {});
     EXPECT_TRUE(effect_of(result, late).accepted);
+    EXPECT_EQ(run, as_good ? std::vector{0.9 * strong} : std::vector<double>{});
     EXPECT_EQ(effect_of(result, spring).rival, as_good);
     EXPECT_EQ(result.verdict, as_good ? Verdict::ambiguous : Verdict::missing);
     EXPECT_EQ(effect_of(result, spring).group, effect_of(result, late).group);
