@@ -59,7 +59,16 @@ Statement with_rivals(const ExplanationPath& path) {
 
 std::vector<Finding> found_on(const ExplanationPath& path) {
   std::vector<Finding> all;
-  const auto add = [&](const std::vector<Finding>& some) { all.insert(all.end(), some.begin(), some.end()); };
+  const auto add = [&](const std::vector<Finding>& some) {
+    for (const Finding& finding : some) {
+      const auto same =
+          std::find_if(all.begin(), all.end(), [&](const Finding& f) { return are_the_same(f, finding); });
+      if (same == all.end())
+        all.push_back(finding);
+      else
+        *same = finding;  // as it is beside what was found since
+    }
+  };
   for (std::size_t i = 0; i <= path.best; ++i) {
     const PathModel& model = path.models[i];
     if (!model.told.accepted) continue;

@@ -91,6 +91,17 @@ TEST(Explanation, EndsWhereNothingButNoiseIsLeft) {
   EXPECT_FALSE(settled([](Diagnosis& made) { made.verdict = Verdict::not_in_catalogue; }, 0.45));
 }
 
+/// What each diagnosis asks for anew, since no model takes it up, is told once, as it is in the end.
+TEST(Explanation, TellsOnceWhatEachDiagnosisFinds) {
+  const auto mesh = [](double share) { return finding("coarse_mesh", CandidateKind::numerics, Role::accepted, share); };
+  ExplanationPath path;
+  path.models = {model(0, diagnosis(Verdict::missing, {effect("contact", Role::accepted, 1), mesh(0.4)}), {}),
+                 model(1, diagnosis(Verdict::missing, {mesh(0.5)}), {effect("contact", Role::accepted, 7)})};
+  path.best = 1;
+  EXPECT_EQ(said_of(path).front(),
+            "MISSING: coarse_mesh at spine, factor 0.5 (0.25 .. 1); and contact at spine, factor 7 (3.5 .. 14)");
+}
+
 /// What a later diagnosis could not tell apart, and was not confirmed, takes nothing from what was found before.
 TEST(Explanation, KeepsWhatIsSureIfTheNextIsNotConfirmed) {
   ExplanationPath path;
