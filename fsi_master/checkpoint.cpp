@@ -57,6 +57,11 @@ constexpr const char *newest = "checkpoint", *before = "checkpoint.previous";
 constexpr const char* fresh = "checkpoint.new";  ///< not put in its place yet; whole if the run was killed just then
 constexpr std::array files{"master.bin", "fluid.bin", "solid.bin"};
 
+/// Whether a run has saved one there, and not an identification alone.
+bool holds_state(const fs::path& folder) {
+  return std::any_of(files.begin(), files.end(), [&](const char* file) { return fs::exists(folder / file); });
+}
+
 /// The newest that is whole.
 Checkpoint newest_in(const fs::path& output) {
   std::string damage;
@@ -70,8 +75,9 @@ Checkpoint newest_in(const fs::path& output) {
       if (name != fresh && damage.empty()) damage = error.what();
     }
   }
-  if (damage.empty()) throw input_error("{}: holds no checkpoint to resume from", output.string());
-  throw input_error("{}; there is none before it: start anew without --resume", damage);
+  if (damage.empty() || !(holds_state(output / newest) || holds_state(output / before)))
+    throw input_error("{}: holds no checkpoint of a run", output.string());
+  throw input_error("{}; there is none before it", damage);
 }
 
 void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
@@ -153,13 +159,20 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
 
 Checkpoint read_checkpoint(const fs::path& output) {
   Checkpoint checkpoint = newest_in(output);
-  if (!checkpoint.refused.empty()) throw InputError(checkpoint.refused);
+  if (!checkpoint.refused.empty())
+    throw input_error("{}; the state before it, of step {}, is whole: let that run go on from it (--resume) first",
+                      checkpoint.refused, checkpoint.step);
   check_has_states(checkpoint, output);
   return checkpoint;
 }
 
 Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
-  Checkpoint checkpoint = newest_in(output);
+  Checkpoint checkpoint;
+  try {
+    checkpoint = newest_in(output);
+  } catch (const InputError& error) {
+    throw input_error("{}: start anew without --resume", error.what());
+  }
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
         "{}: is a checkpoint of another case, step, mesh or code; give the case as it was, or start anew without "

@@ -240,6 +240,10 @@ IdentifiedParameters::IdentifiedParameters(const IdentificationCase& given, cons
   for (const auto& [name, parameter] : given.parameters)
     list_.push_back(Builder(name, parameter, announced, earlier_, file).take());
   check_overlap(list_, file);
+  const bool begins_there = std::any_of(list_.begin(), list_.end(), [](const auto& one) { return one.mother; });
+  if (!given.prior_from.empty() && !begins_there)
+    throw input_error("{}: has none of these parameters; it has {}", file.where("identification.prior_from"),
+                      fmt::join(earlier_.names(), ", "));
 }
 
 VectorXd IdentifiedParameters::prior_mean() const {

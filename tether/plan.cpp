@@ -5,7 +5,7 @@
 #include "common/base/child_process.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
-#include "common/base/temporary_folder.hpp"
+#include "common/base/session_folder.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
@@ -25,11 +25,13 @@ namespace fs = std::filesystem;
 constexpr int steps_to_measure = 3;
 
 MeasuredSteps measured(const fs::path& case_file) {
-  const ScratchFolder scratch("tether_measured");
+  const SessionFolder scratch("tether_measured");
   const fs::path output = scratch.path() / "run";
-  const ChildEnd end = capture({{fs::read_symlink("/proc/self/exe").string(), "simulate", case_file.string(), "--steps",
-                                 std::to_string(steps_to_measure), "--output", output.string(), "--quiet"},
-                                {{"TETHER_PICTURES", "0"}}});
+  const ChildEnd end =
+      capture_in_foreground({{fs::read_symlink("/proc/self/exe").string(), "simulate", case_file.string(), "--steps",
+                              std::to_string(steps_to_measure), "--output", output.string(), "--quiet"},
+                             {{"TETHER_PICTURES", "0"}}});
+  if (end.handed_on != 0) throw run_error("interrupted");
   if (end.exit_code != 0)
     throw run_error("{}: {} steps, to measure what they take, failed:\n{}", case_file.string(), steps_to_measure,
                     end.errors);
@@ -47,7 +49,7 @@ int parameters_of(const fs::path& case_file) {
 /// The runs that show what each number does, of those that the programs announce, and the models beside it.
 void add_first_order(const fs::path& case_file, PlannedRuns& planned) {
   const DiagnosedCase given(case_file);
-  const ScratchFolder scratch("tether_planned");
+  const SessionFolder scratch("tether_planned");
   const fs::path candidates = scratch.path() / "candidates.yaml";
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   write_candidates(candidates, given.file, given.data, effects);

@@ -65,6 +65,13 @@ void show_programs(const std::filesystem::path& case_file) {
                  shown_in_one_line(entry.key));
 }
 
+void tell_of_longer_run(const CommandLine& command, const std::filesystem::path& output) {
+  const auto made = read_record<RunSummary>(output / "summary.json").steps;
+  if (command.steps && made > *command.steps)
+    std::cerr << fmt::format("--steps {}: the run in {} has {} steps, which are all compared\n", *command.steps,
+                             output.string(), made);
+}
+
 }  // namespace
 
 void check_case(const CommandLine& command) {
@@ -113,7 +120,7 @@ void provide_run(const CommandLine& command, const CaseFile& file, const std::fi
   }
   auto why = why_not_run(output, file, command.steps.value_or(file.common().time.steps()));
   if (!why) why = why_no_velocity(output, measured_at);
-  if (!why) return;
+  if (!why) return tell_of_longer_run(command, output);
   if (!command.quiet) std::cout << *why << ": simulating first\n" << std::flush;
   print(simulate(command), command);
 }

@@ -46,7 +46,7 @@ Places places_of(const Triangle& triangle, const std::function<WallPlace(int nod
 
 /// What each region has of a triangle.
 std::vector<std::vector<TrianglePart>> divided(const Triangle& triangle, const std::vector<WallRegion>& regions,
-                                               const Places& at) {
+                                               const std::string& field, const Places& at) {
   Polygons left{whole_triangle()};
   std::vector<std::vector<TrianglePart>> result;
   for (const WallRegion& region : regions) {
@@ -59,9 +59,9 @@ std::vector<std::vector<TrianglePart>> divided(const Triangle& triangle, const s
     if (const auto hole = triangulated(polygon, triangle); !hole.empty()) {
       const Vec3 middle = hole.front().corners.rowwise().mean();
       throw input_error(
-          "mesh.regions: no region holds the outer wall at angle {:.1f} degrees, position {:.2f}: "
+          "{}: no region holds the outer wall at angle {:.1f} degrees, position {:.2f}: "
           "end the list with a region without limits",
-          at.angle.dot(middle), at.position.dot(middle));
+          field, at.angle.dot(middle), at.position.dot(middle));
     }
   return result;
 }
@@ -161,19 +161,19 @@ PiecesByDistance by_distance(const TrianglePart& part, const Mat3& corners, doub
 }  // namespace
 
 std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, const std::vector<WallRegion>& regions,
-                                     const std::function<WallPlace(int node)>& place) {
+                                     const std::string& field, const std::function<WallPlace(int node)>& place) {
   std::vector<std::string> names;
   for (const WallRegion& region : regions) names.push_back(region.name);
   SharedPatches shared(names);
   for (const Triangle& triangle : triangles)
-    shared.add(triangle, divided(triangle, regions, places_of(triangle, place)));
+    shared.add(triangle, divided(triangle, regions, field, places_of(triangle, place)));
   std::vector<Patch> patches = shared.finished();
   for (const Patch& patch : patches)
     if (patch.triangles.empty())
       throw input_error(
-          "mesh.regions.{}: holds no triangle of the outer wall: its limits are too narrow for this mesh, or an "
-          "earlier region takes all of it",
-          patch.name);
+          "{}: {} holds no triangle of the outer wall: its limits are too narrow for this mesh, or an earlier region "
+          "takes all of it",
+          field, patch.name);
   return patches;
 }
 

@@ -24,9 +24,9 @@ struct WallPlace {
 
 /// Patches in the order of `regions`: each place is of the first that contains it, angle and position being linear on
 /// every triangle, so that borders cut triangles and areas do not depend on the mesh. Throws InputError for a place
-/// without region, or a region that has the most of no triangle.
+/// without region, or a region that has the most of no triangle; field: where the regions are given, for messages.
 std::vector<Patch> divide_by_regions(const std::vector<Triangle>& triangles, const std::vector<WallRegion>& regions,
-                                     const std::function<WallPlace(int node)>& place);
+                                     const std::string& field, const std::function<WallPlace(int node)>& place);
 
 /// What of a patch lies where a function of the nodes is between two values, itself linear on every triangle and
 /// growing along the vessel: its border cuts triangles too. Of `triangles` those of which it has half or more.

@@ -115,8 +115,9 @@ VesselMesh sweep(const SweepSettings& settings) {
   vessel.fluid = fill(disc, cross_sections(settings));
   vessel.wall = extrude_wall(vessel.fluid, {settings.wall_thickness, settings.layers});
   if (!settings.regions.empty())
-    vessel.wall.outside = divide_by_regions(vessel.wall.outside.front().triangles, settings.regions,
-                                            [&](int node) { return place_on_vessel(node, disc, settings.along); });
+    vessel.wall.outside =
+        divide_by_regions(vessel.wall.outside.front().triangles, settings.regions, settings.regions_field,
+                          [&](int node) { return place_on_vessel(node, disc, settings.along); });
   return vessel;
 }
 

@@ -171,7 +171,7 @@ WallMesh grown_wall(const VesselFiles& files, const FluidMesh& fluid, std::optio
              end = centroid(fluid.points, fluid.outlets.at(0).triangles);
   const Frame frame = make_frame(start, end - start, files.angle_origin);
   require_tube(fluid, frame, (end - start).norm(), files.regions_field);
-  wall.outside = divide_by_regions(wall.outside.front().triangles, files.regions, [&](int node) {
+  wall.outside = divide_by_regions(wall.outside.front().triangles, files.regions, files.regions_field, [&](int node) {
     return place_about_line(wall.points.col(node), frame, (end - start).norm());
   });
   return wall;

@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <functional>
 
 #include "common/base/error.hpp"
@@ -124,10 +126,23 @@ int end_soon_of(pid_t pid, const std::string& name) {
 }
 
 volatile std::sig_atomic_t foreground_child = 0, handed_on = 0;
+std::atomic<double> handed_on_at = 0;  ///< seconds; 0: never
 
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// One that comes from several sides, as to a whole group and to each process of it, is one: of a second one mpirun
+/// ends at once and leaves its programs behind.
 void forward(int signal) {
+  constexpr double at_once = 1;  // seconds
+  const bool again = handed_on == signal && now() - handed_on_at < at_once;
   handed_on = signal;
-  if (foreground_child > 0) kill(foreground_child, signal);
+  if (again || foreground_child <= 0) return;
+  handed_on_at = now();
+  kill(foreground_child, signal);
 }
 
 /// While this lives, the signals that end a program go to the child; that of a terminal that is closed does not where
@@ -183,6 +198,19 @@ ChildEnd capture(const Command& command) {
   });
   const int status = end_soon_of(pid, command.words.front());
   return {exit_code_in(status), output.text(), errors.text()};
+}
+
+ChildEnd capture_in_foreground(const Command& command) {
+  const Forwarding forwarding;
+  const Capture output, errors;
+  const pid_t pid = start(command, [&] {
+    detach_from_terminal();
+    dup2(output.descriptor(), STDOUT_FILENO);
+    dup2(errors.descriptor(), STDERR_FILENO);
+  });
+  foreground_child = pid;
+  const int status = end_soon_of(pid, command.words.front());
+  return {exit_code_in(status), output.text(), errors.text(), handed_on};
 }
 
 ForegroundEnd run_in_foreground(const Command& command) {

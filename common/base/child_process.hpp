@@ -21,6 +21,7 @@ struct Command {
 struct ChildEnd {
   int exit_code = 0;  ///< 128 + signal if a signal ended it
   std::string output, errors;
+  int handed_on = 0;  ///< of capture_in_foreground: the last signal that this process got meanwhile and handed on
 };
 
 /// "ended with 3", "was ended by signal 9 (Killed)"
@@ -32,6 +33,9 @@ std::string last_line(const std::string& text);
 /// Runs a program to its end and keeps what it writes to stdout and stderr. Throws RunError if it cannot be started, or
 /// is stopped by a signal for longer than `stopped_limit`, and kills it then.
 ChildEnd capture(const Command& command);
+/// The same of a program that has programs of its own to end: it gets the signals INT, TERM and HUP that this process
+/// gets, and is waited for.
+ChildEnd capture_in_foreground(const Command& command);
 
 /// How a program ended that ran in this process's place.
 struct ForegroundEnd {

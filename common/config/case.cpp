@@ -50,6 +50,8 @@ void TimeCase::declare(Fields& f) {
   f.check(step <= end - start, "step", "must not be longer than the run");
   constexpr double most = 1e9;  // steps are counted in integers
   f.check((end - start) / step <= most, "step", "must not make more than 1e9 steps of the run");
+  f.check(std::max(std::abs(start), std::abs(end)) / step <= most, "start",
+          "must be within 1e9 steps of 0: farther off the clock has not the digits for a step");
 }
 
 int TimeCase::steps() const {

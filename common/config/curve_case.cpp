@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/csv.hpp"
@@ -18,6 +19,16 @@ void check_times(const CsvTable& table, const std::vector<double>& times, double
   if (period > 0.0 && times.back() > times.front() + period * (1.0 + 1e-9))
     throw input_error("{}: the time {} lies beyond one period of {}", table.where(times.size() - 1), times.back(),
                       period);
+}
+
+/// A period after its first row a table has that value again; measured beats close to 5 % of their range.
+void check_closes(const CsvTable& csv, const CurveCase::Table& told, double period) {
+  constexpr double same_time = 1e-9, closes = 0.1;
+  if (period <= 0.0 || told.times.back() < told.times.front() + period * (1.0 - same_time)) return;
+  const auto [least, most] = std::minmax_element(told.values.begin(), told.values.end());
+  if (std::abs(told.values.back() - told.values.front()) > closes * (*most - *least))
+    throw input_error("{}: the value {:.6g} is a period of {:.6g} after the first one, {:.6g}: both are of one phase",
+                      csv.where(told.times.size() - 1), told.values.back(), period, told.values.front());
 }
 
 /// From its last row back to the first value a curve is straight: nearly everywhere, where a table is so short.
@@ -62,6 +73,7 @@ CurveCase::Table CurveCase::table(const UnitSystem& units) const {
   check_times(csv, times, period.value_or(0.0));
   Table told{std::move(times), csv.quantities(value, units, dimension, value_unit)};
   check_told(csv, told, period.value_or(0.0));
+  check_closes(csv, told, period.value_or(0.0));
   return told;
 }
 

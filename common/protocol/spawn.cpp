@@ -55,10 +55,11 @@ class PidFile {
 /// MPI_Comm_spawn neither ends nor fails if the program never reaches MPI_Init: this ends the job instead.
 void check_spawning(double seconds, const PidFile& file, const std::string& program, const std::string& master_role) {
   const std::int64_t pid = file.pid();
-  const bool ended = interrupted() || (pid != 0 && !is_running(pid));
-  if (!ended && seconds <= start_limit()) return;
+  const bool ended = pid != 0 && !is_running(pid);
+  if (!ended && !interrupted() && seconds <= start_limit()) return;
   file.remove();
   if (ended) give_up(master_role, program + " ended before it reached MPI");
+  if (interrupted()) give_up(master_role, "interrupted before " + program + " reached MPI");
   give_up(master_role, fmt::format("{} did not reach MPI within {} s", program, start_limit()));
 }
 

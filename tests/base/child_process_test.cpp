@@ -77,6 +77,27 @@ TEST(RunInForeground, HandsSignalsOn) {
   EXPECT_FALSE(end.was_killed);
 }
 
+/// As where a group of processes and each of it get the same one.
+TEST(RunInForeground, HandsOnOnceWhatComesFromSeveralSides) {
+  const std::string waits = "n=0; trap 'n=$((n+1))' TERM; sleep 0.2; ";
+  const ForegroundEnd end =
+      run_in_foreground(shell(waits + "for i in 1 2 3; do kill -TERM $PPID; sleep 0.05; done; sleep 0.3; exit $n"));
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_EQ(
+      run_in_foreground(shell(waits + "kill -TERM $PPID; sleep 1.2; kill -TERM $PPID; sleep 0.3; exit $n")).exit_code,
+      2)
+      << "who asks again is obeyed";
+}
+
+TEST(Capture, InForegroundHandsSignalsOnAndWaits) {
+  const ChildEnd end = capture_in_foreground(
+      shell("trap 'echo ended; exit 7' TERM; sleep 0.2; kill -TERM $PPID; for i in $(seq 60); do sleep 1; done"));
+  EXPECT_EQ(end.exit_code, 7);
+  EXPECT_EQ(end.output, "ended\n");
+  EXPECT_EQ(end.handed_on, SIGTERM);
+  EXPECT_EQ(capture_in_foreground(shell("exit 3")).handed_on, 0);
+}
+
 TEST(RunInForeground, TellsASignalThatEndedItFromOneThatItTells) {
   EXPECT_FALSE(run_in_foreground(shell("exit 137")).was_killed);
   const ForegroundEnd end = run_in_foreground(shell("kill -KILL $$"));

@@ -191,6 +191,23 @@ TEST_F(Output, ACheckpointThatWasNotPutInItsPlaceIsTaken) {
   EXPECT_EQ(kept->step, 9);
   damage("checkpoint.new");
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("there is none before it"), std::string::npos);
+  EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("start anew without --resume"), std::string::npos);
+}
+
+TEST_F(Output, AStateToBeginWithIsTheNewestOfARun) {
+  fs::create_directories(folder / "checkpoint");
+  std::ofstream(folder / "checkpoint/identification.bin") << "of another kind";
+  const std::string none = error_of([&] { read_checkpoint(folder); });
+  EXPECT_TRUE(none.ends_with("holds no checkpoint of a run")) << none;
+  write_checkpoint(folder, some_checkpoint(8));
+  write_checkpoint(folder, some_checkpoint(9));
+  EXPECT_EQ(read_checkpoint(folder).step, 9);
+  std::ofstream(folder / "checkpoint/solid.bin") << "damaged";
+  const std::string damaged = error_of([&] { read_checkpoint(folder); });
+  EXPECT_TRUE(
+      damaged.ends_with("; the state before it, of step 8, is whole: let that run go on from it (--resume) "
+                        "first"))
+      << damaged;
 }
 
 TEST(Fingerprint, CountsPhysicsAndMeshButNotWhereAndHowLong) {

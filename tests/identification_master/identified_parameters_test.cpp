@@ -187,6 +187,8 @@ TEST_F(Inherited, WhatDoesNotFitIsNamed) {
   expect("    a: {of: [solid.a.stiffness], transform: log, deviation: 1}\n" + prior, "was the log2 of one in");
   expect("    a: {of: [solid.a.stiffness], upper: 1e5}\n" + prior, "is not between the bounds");
   expect("    a: {of: [solid.a.stiffness]}\n  prior_from: watched.json\n", "corrected nothing");
+  expect("    nu: {of: [solid.poisson], transform: linear, deviation: 0.1}\n" + prior,
+         "prior_from: has none of these parameters; it has a, rest");
 }
 
 TEST_F(Inherited, FromWhatIsNoEstimateAreRefusedByValidate) {

@@ -191,6 +191,9 @@ const Mistake mistakes[] = {
      "'resistance'\ncase.yaml:20: fluid.outlets.outlet.compliance: only with 'type: windkessel'; here type is "
      "'resistance'"},
     {"EndBeforeStart", In::the_case, "end: 0.1", "end: -0.1", "case.yaml:3: time.end: -0.1: must be after time.start"},
+    {"ClockWithoutDigits", In::the_case, "end: 0.1", "start: 1e15, end: 1000000000000001",
+     "case.yaml:3: time.start: 1e15: must be within 1e9 steps of 0: farther off the clock has not the digits for a "
+     "step"},
     {"MoreStepsThanCanBeCounted", In::the_case, "end: 0.1", "end: 1e9",
      "case.yaml:3: time.step: 2e-3: must not make more than 1e9 steps of the run"},
     {"FormulaThatSetsAValue", In::the_case, "solid:\n",
@@ -218,8 +221,8 @@ const Mistake mistakes[] = {
     {"NoSuchProgram", In::the_case, "solid:\n", "coupling: {programs: {solid: my_solver}}\nsolid:\n",
      "case.yaml:21: coupling.programs.solid: my_solver does not exist (a file of your own: ./my_solver)"},
     {"OuterWallWithoutRegion", In::the_case, ", rest: {}", "",
-     "mesh.regions: no region holds the outer wall at angle 20.0 degrees, position 0.06: end the list with a region "
-     "without limits"},
+     "case.yaml:12: mesh.swept.regions: no region holds the outer wall at angle 20.0 degrees, position 0.06: end the "
+     "list with a region without limits"},
     {"VesselOf20Metres", In::the_case, "radius: 2\n    length: 6\n    wall_thickness: 0.2",
      "radius: 2000\n    length: 6000\n    wall_thickness: 200",
      "case.yaml:4: mesh: the lumen's mean diameter is 3864 cm = 3.864e+04 mm: must be 0.3 to 120 mm in units: cgs. "
@@ -236,6 +239,11 @@ const Mistake mistakes[] = {
     {"TimesGoBack", In::the_curve, "0.5", "0.05", "inflow.csv:4: the time 0.05 does not come after 0.1"},
     {"NotANumberInCurve", In::the_curve, "100", "nan", "inflow.csv:3: q: 'nan' is not a number"},
     {"EmptyCurve", In::the_curve, "0, 0\n0.1, 100\n0.5, 20\n", "", "inflow.csv: has no rows"},
+    {"CurveThatDoesNotClose", In::the_case, "period: 0.9", "period: 0.5",
+     "inflow.csv:4: the value 20 is a period of 0.5 after the first one, 0: both are of one phase"},
+    {"EmptyRegion", In::the_case, "[150, 210]", "[150, 150]",
+     "case.yaml:12: mesh.swept.regions: spine holds no triangle of the outer wall: its limits are too narrow for this "
+     "mesh, or an earlier region takes all of it"},
     {"CurveLongerThanPeriod", In::the_case, "period: 0.9", "period: 0.4",
      "inflow.csv:4: the time 0.5 lies beyond one period of 0.4"},
     {"CurveInWrongUnit", In::the_curve, "ml/s", "mmHg",

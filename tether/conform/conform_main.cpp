@@ -31,7 +31,10 @@ Options options_from(std::vector<std::string> words) {
     else
       throw InputError(usage);
   }
-  if (words.empty() || !(options.dt > 0)) throw InputError(usage);
+  if (words.empty()) throw InputError(usage);
+  constexpr double shortest = 1e-9, longest = 10;
+  if (!(options.dt >= shortest && options.dt <= longest))
+    throw input_error("--dt: must be from {:g} to {:g} s", shortest, longest);
   options.program = {"", words[0], {words.begin() + 1, words.end()}};
   return options;
 }
