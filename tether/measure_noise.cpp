@@ -24,6 +24,16 @@ Made<NoiseMeasurements> written(NoiseMeasurements noise, const fs::path& output)
   return {std::move(noise), std::move(told)};
 }
 
+/// Of a pair that was measured before.
+void remove_noise(const fs::path& output) {
+  fs::remove(output / "noise.json");
+  if (!fs::is_directory(output / "plots")) return;
+  std::vector<fs::path> old;
+  for (const fs::directory_entry& entry : fs::directory_iterator(output / "plots"))
+    if (entry.path().filename().string().starts_with("noise_repeated_")) old.push_back(entry.path());
+  for (const fs::path& file : old) fs::remove(file);
+}
+
 TriangleSurface surface_in(const fs::path& file) {
   return checked_surface(file.string(), read_surface(file, 1)).surface;
 }
@@ -60,9 +70,11 @@ Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
   return written(std::move(noise), output);
 }
 
-Made<NoiseMeasurements> measure_noise(const fs::path& first, const fs::path& second, const fs::path& output) {
-  hold_output(output);
-  SeenNoise seen = noise_of_both(first, second);
+Made<NoiseMeasurements> measure_noise(const fs::path& first, const fs::path& second, const fs::path& output,
+                                      bool overwrite) {
+  SeenNoise seen = noise_of_both(first, second);  // before the folder is touched
+  claim_for_made(output, overwrite, "measure-noise", {first, second});
+  remove_noise(output);
   seen.source = first.filename().string() + " and " + second.filename().string();
   seen.frames = {first.filename().string(), second.filename().string()};
   NoiseMeasurements noise;
@@ -72,13 +84,23 @@ Made<NoiseMeasurements> measure_noise(const fs::path& first, const fs::path& sec
 }
 
 int measure_noise_of_files(int argc, char** argv) {
-  const std::string option = argc > 2 ? argv[2] : "";
-  if (argc != 2 && !(argc == 4 && option == "--output")) {
-    std::cerr << "tether measure-noise FIRST SECOND [--output DIR]: two surfaces of the same moment\n";
+  fs::path output = "out/noise";
+  bool overwrite = false, known = argc >= 2;
+  for (int i = 2; known && i < argc; ++i) {
+    const std::string option = argv[i];
+    if (option == "--overwrite")
+      overwrite = true;
+    else if (option == "--output" && i + 1 < argc)
+      output = argv[++i];
+    else
+      known = false;
+  }
+  if (!known) {
+    std::cerr << "tether measure-noise FIRST SECOND [--output DIR] [--overwrite]: two surfaces of the same moment\n";
     return exit_input_wrong;
   }
   return guarded("tether measure-noise", [&] {
-    std::cout << measure_noise(argv[0], argv[1], argc == 4 ? argv[3] : "out/noise").told;
+    std::cout << measure_noise(argv[0], argv[1], output, overwrite).told;
     return exit_done;
   });
 }

@@ -68,10 +68,11 @@ Made<Estimate> identify(const CommandLine& command);
 /// Measures the noise of the case's surfaces and contours: from repeated segmentations, from frames at rest, from what
 /// the run leaves: noise.json, plots (docs/noise.md). Simulates first if there is no such run.
 Made<NoiseMeasurements> measure_noise(const CommandLine& command);
-/// From two surface files of the same moment, in the files' unit of length.
+/// From two surface files of the same moment, in the files' unit of length. Throws InputError if the folder holds
+/// anything but what was measured of the same two, unless `overwrite`.
 Made<NoiseMeasurements> measure_noise(const std::filesystem::path& first, const std::filesystem::path& second,
-                                      const std::filesystem::path& output);
-/// tether measure-noise FIRST SECOND [--output DIR]
+                                      const std::filesystem::path& output, bool overwrite);
+/// tether measure-noise FIRST SECOND [--output DIR] [--overwrite]
 int measure_noise_of_files(int argc, char** argv);
 
 /// Writes report.html, a page to look at and to mail, into the folder of results that the command names

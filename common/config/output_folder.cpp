@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
@@ -45,13 +46,17 @@ void refuse_pipes_and_links(const fs::path& folder) {
   }
 }
 
+/// A file, and those that it names.
+void gather_file(const fs::path& file, std::vector<fs::path>& found) {
+  found.push_back(file);
+  for (const fs::path& named : files_named_in(file)) found.push_back(named);
+}
+
 void gather_files(const YamlNode& node, const fs::path& folder, std::vector<fs::path>& found) {
   std::error_code none;
   const fs::path path = folder / node.text;
-  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::is_regular_file(path, none)) {
-    found.push_back(path);
-    for (const fs::path& named : files_named_in(path)) found.push_back(named);
-  }
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::is_regular_file(path, none))
+    gather_file(path, found);
   for (const YamlNode& item : node.items) gather_files(item, folder, found);
   for (const YamlNode::Entry& entry : node.entries) gather_files(entry.value, folder, found);
 }
@@ -70,22 +75,49 @@ std::string first_line_of(const fs::path& mark) {
   return begin.substr(0, begin.find('\n'));
 }
 
-/// What a mark says.
-std::string mark_of(const std::string& verb, const fs::path& file) {
-  return verb + " " + fs::absolute(file).lexically_normal().string();
+void check_none_is_in(const fs::path& place, const std::vector<fs::path>& read) {
+  for (const fs::path& one : read)
+    if (is_in(one, place))
+      throw input_error(
+          "{}: is read, and what is written into {} would replace it; choose another folder with --output",
+          one.string(), place.string());
 }
 
-void check_made_by(const fs::path& folder, const std::string& verb, const fs::path& file) {
+/// What a mark says: "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and /home/ada/two.stl".
+std::string mark_of(const std::string& verb, const std::vector<fs::path>& files) {
+  std::string mark = verb;
+  for (const fs::path& file : files)
+    mark += (mark == verb ? " " : " and ") + fs::absolute(file).lexically_normal().string();
+  return mark;
+}
+
+void check_made_by(const fs::path& folder, const std::string& verb, const std::string& mark) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
   check_writable_through(folder);
   if (is_empty_but_for_lock(folder)) return;
   const std::string maker = first_line_of(folder / made_by);
-  if (maker == mark_of(verb, file)) return;
+  if (maker == mark) return;
   if (maker.starts_with(verb + " "))
     throw input_error("{}: holds what tether {} made of {}; {}", folder.string(), verb, maker.substr(verb.size() + 1),
                       way_out);
   throw input_error("{}: holds files that are not what tether {} made; {}", folder.string(), verb, way_out);
+}
+
+/// Makes, holds and marks the folder of what a verb makes of these files; `keeps_inputs` throws if one that is read
+/// would be replaced.
+fs::path claim_marked(const fs::path& folder, bool overwrite, const std::string& verb,
+                      const std::vector<fs::path>& files, const std::function<void()>& keeps_inputs) {
+  const std::string mark = mark_of(verb, files);
+  const auto check = [&] {
+    keeps_inputs();
+    if (!overwrite) check_made_by(folder, verb, mark);
+  };
+  check();
+  hold_output(folder);
+  check();  // another may have been there until now
+  write_whole(folder / made_by, mark + "\n");
+  return folder;
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -155,26 +187,23 @@ void check_keeps_inputs(const fs::path& place, const fs::path& file) {
   std::vector<fs::path> read;
   for (const fs::path& one : files_of_case(file)) read.push_back(one);
   gather_files(as_one_file(read_case_tree(file)), fs::absolute(file).parent_path(), read);
-  for (const fs::path& one : read)
-    if (is_in(one, place))
-      throw input_error(
-          "{}: is read, and what is written into {} would replace it; choose another folder with --output",
-          one.string(), place.string());
+  check_none_is_in(place, read);
 }
 
 fs::path claim_for_made(const CommandLine& command, const std::string& verb, const std::string& name,
                         const std::vector<fs::path>& also) {
   const fs::path folder = command.output.empty() ? fs::path("out") / name : command.output;
-  const auto check = [&] {
+  return claim_marked(folder, command.overwrite, verb, {command.case_file}, [&] {
     check_keeps_inputs(folder, command.case_file);
     for (const fs::path& file : also) check_keeps_inputs(folder, file);
-    if (!command.overwrite) check_made_by(folder, verb, command.case_file);
-  };
-  check();
-  hold_output(folder);
-  check();  // another may have been there until now
-  write_whole(folder / made_by, mark_of(verb, command.case_file) + "\n");
-  return folder;
+  });
+}
+
+fs::path claim_for_made(const fs::path& folder, bool overwrite, const std::string& verb,
+                        const std::vector<fs::path>& files) {
+  std::vector<fs::path> read;
+  for (const fs::path& file : files) gather_file(file, read);
+  return claim_marked(folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); });
 }
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {

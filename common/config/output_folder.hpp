@@ -38,6 +38,10 @@ inline constexpr const char* made_by = ".made_by";
 std::filesystem::path claim_for_made(const CommandLine& command, const std::string& verb, const std::string& name,
                                      const std::vector<std::filesystem::path>& also = {});
 
+/// The same for what a verb makes of files none of which is a case, in this order.
+std::filesystem::path claim_for_made(const std::filesystem::path& folder, bool overwrite, const std::string& verb,
+                                     const std::vector<std::filesystem::path>& files);
+
 /// Throws InputError if the file, or one that it names, is `place` or stands in it: it would be removed.
 void check_keeps_inputs(const std::filesystem::path& place, const std::filesystem::path& file);
 

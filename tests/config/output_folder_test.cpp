@@ -208,5 +208,20 @@ TEST_F(MadeFolder, IsNotWhereTheFilesAreThatAreRead) {
               "--output");
 }
 
+/// Of files that are no cases: binary ones are not read as such.
+TEST_F(MadeFolder, IsOfTwoFilesToo) {
+  const auto a = write_file("a.stl", std::string("\0\1: [", 5)), b = write_file("b.stl", "another");
+  const auto claim_of = [&](const std::filesystem::path& first, const std::string& folder, bool overwrite = false) {
+    return input_error_of([&] { claim_for_made(test_folder() / folder, overwrite, "measure-noise", {first, b}); });
+  };
+  EXPECT_EQ(claim_of(a, "made"), "no error");
+  write_file("made/noise.json", "");
+  EXPECT_EQ(claim_of(a, "made"), "no error");
+  EXPECT_TRUE(claim_of("c.stl", "made").starts_with("made: holds what tether measure-noise made of "));
+  EXPECT_EQ(claim_of("c.stl", "made", true), "no error");
+  EXPECT_EQ(claim_of(a, ".", true),
+            "a.stl: is read, and what is written into . would replace it; choose another folder with --output");
+}
+
 }  // namespace
 }  // namespace tether

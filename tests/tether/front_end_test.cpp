@@ -157,6 +157,29 @@ TEST_F(FrontEnd, TellsNoNoiseOfSurfacesThatAreNoTwoOfOneMoment) {
   }
 }
 
+TEST_F(FrontEnd, MeasuresNoiseIntoNoFolderOfOtherFiles) {
+  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2), write_tube(folder_ / "three.stl", 3);
+  EXPECT_EQ(tether("measure-noise one.stl none.stl --output noise").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "noise")) << "of a refused call";
+  for (int again = 0; again < 2; ++again)
+    EXPECT_EQ(tether("measure-noise one.stl two.stl --output noise").exit_code, 0);
+  const std::string of_two = content("noise/noise.json");
+  const ChildEnd other = tether("measure-noise one.stl three.stl --output noise");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.errors.find("two.stl; choose another folder with --output, or give --overwrite\n"), std::string::npos)
+      << other.errors;
+  EXPECT_EQ(content("noise/noise.json"), of_two);
+  EXPECT_EQ(tether("measure-noise one.stl three.stl --overwrite --output noise").exit_code, 0);
+  EXPECT_NE(content("noise/noise.json"), of_two);
+  EXPECT_FALSE(fs::exists(folder_ / "noise/plots/noise_repeated_one_stl_and_two_stl.png"));
+  fs::create_directories(folder_ / "mine");
+  std::ofstream(folder_ / "mine/noise.json") << "precious";
+  EXPECT_EQ(tether("measure-noise one.stl two.stl --output mine").exit_code, 2);
+  EXPECT_EQ(content("mine/noise.json"), "precious");
+  EXPECT_FALSE(fs::exists(folder_ / "mine/.lock"));
+  EXPECT_EQ(tether("measure-noise one.stl two.stl --output . --overwrite").exit_code, 2) << "they would be replaced";
+}
+
 /// A closed stream's number would be that of the next file, into which what is told would go.
 TEST_F(FrontEnd, TellsNothingIntoAFileWhereItsOutputIsClosed) {
   write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2);
