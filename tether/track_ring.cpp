@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 
 Made<TrackedRing> track_ring(const CommandLine& command) {
   const RingTrackCase asked = read_ring_case(command.case_file);
+  check_tables(asked);
   const fs::path folder = claim_for_made(command, "track-ring", asked.name);
   for (const char* old : {"ring.json", "poses.csv", "plots/ring.png"}) fs::remove(folder / old);
   TrackedRing ring = track_ring(asked);
@@ -24,7 +25,7 @@ Made<TrackedRing> track_ring(const CommandLine& command) {
 }
 
 void check_ring(const CommandLine& command) {
-  read_ring_case(command.case_file);
+  check_tables(read_ring_case(command.case_file));
 }
 
 }  // namespace tether

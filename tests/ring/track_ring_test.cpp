@@ -161,5 +161,40 @@ TEST_F(TrackRing, TimesStandInOrderAndHaveAUnit) {
           ":2: the unit of time must stand in its heading, as in time [ms]");
 }
 
+/// As a study's surfaces are, by the same limits.
+TEST_F(TrackRing, AWrongUnitAndAPlaceFarFromAnyOpeningAreRefused) {
+  frame(0, {Vec3::Zero(), 0, Vec3::UnitX()});
+  frame(0.4, {{0, -0.5, 0}, 0.1, Vec3::UnitX()});
+  const std::string in_first = "frame at 0 s, " + (folder / "frame_0.stl").string() + ": ";
+  RingTrackCase wide = asked(false);
+  wide.frames.unit = "m";
+  EXPECT_EQ(fault(wide).rfind(in_first + "its largest opening is ", 0), 0U) << fault(wide);
+  EXPECT_NE(fault(wide).find(" cm wide in m, which no vessel is; did you mean cm ("), std::string::npos);
+  EXPECT_NE(fault(wide).find("; frames.any_size: true takes it as it is"), std::string::npos) << fault(wide);
+  wide.frames.any_size = true, wide.ring.near.clear();
+  EXPECT_EQ(fault(wide), "accepted");
+  RingTrackCase far = asked(false);
+  far.ring.near = {400, 0, 0};
+  EXPECT_EQ(fault(far).rfind(in_first + "ring.near: there is no opening near (400, 0, 0) cm: the nearest, at ", 0), 0U)
+      << fault(far);
+}
+
+TEST_F(TrackRing, ALandmarkIsToldAtTheTimesOfAllFrames) {
+  frame(0, {Vec3::Zero(), 0, Vec3::UnitX()});
+  frame(0.4, {{0, -0.5, 0}, 0.1, Vec3::UnitX()});
+  const RingTrackCase given = asked(true);
+  const std::string file = (folder / "landmark.csv").string();
+  std::ofstream(folder / "landmark.csv") << "time [s],x,y,z\n0,4.3,0.4,1\n0.39,4.3,0,1\n";
+  EXPECT_EQ(fault(given), file +
+                              ": tells the landmark from 0 to 0.39 s, not at 0.4 s, where the frame frame_1.stl is: "
+                              "must tell all frames");
+  std::ofstream(folder / "landmark.csv") << "time [s],x,y,z\n0.01,4.3,0.4,1\n0.5,4.3,0,1\n";
+  EXPECT_EQ(fault(given), file +
+                              ": tells the landmark from 0.01 to 0.5 s, not at 0 s, where the frame frame_0.stl is: "
+                              "must tell all frames");
+  std::ofstream(folder / "landmark.csv") << "time [ms],x,y,z\n0,4.3,0.4,1\n399.9999999999999,4.3,0,1\n";
+  EXPECT_EQ(fault(given), "accepted") << "by round-off alone";
+}
+
 }  // namespace track_ring_test
 }  // namespace tether

@@ -9,6 +9,7 @@
 #include "vessel/image/smooth_field.hpp"
 #include "vessel/image/stops.hpp"
 #include "vessel/image/zero_surface.hpp"
+#include "vessel/surface/vessel_size.hpp"
 
 namespace tether {
 namespace {
@@ -137,8 +138,7 @@ LumenOfImage lumen_of(const ImageVolume& image, const LumenImageCase& how) {
 }
 
 void check_width(const ImageSummary& summary, const LumenImageCase& how) {
-  constexpr double most_radius = 6;  // [cm]: a giant aneurysm
-  if (how.any_size || summary.widest_radius <= most_radius) return;
+  if (how.any_size || summary.widest_radius <= most_vessel_radius) return;
   throw input_error("{}: is {:.3g} cm wide at {}, which no vessel is: the lumen leaks, or image.unit is wrong; {}{}",
                     how.at("image"), 2 * summary.widest_radius, text_of_place(summary.widest_place),
                     mended_by(summary.method), "; image.crop bounds what is looked at");

@@ -16,6 +16,7 @@ void FramesCase::declare(Fields& f) {
   f.choice("unit", unit, {{"mm", "the surfaces' coordinates are millimetres"}, {"cm", "centimetres"}, {"m", "metres"}},
            "of the surfaces");
   f.text("label_array", label_array, "the surfaces' labels of triangles, if they have any");
+  f.flag("any_size", any_size, "do not refuse openings that no vessel has, which mostly mean a wrong unit");
   check_column(f, "column", column, file);
   check_column(f, "time", time, file);
 }

@@ -13,6 +13,7 @@ namespace tether {
 struct FramesCase {
   std::filesystem::path file;
   std::string column = "file", time = "time", unit, label_array = "ModelFaceID";
+  bool any_size = false;
   void declare(Fields& f);
 };
 

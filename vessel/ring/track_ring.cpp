@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <optional>
 
 #include "common/base/csv.hpp"
 #include "common/base/curve.hpp"
@@ -75,11 +77,11 @@ Vec3 barycentre(const RawSurface& surface, const Rim& rim) {
   return sum / length;
 }
 
-/// The rim nearest to a place.
-const Rim& nearest(const std::vector<Rim>& rims, const Vec3& place) {
-  return *std::min_element(rims.begin(), rims.end(), [&](const Rim& a, const Rim& b) {
-    return (a.plane.origin - place).norm() < (b.plane.origin - place).norm();
-  });
+/// The ring's rim in a frame, of which there is one at least; `before`: null in the first.
+const Rim& ring_of(const std::vector<Rim>& rims, const WhichRingCase& asked, const RingPose* before) {
+  if (before != nullptr) return rims[nearest_rim(rims, before->centre)];
+  const auto& near = asked.near;
+  return near.empty() ? rims.front() : rims[rim_near(rims, Vec3(near[0], near[1], near[2]), "ring.near")];
 }
 
 /// The ring in a frame; `before`: null in the first.
@@ -87,10 +89,10 @@ RingPose pose_in(const FrameFile& frame, const RingTrackCase& asked, const RingP
   const RawSurface surface = open_surface(frame.path, asked);
   const std::vector<Rim> rims = rims_of(surface);
   if (rims.empty()) throw input_error("the surface has no opening");
-  const auto& near = asked.ring.near;
-  const Rim& rim = before != nullptr ? nearest(rims, before->centre)
-                   : near.empty()    ? rims.front()
-                                     : nearest(rims, Vec3(near[0], near[1], near[2]));
+  if (const std::string wrong = wrong_width(rims.front().radius(), asked.frames.unit);
+      !asked.frames.any_size && !wrong.empty())
+    throw input_error("{}; frames.any_size: true takes it as it is", wrong);
+  const Rim& rim = ring_of(rims, asked.ring, before);
   RingPose pose{frame.path.filename().string(), frame.time,       rim.radius(), rim.off_plane,
                 barycentre(surface, rim),       rim.plane.normal, Vec3::Zero()};
   if (before != nullptr)
@@ -101,7 +103,22 @@ RingPose pose_in(const FrameFile& frame, const RingTrackCase& asked, const RingP
   return pose;
 }
 
-using Path = std::function<Vec3(double time)>;
+/// The landmark's way, told from the first to the last time of its table.
+struct Path {
+  fs::path file;
+  double first, last;  ///< [s]
+  std::array<Curve, 3> coordinates;
+
+  Vec3 operator()(double time) const { return {coordinates[0](time), coordinates[1](time), coordinates[2](time)}; }
+
+  void check_tells(const FrameFile& frame) const {
+    const double round_off = 1e-9 * std::max({last - first, std::abs(first), std::abs(last)});
+    if (frame.time >= first - round_off && frame.time <= last + round_off) return;
+    throw input_error(
+        "{}: tells the landmark from {} to {} s, not at {} s, where the frame {} is: must tell all frames",
+        file.string(), first, last, frame.time, frame.path.filename().string());
+  }
+};
 
 Path landmark_of(const LandmarkCase& given) {
   const CsvTable table(given.file);
@@ -110,10 +127,24 @@ Path landmark_of(const LandmarkCase& given) {
   for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] <= times[i - 1])
       throw input_error("{}: the time {} s does not come after {} s", table.where(i), times[i], times[i - 1]);
-  std::vector<Curve> curves;
-  for (const std::string& column : {given.x, given.y, given.z})
-    curves.emplace_back(times, table.quantities(column, units, dimension::length, given.unit));
-  return [curves](double time) -> Vec3 { return {curves[0](time), curves[1](time), curves[2](time)}; };
+  const auto curve = [&](const std::string& column) {
+    return Curve(times, table.quantities(column, units, dimension::length, given.unit));
+  };
+  return {given.file, times.front(), times.back(), {curve(given.x), curve(given.y), curve(given.z)}};
+}
+
+/// What the tables say.
+struct Tables {
+  std::vector<FrameFile> frames;
+  std::optional<Path> landmark;
+};
+
+Tables tables_of(const RingTrackCase& asked) {
+  Tables tables{frames_of(asked.frames), std::nullopt};
+  if (!asked.landmark) return tables;
+  tables.landmark = landmark_of(*asked.landmark);
+  for (const FrameFile& frame : tables.frames) tables.landmark->check_tells(frame);
+  return tables;
 }
 
 constexpr double least_angle = 5;  // [degrees] of the landmark from the axis: nearer, its error would be the turn's
@@ -135,17 +166,20 @@ Vec3 turn_of(const Eigen::AngleAxisd& rotation) {
 
 }  // namespace
 
+void check_tables(const RingTrackCase& asked) {
+  tables_of(asked);
+}
+
 TrackedRing track_ring(const RingTrackCase& asked) {
   TrackedRing ring;
   ring.name = asked.name;
   ring.turns_about_axis = asked.landmark.has_value();
-  Path landmark;
-  if (asked.landmark) landmark = landmark_of(*asked.landmark);
+  const auto [frames, landmark] = tables_of(asked);
   Mat3 first_axes = Mat3::Identity();
-  for (const FrameFile& frame : frames_of(asked.frames)) try {
+  for (const FrameFile& frame : frames) try {
       RingPose pose = pose_in(frame, asked, ring.poses.empty() ? nullptr : &ring.poses.back());
       if (landmark) {
-        const Mat3 axes = axes_of(pose, landmark(frame.time));
+        const Mat3 axes = axes_of(pose, (*landmark)(frame.time));
         if (ring.poses.empty()) first_axes = axes;
         pose.turn = turn_of(Eigen::AngleAxisd(Mat3(axes * first_axes.transpose())));
       } else if (!ring.poses.empty()) {

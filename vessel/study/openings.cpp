@@ -8,10 +8,18 @@
 namespace tether {
 namespace {
 
+void check_label(const RawSurface& surface, const StudyCase& study, const std::string& name, int label) {
+  const std::vector<int>& ids = surface.face_id;
+  if (label > 0 && std::find(ids.begin(), ids.end(), label) == ids.end())
+    throw input_error("{}: no triangle of {} has the label {}", study.where("openings." + name + ".label"),
+                      study.file().string(), label);
+}
+
 void take_ends_off(Repaired& state, const StudyCase& study, std::vector<Rim>& rims) {
   std::vector<int> labels;
   bool cuts = false;
   for (const auto& [name, opening] : study.openings) {
+    check_label(state.surface, study, name, opening.label);
     if (opening.label > 0) labels.push_back(opening.label);
     if (opening.cut) cuts = true;
   }
@@ -24,37 +32,18 @@ void take_ends_off(Repaired& state, const StudyCase& study, std::vector<Rim>& ri
   rims = rims_of(state.surface);
 }
 
-std::size_t nearest_rim(const std::vector<Rim>& rims, const Vec3& x) {
-  const auto distance = [&](const Rim& rim) { return (rim.plane.origin - x).norm(); };
-  return static_cast<std::size_t>(
-      std::min_element(rims.begin(), rims.end(),
-                       [&](const Rim& a, const Rim& b) { return distance(a) < distance(b); }) -
-      rims.begin());
-}
-
-/// A point picked for an opening is on it or near its rim, not further off than it is wide.
-std::size_t rim_near(const std::string& name, const std::vector<Rim>& rims, const Vec3& x) {
-  const std::size_t nearest = nearest_rim(rims, x);
-  const Rim& rim = rims[nearest];
-  if (const double distance = (rim.plane.origin - x).norm(); distance > 2 * rim.radius())
-    throw PlacedError(
-        fmt::format("openings.{}: there is no opening near {}: the nearest, at {} with radius {:.3g} cm, is "
-                    "{:.3g} cm away",
-                    name, text_of_place(x), text_of_place(rim.plane.origin), rim.radius(), distance),
-        {x, rim.plane.origin});
-  return nearest;
-}
-
-std::size_t rim_of(const std::string& name, const OpeningCase& opening, const std::vector<Rim>& rims) {
+std::size_t rim_of(const std::string& name, const OpeningCase& opening, const std::vector<Rim>& rims,
+                   const StudyCase& study) {
+  const std::string field = "openings." + name;
   if (opening.order > static_cast<int>(rims.size()))
-    throw input_error("openings.{}.order: {}: the surface has {} openings", name, opening.order, rims.size());
+    throw input_error("{}: {}: the surface has {} openings", study.where(field + ".order"), opening.order, rims.size());
   if (opening.order > 0) return static_cast<std::size_t>(opening.order) - 1;
-  if (opening.cut) return rim_near(name, rims, opening.cut->point);
-  if (!opening.near.empty()) return rim_near(name, rims, Vec3(opening.near[0], opening.near[1], opening.near[2]));
+  if (opening.cut) return rim_near(rims, opening.cut->point, field);
+  if (!opening.near.empty()) return rim_near(rims, Vec3(opening.near[0], opening.near[1], opening.near[2]), field);
   const auto labelled =
       std::find_if(rims.begin(), rims.end(), [&](const Rim& rim) { return rim.face_id == opening.label; });
   if (labelled == rims.end())
-    throw input_error("openings.{}.label: {}: its triangles close no end of the vessel", name, opening.label);
+    throw input_error("{}: {}: its triangles close no end of the vessel", study.where(field + ".label"), opening.label);
   return static_cast<std::size_t>(labelled - rims.begin());
 }
 
@@ -63,7 +52,7 @@ std::vector<std::size_t> named_rims(const StudyCase& study, const std::vector<Ri
     throw input_error("{}: is closed and has no flat ends: give the openings by label or cut", study.file().string());
   std::vector<std::size_t> named;
   for (const auto& [name, opening] : study.openings) {
-    const std::size_t rim = rim_of(name, opening, rims);
+    const std::size_t rim = rim_of(name, opening, rims, study);
     if (const auto taken = std::find(named.begin(), named.end(), rim); taken != named.end())
       throw PlacedError(fmt::format("openings.{}: is the same as {}, at {}", name,
                                     study.openings[static_cast<std::size_t>(taken - named.begin())].first,

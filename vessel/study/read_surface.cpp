@@ -1,12 +1,14 @@
 #include "vessel/study/read_surface.hpp"
 
 #include "vessel/mesh_file.hpp"
+#include "vessel/surface/vessel_size.hpp"
 
 namespace tether {
 namespace {
 
-// A newborn's aorta is 6 mm wide, a giant aneurysm 12 cm.
-constexpr double least_radius = 0.25, most_radius = 6;  // [cm]
+bool is_a_vessels(double radius) {
+  return radius >= least_vessel_radius && radius <= most_vessel_radius;
+}
 
 }  // namespace
 
@@ -23,18 +25,23 @@ RawSurface read_surface(const SurfaceCase& given) {
   return surface;
 }
 
+std::string wrong_width(double radius, const std::string& given) {
+  if (is_a_vessels(radius)) return "";
+  std::string fitting;
+  for (const char* unit : {"mm", "cm", "m"})
+    if (const double other = radius / in_cm(given) * in_cm(unit); is_a_vessels(other))
+      fitting += fmt::format("{}{} ({:.3g} cm)", fitting.empty() ? "" : " or ", unit, 2 * other);
+  return fmt::format("its largest opening is {:.3g} cm wide in {}, which no vessel is{}", 2 * radius, given,
+                     fitting.empty() ? "" : "; did you mean " + fitting);
+}
+
 void check_unit(const StudyCase& study, double radius) {
   const bool any_size = study.surface ? study.surface->any_size : study.image->any_size;
   const std::string& given = study.surface ? study.surface->unit : study.image->unit;
-  if (any_size || (radius >= least_radius && radius <= most_radius)) return;
-  std::string fitting;
-  for (const char* unit : {"mm", "cm", "m"})
-    if (const double other = radius / in_cm(given) * in_cm(unit); other >= least_radius && other <= most_radius)
-      fitting += fmt::format("{}{} ({:.3g} cm)", fitting.empty() ? "" : " or ", unit, 2 * other);
-  throw input_error(
-      "{}: its largest opening is {:.3g} cm wide in {}, which no vessel is{}; {}.any_size: true takes it as it is",
-      study.file().string(), 2 * radius, given, fitting.empty() ? "" : "; did you mean " + fitting,
-      study.surface ? "surface" : "image");
+  const std::string wrong = any_size ? "" : wrong_width(radius, given);
+  if (!wrong.empty())
+    throw input_error("{}: {}; {}.any_size: true takes it as it is", study.file().string(), wrong,
+                      study.surface ? "surface" : "image");
 }
 
 }  // namespace tether

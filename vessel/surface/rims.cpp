@@ -41,6 +41,25 @@ std::vector<Rim> rims_of(const RawSurface& surface) {
   return rims;
 }
 
+std::size_t nearest_rim(const std::vector<Rim>& rims, const Vec3& x) {
+  const auto distance = [&](const Rim& rim) { return (rim.plane.origin - x).norm(); };
+  return static_cast<std::size_t>(
+      std::min_element(rims.begin(), rims.end(),
+                       [&](const Rim& a, const Rim& b) { return distance(a) < distance(b); }) -
+      rims.begin());
+}
+
+std::size_t rim_near(const std::vector<Rim>& rims, const Vec3& x, const std::string& field) {
+  const std::size_t nearest = nearest_rim(rims, x);
+  const Rim& rim = rims[nearest];
+  if (const double distance = (rim.plane.origin - x).norm(); distance > 2 * rim.radius())
+    throw PlacedError(
+        fmt::format("{}: there is no opening near {}: the nearest, at {} with radius {:.3g} cm, is {:.3g} cm away",
+                    field, text_of_place(x), text_of_place(rim.plane.origin), rim.radius(), distance),
+        {x, rim.plane.origin});
+  return nearest;
+}
+
 std::vector<Rim> open_labels(RawSurface& surface, const std::vector<int>& ids) {
   const RawSurface closed = surface;
   const std::set<int> caps(ids.begin(), ids.end());

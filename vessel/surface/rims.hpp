@@ -18,6 +18,13 @@ struct Rim {
 /// Largest first.
 std::vector<Rim> rims_of(const RawSurface& surface);
 
+/// The place in `rims`, of which there is one at least, of the rim whose middle is nearest.
+std::size_t nearest_rim(const std::vector<Rim>& rims, const Vec3& x);
+
+/// The same of a point that was picked for an opening: it is on it or near its rim, not further off than it is wide.
+/// Throws PlacedError that begins with the field.
+std::size_t rim_near(const std::vector<Rim>& rims, const Vec3& x, const std::string& field);
+
 /// Takes the triangles with these ids off; the rims that are left know which. Throws InputError for one that is not
 /// there.
 std::vector<Rim> open_labels(RawSurface& surface, const std::vector<int>& ids);
