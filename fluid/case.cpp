@@ -146,11 +146,10 @@ void OutletCase::declare(Fields& f) {
 
 void SectionCase::declare(Fields& f) {
   f.point("point", point, dimension::length, "a point of the section, in the imaged blood");
-  f.point("normal", normal, dimension::none, "direction across the section in which flow counts as positive");
+  f.direction("normal", normal, "direction across the section in which flow counts as positive");
   f.number("radius", radius, dimension::length, range::positive,
            "what lies farther from the point does not count; without it: the connected part of the plane's cut that "
            "holds the point");
-  f.check(normal.norm() > 0, "normal", "must not be zero");
 }
 
 void FluidCase::declare(Fields& f) {

@@ -108,9 +108,8 @@ Poses read_poses(const MotionCase& given, const CsvTable& table, const UnitSyste
 }  // namespace
 
 void PlacementCase::declare(Fields& f) {
-  f.point("x_axis", x_axis, dimension::none, "direction, in the model, of the table's x axis");
-  f.point("y_axis", y_axis, dimension::none,
-          "direction, in the model, of the table's y axis; z follows by the right hand");
+  f.direction("x_axis", x_axis, "direction, in the model, of the table's x axis");
+  f.direction("y_axis", y_axis, "direction, in the model, of the table's y axis; z follows by the right hand");
   f.check(!(std::abs(x_axis.normalized().dot(y_axis.normalized())) > most_cosine), "y_axis",
           "must be at a right angle to x_axis");
 }

@@ -21,8 +21,8 @@ void check_length(Fields& f, const char* field, std::optional<double> length) {
 void declare_regions(Fields& f, Named<RegionCase>& regions, Vec3& angle_origin) {
   f.groups("regions", regions,
            "of the outer wall, by name: the first that contains a place takes it; none: one region \"wall\"");
-  f.point("angle_origin", angle_origin, dimension::none,
-          "direction of angle zero, projected on each cross-section; angles grow right-handed about the flow");
+  f.direction("angle_origin", angle_origin,
+              "direction of angle zero, projected on each cross-section; angles grow right-handed about the flow");
 }
 
 }  // namespace

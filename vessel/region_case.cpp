@@ -1,5 +1,7 @@
 #include "vessel/region_case.hpp"
 
+#include <algorithm>
+
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 
@@ -56,7 +58,7 @@ void NearCase::declare(Fields& f) {
 
 void PlaneCase::declare(Fields& f) {
   f.point("point", point, dimension::length, "in the plane");
-  f.point("normal", normal, dimension::none, "points into the region");
+  f.direction("normal", normal, "points into the region");
 }
 
 void BoxCase::declare(Fields& f) {
@@ -76,6 +78,9 @@ void GeometricRegionCase::declare(Fields& f) {
   f.groups("planes", planes, "planes, by any name, on whose side of the normal the region is");
   f.group("box", box, "along the axes");
   f.integer("divide", divide, {1, 1000}, "into parts of equal length along the line, NAME_1, NAME_2, ...");
+  f.check(
+      angle_origin.empty() || std::any_of(angle_origin.begin(), angle_origin.end(), [](double x) { return x != 0; }),
+      "angle_origin", "must not be zero");
   f.check(!toward || angle_origin.empty(), "toward", "give either angle_origin or toward");
   f.check(angle.size() == 2 || (!toward && angle_origin.empty()), "angle", "must be given with its origin");
 }

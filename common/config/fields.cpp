@@ -16,6 +16,11 @@ void Fields::point(Text name, Vec3& value, Dimension dimension, Text meaning) {
   if (coordinates.size() == 3) value = Vec3(coordinates.data());
 }
 
+void Fields::direction(Text name, Vec3& value, Text meaning) {
+  point(name, value, dimension::none, meaning);
+  check(!value.allFinite() || value.norm() > 0, name, "must not be zero");
+}
+
 void Fields::paths(Text name, Named<std::filesystem::path>& values, Text meaning, Need need) {
   entries(name, values, meaning, need,
           [&](Text key, std::filesystem::path& value) { path(key, value, meaning, Need::required); });

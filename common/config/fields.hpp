@@ -86,6 +86,9 @@ class Fields {
   /// Three coordinates; undefined ones must be given.
   void point(Text name, Vec3& value, Dimension dimension, Text meaning);
 
+  /// Three coordinates that are not all zero, of any length.
+  void direction(Text name, Vec3& value, Text meaning);
+
   /// A rule between fields, checked after they were read without error: f.check(end > start, "end", "must be after
   /// start").
   virtual void check(bool holds, Text field, Text rule) = 0;

@@ -21,12 +21,11 @@ void VelocitiesCase::declare(Fields& f) {
             {"along", "the one along `direction`, as through a plane of phase-contrast MR: column v"}},
            "what of the velocity was measured");
   f.when("components", components, {"along"},
-         [&] { f.point("direction", direction, dimension::none, "in which v is positive; of any length"); });
+         [&] { f.direction("direction", direction, "in which v is positive; of any length"); });
   f.number("beat", beat, dimension::time, range::positive,
            "duration of a beat, if the file's times are fractions of it; the series then repeats after it");
   f.number("period", period, dimension::time, range::positive, "the series repeats after this time");
   f.check(!(beat && period), "period", "give either beat or period");
-  f.check(components != "along" || !direction.allFinite() || direction.norm() > 0, "direction", "must not be zero");
   f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");
   f.numbers("held_out", held_out, {0, dimension::none, range::not_negative},
             "numbers of frames (from 0) that no number is fitted to: they judge");

@@ -89,6 +89,7 @@ TEST(MotionOfARing, MistakesAreNamed) {
   says("time,x,y,z,turn_x [m],turn_y,turn_z\n0,0,0,0,0,0,0\n", ", table: poses", "in rad or deg");
   says(rows, ", unit: s", "ring.csv:2: column 'x'");
   says(rows, ", placement: {x_axis: [1, 0, 0], y_axis: [1, 0, 0]}", "right angle");
+  says(rows, ", placement: {x_axis: [0, 0, 0], y_axis: [1, 0, 0]}", "x_axis: must not be zero");
   says(rows, ", table: poses", "turn_x");
   EXPECT_NE(input_error_of([] { wall_moved_by("{table: points}"); }).find("file"), std::string::npos);
 }

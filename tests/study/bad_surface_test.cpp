@@ -311,6 +311,20 @@ const Length lengths[] = {
      "edges.shortest: 0.0001 cm: would make 1.36e+10 triangles: must make at most 2e+06"},
     {"spacing", [](StudyCase& s) { s.centreline_spacing = 1e-7; },
      "centreline_spacing: 1e-07 cm: would make a line of 6.93e+07 points or more: must make at most 5000"},
+    {"trim", [](StudyCase& s) { s.openings[1].second.trim = 9.9, s.lines["openings.out.trim"] = "study.yaml:5"; },
+     "study.yaml:5: openings.out.trim: 9.9 cm: its vessel is 8.36 cm long: must be shorter"},
+    {"order",
+     [](StudyCase& s) {
+       s.openings[1].second.near.clear(), s.openings[1].second.order = 3, s.lines["openings.out"] = "study.yaml:5";
+     },
+     "study.yaml:5: openings.out.order: 3: the surface has 2 openings"},
+    {"edges_longer_than_the_vessel_is_wide",
+     [](StudyCase& s) { s.edges.longest = 6, s.lines["edges"] = "study.yaml:6"; },
+     "study.yaml:6: edges: the new triangles change the lumen's volume by -88 %: must be at most 10 %: choose shorter "
+     "edges"},
+    {"edges_of_a_silent_file", [](StudyCase& s) { s.edges.longest = 6, s.path = "study.yaml"; },
+     "study.yaml: edges: the new triangles change the lumen's volume by -88 %: must be at most 10 %: choose shorter "
+     "edges"},
     {"inner_edge", [](StudyCase& s) { s.model.emplace().longest_edge = 1e-3; },
      "model.longest_edge: 0.001 cm: would make 2.22e+11 tetrahedra: must make at most 2e+07"},
 };

@@ -93,6 +93,28 @@ TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
   EXPECT_NE(message.find("must be one of the other openings"), std::string::npos) << message;
 }
 
+TEST(BuildModel, DirectionsOfNoLengthAreToldWithTheirLines) {
+  const fs::path folder = study_in("study_without_directions",
+                                   "model:\n  wall: {thickness: 1 mm}\n  regions:\n"
+                                   "    arch: {planes: {a: {point: [0, 0, 0], normal: [0, 0, 0]}}}\n"
+                                   "    spine: {angle: [0, 90], angle_origin: [0, 0, 0]}\n",
+                                   testing::bent_tube());
+  std::ifstream file(folder / "study.yaml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text.replace(text.find("near: [4, 0, 0]"), 15, "cut: {point: [4, 0, 0], outward: [0, 0, 0]}");
+  std::ofstream(folder / "study.yaml") << text;
+  std::string message;
+  try {
+    read_study(folder / "study.yaml");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  for (const char* told : {"study.yaml:4: openings.in.cut.outward: must not be zero",
+                           "study.yaml:11: model.regions.arch.planes.a.normal: must not be zero",
+                           "study.yaml:12: model.regions.spine.angle_origin: must not be zero"})
+    EXPECT_NE(message.find(told), std::string::npos) << message;
+}
+
 TEST(BuildModel, BranchesThatAreNoneAreToldBeforeAnythingIsBuilt) {
   const fs::path folder = study_in("wrong_branches",
                                    "model:\n  wall: {thickness: 2 mm, branches: {carotid: {thickness: 1 mm}}}\n"

@@ -32,7 +32,7 @@ void RepairCase::declare(Fields& f) {
 
 void CutPlaneCase::declare(Fields& f) {
   f.point("point", point, dimension::length, "on the plane, near the vessel's middle");
-  f.point("outward", outward, dimension::none, "direction out of the vessel, of any length");
+  f.direction("outward", outward, "direction out of the vessel, of any length");
 }
 
 void OpeningCase::declare(Fields& f) {
@@ -78,8 +78,10 @@ void StudyCase::declare(Fields& f) {
 }
 
 std::string StudyCase::where(const std::string& field) const {
-  const auto line = lines.find(field);
-  return line == lines.end() ? field : line->second + ": " + field;
+  for (std::string known = field;; known.resize(known.rfind('.'))) {
+    if (const auto line = lines.find(known); line != lines.end()) return line->second + ": " + field;
+    if (known.find('.') == std::string::npos) return path.empty() ? field : path.string() + ": " + field;
+  }
 }
 
 namespace {
@@ -136,6 +138,7 @@ StudyCase read_study(const std::filesystem::path& file) {
   const UnitSystem units = UnitSystem::cgs();
   Problems problems;
   StudyCase study;
+  study.path = file;
   Reader reader(tree, units, problems);
   study.declare(reader);
   reader.report_unknown();

@@ -62,10 +62,12 @@ struct StudyCase {
   double centreline_spacing = 0.2;
   EdgeCase edges;
   std::optional<VolumeCase> model;           ///< none: the surface alone
+  std::filesystem::path path;                ///< of the study itself; empty: it is no file
   std::map<std::string, std::string> lines;  ///< where each field of the file stands: "study.yaml:3"
   void declare(Fields& f);
 
-  /// "study.yaml:3: repair.merge"; the field alone where the file is silent.
+  /// "study.yaml:3: repair.merge", with the line of its section where the file is silent of it, without one where it is
+  /// silent of that too; the field alone if the study is no file.
   std::string where(const std::string& field) const;
 
   std::filesystem::path file() const { return surface ? surface->file : image->file; }

@@ -9,7 +9,7 @@ struct CroppedFrame {
   void declare(Fields& f) {
     frame.declare(f);
     f.point("point", point, dimension::length, "of the plane");
-    f.point("normal", normal, dimension::none, "of the plane: what lies on this side is cut off");
+    f.direction("normal", normal, "of the plane: what lies on this side is cut off");
   }
 };
 
