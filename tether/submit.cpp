@@ -12,6 +12,7 @@
 #include "batch/job_status.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
+#include "common/base/temporary_folder.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -142,19 +143,11 @@ std::vector<JobCase> cases_of(const Typed& typed, const fs::path& made) {
   return typed.table.empty() ? job_cases(typed.given) : job_cases_of_table(typed.given, typed.table, made);
 }
 
-/// A job that is in the folder stays as it is.
-void check_cases_of(const Typed& typed, JobVerb verb, const fs::path& folder) {
+/// Before anything in the folder is touched: a job that is there stays as it is, and a new one is not begun.
+void check_cases_of(const Typed& typed, JobVerb verb) {
   if (typed.table.empty()) return check_cases(job_cases(typed.given), verb);
-  hold_output(folder);
-  const fs::path tried = folder / "cases.new";
-  fs::remove_all(tried);
-  try {
-    check_cases(cases_of(typed, tried), verb);
-  } catch (...) {
-    fs::remove_all(tried);
-    throw;
-  }
-  fs::remove_all(tried);
+  const ScratchFolder tried("tether_cases");
+  check_cases(cases_of(typed, tried.path() / "cases"), verb);
 }
 
 int act(const Typed& typed) {
@@ -162,7 +155,7 @@ int act(const Typed& typed) {
   check_resources(typed.resources);
   check_replaced(folder, typed.overwrite);
   const JobVerb verb = *from_word<JobVerb>(typed.verb);
-  check_cases_of(typed, verb, folder);
+  check_cases_of(typed, verb);
   claim_job(folder);
   Job job{verb, "", sibling("tether").string(), cases_of(typed, folder / job_files / "cases"), {}, typed.resources};
   JobResources& r = job.resources;

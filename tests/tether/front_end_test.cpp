@@ -180,6 +180,21 @@ TEST_F(FrontEnd, MeasuresNoiseIntoNoFolderOfOtherFiles) {
   EXPECT_EQ(tether("measure-noise one.stl two.stl --output . --overwrite").exit_code, 2) << "they would be replaced";
 }
 
+TEST_F(FrontEnd, MakesNoFolderOfATableThatIsRefused) {
+  std::ofstream(folder_ / "cases.csv") << "name, time.end [s]\n../mine, 0.2\n";
+  const ChildEnd job = tether("submit simulate case.yaml --table cases.csv --output job --time 20 --memory 1G");
+  EXPECT_EQ(job.exit_code, 2) << job.output;
+  EXPECT_NE(job.errors.find("cases.csv"), std::string::npos) << job.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "job"));
+  write_tube(folder_ / "one.stl", 1);
+  std::ofstream(folder_ / "frames.csv") << "file, time\none.stl, 0\n";
+  std::ofstream(folder_ / "ring.yaml") << "name: root\nframes: {file: frames.csv, unit: mm}\n";
+  const ChildEnd ring = tether("track-ring ring.yaml --output ring");
+  EXPECT_EQ(ring.exit_code, 2) << ring.output;
+  EXPECT_NE(ring.errors.find("frames.csv"), std::string::npos) << ring.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "ring"));
+}
+
 /// A closed stream's number would be that of the next file, into which what is told would go.
 TEST_F(FrontEnd, TellsNothingIntoAFileWhereItsOutputIsClosed) {
   write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2);
