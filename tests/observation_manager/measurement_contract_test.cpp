@@ -41,7 +41,7 @@ class EveryKind : public ::testing::TestWithParam<const MeasurementKind*> {
   }
 
   TemporaryFolder folder;
-  const SimpleRun truth, other{2};
+  const SimpleRun truth{}, other{2};
   const LumenSurface model = SimpleRun::imaged();
   const KindSample sample = sample_of(kind());
 };
