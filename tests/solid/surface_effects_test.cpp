@@ -254,8 +254,8 @@ TEST(LooseRing, AStiffOneIsNearlyAClamp) {
 }
 
 std::shared_ptr<MovingTissue> breathing_tissue(const Values& values) {
-  return std::make_shared<MovingTissue>("solid.effects.breathing",
-                                        Configured<MotionLaw>(motions(), {"breathing", values}), TissueMotion{});
+  return std::make_shared<MovingTissue>(
+      MovingTissue{"solid.effects.breathing", Configured<MotionLaw>(motions(), {"breathing", values}), TissueMotion{}});
 }
 
 TEST(Breathing, CarriesAHeldWallAlong) {
