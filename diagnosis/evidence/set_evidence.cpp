@@ -77,8 +77,9 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
       assumed_(assumed),
       discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)),
       curves_(problem.candidates.size()) {
-  MatrixXd columns = problem.changes(rows, Eigen::all);
-  const auto append = [&](const VectorXd& column) { append_columns(columns, column(rows)); };
+  MatrixXd columns = problem.changes;
+  VectorXd precision = VectorXd::Zero(problem.precision.size());
+  precision(rows) = problem.precision(rows);
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (!is_scalar(c)) continue;
     const Index own = problem.candidates[c].amplitudes.front();
@@ -89,14 +90,17 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     for (const ShownRun& run : runs)
       if (run.of != RunOf::finer && shows_alone(run, own)) {
         add({run.amplitudes(own), columns.cols(), 1, run.of == RunOf::coarser});
-        append(problem.residual - run.residual);
+        append_columns(columns, problem.residual - run.residual);
       }
-    for (AmplitudeCurve& side : curves_[c]) side.settle(columns, problem.precision(rows));
-    std::optional<ShownNumerics> numerics = add_refined(c, runs, rows, columns);
+    for (AmplitudeCurve& side : curves_[c]) side.settle(columns, precision);
+    std::optional<ShownNumerics> numerics = add_refined(c, runs, columns);
     if (!numerics) numerics = add_coarse(c, columns);
-    if (numerics) numerics_.push_back(std::move(*numerics));
+    if (!numerics) continue;
+    numerics->data = columns.col(numerics->column);
+    numerics_.push_back(std::move(*numerics));
   }
-  append(problem.residual);
+  append_columns(columns, problem.residual);
+  columns = MatrixXd(columns(rows, Eigen::all));
 
   std::vector<Index> ordinary;
   for (Index k = 0; k < problem.allowed.cols(); ++k)
@@ -126,7 +130,6 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
 /// By a run of the finer model and one of the model itself, of the same size.
 std::optional<SetEvidence::ShownNumerics> SetEvidence::add_refined(std::size_t candidate,
                                                                    const std::vector<ShownRun>& runs,
-                                                                   const std::vector<Index>& rows,
                                                                    MatrixXd& columns) const {
   constexpr double finer_by = 2, same = 1 + 1e-6;
   const Index own = problem_.candidates[candidate].amplitudes.front();
@@ -136,7 +139,7 @@ std::optional<SetEvidence::ShownNumerics> SetEvidence::add_refined(std::size_t c
     for (const AmplitudeCurve& side : curves_[candidate])
       for (const AmplitudeCurve::Point& point : side.points()) {
         if (point.is_coarse || !(point.size / size > 1 / same) || !(point.size / size < same)) continue;
-        const VectorXd changes = (problem_.residual - finer.residual)(rows);
+        const VectorXd changes = problem_.residual - finer.residual;
         append_columns(columns,
                        wrong_before_refinement(finer_by) * (changes - point.factor * columns.col(point.column)));
         return ShownNumerics{candidate, size, columns.cols() - 1, RunOf::finer};
@@ -188,6 +191,13 @@ void SetEvidence::settle_numerics() {
       if (alike > most) most = alike, errs_as_[c] = static_cast<int>(k);
     }
   }
+}
+
+std::optional<VectorXd> SetEvidence::error_of(std::size_t candidate, double size) const {
+  const ShownNumerics* numerics = numerics_of(candidate);
+  if (!numerics) return std::nullopt;
+  const std::vector<Index> columns = columns_of({candidate});
+  return mix_at({candidate}, size, columns).dot(numerics->seen(columns)) / numerics->square * numerics->data;
 }
 
 double SetEvidence::scale_of(const Amplitude& amplitude) const {

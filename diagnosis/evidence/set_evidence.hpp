@@ -83,6 +83,9 @@ class SetEvidence {
   std::optional<double> closest_run(std::size_t candidate, double amplitude) const;
   /// Whether no run of it was as large, on that side.
   bool is_beyond_all(std::size_t candidate, double amplitude) const;
+  /// What mesh and step may make wrong in what a candidate of one amplitude does at that size, by one deviation [n];
+  /// none of what is known exactly.
+  std::optional<VectorXd> error_of(std::size_t candidate, double size) const;
   /// Of what two candidates do to first order.
   double cosine(std::size_t a, std::size_t b) const;
 
@@ -100,6 +103,7 @@ class SetEvidence {
     double size;
     Eigen::Index column;  ///< of that
     RunOf told_by;
+    VectorXd data = {};  ///< that column, of all data
     VectorXd seen = {};  ///< products of all columns with what the candidate does at that size
     double square = 0;   ///< of what it does
   };
@@ -131,7 +135,7 @@ class SetEvidence {
 
   static SetIntegrand integrand_of(const std::vector<Grid>& grids, const MatrixXd& gram);
   std::optional<ShownNumerics> add_refined(std::size_t candidate, const std::vector<ShownRun>& runs,
-                                           const std::vector<Eigen::Index>& rows, MatrixXd& columns) const;
+                                           MatrixXd& columns) const;
   std::optional<ShownNumerics> add_coarse(std::size_t candidate, MatrixXd& columns) const;
   void settle_numerics();
   const ShownNumerics* numerics_of(std::size_t candidate) const;

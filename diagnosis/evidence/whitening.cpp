@@ -119,6 +119,7 @@ void Whitening::widen(const VectorXd& larger) {
 
 MatrixXd Whitening::operator()(const MatrixXd& data) const {
   MatrixXd white(count_, data.cols());
+  if (data.cols() == 0) return white;  // which has no place in memory whose rows could be named
   for (const Group& group : groups_)
     white.middleRows(group.first, group.modes.rows()) = group.modes * data(group.rows, Eigen::all);
   for (const Chain& chain : chains_) {

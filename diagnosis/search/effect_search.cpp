@@ -33,16 +33,20 @@ constexpr double unexplainable = 6;  ///< misfit beyond noise, as above: neither
 
 class Search {
  public:
+  /// evidence: where mesh and step may make wrong what effects do.
   Search(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
-         const Weighed& weighed)
+         const Weighed& weighed, const SetEvidence& evidence)
       : problem_(with_discrepancy(problem, weighed.discrepancy)),
+        evidence_(evidence),
         settings_(settings),
         refused_(refused_in(problem_, settings)),
         residual_at_(residual_at),
         plain_(problem_),
         naming_(naming(problem_)),
         confirmation_(problem_) {
-    now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, MatrixXd(problem.residual.size(), 0), {}};
+    const MatrixXd none(problem.residual.size(), 0);
+    now_ = {VectorXd::Zero(problem.changes.cols()), problem.residual, none, none, {}};
+    misfit_as_it_is_ = plain_.misfit(problem.residual);
     result_.weighed = weighed;
     result_.independent = problem.independent(problem.training).sum();
     rival_of_.resize(problem.candidates.size());
@@ -136,10 +140,18 @@ class Search {
     return plain_.counted_misfit(now_.residual) > result_.independent + deviations * std::sqrt(2 * result_.independent);
   }
 
+  /// What mesh and step may make wrong in what it does at its amplitude: a column, or none.
+  MatrixXd error_of(const TestedEffect& effect) const {
+    const auto error = evidence_.is_scalar(effect.candidate)
+                           ? evidence_.error_of(effect.candidate, effect.amplitudes(0))
+                           : std::nullopt;
+    return error ? MatrixXd(*error) : MatrixXd(problem_.residual.size(), 0);
+  }
+
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
   std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) {
     std::vector<Refinement> all;
-    for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, trained, plain_, problem_);
+    for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, error_of(effect), problem_);
     const Scores scores = trained.scores(problem_.changes, now_.residual);
     while (true) {
       std::vector<Refinement*> open;
@@ -183,8 +195,11 @@ class Search {
   }
 
   /// Probability that noise makes the gain of one of so many candidates as large, over all data that name.
-  double by_chance(const TestedEffect& effect, const VectorXd& residual, double dispersion) const {
-    const double gain = naming_.misfit(now_.residual) - naming_.misfit(residual);
+  double by_chance(const TestedEffect& effect, const AmplitudeState& state, double dispersion) const {
+    const double left = state.errors.cols() > now_.errors.cols()
+                            ? naming_.misfit(state.residual, state.errors.rightCols(1).col(0))
+                            : naming_.misfit(state.residual);
+    const double gain = naming_.misfit(now_.residual) - left;
     return static_cast<double>(problem_.candidates.size()) * chance_of(problem_, effect.candidate, gain / dispersion);
   }
 
@@ -195,9 +210,9 @@ class Search {
   }
 
   /// Why the data at hand and those held out do not ask for the effect; none if they do.
-  std::optional<Objection> objection(const TestedEffect& effect, const VectorXd& residual, const LackOfFit& left,
+  std::optional<Objection> objection(const TestedEffect& effect, const AmplitudeState& state, const LackOfFit& left,
                                      const WeighedGroup& group) const {
-    if (by_chance(effect, residual, dispersion(residual)) >= settings_.alpha) return Objection::too_weak;
+    if (by_chance(effect, state, dispersion(state.residual)) >= settings_.alpha) return Objection::too_weak;
     const bool confirmable = problem_.candidates[effect.candidate].confirmable;
     if (confirmable && !is_confirmed(effect, group)) return Objection::not_confirmed;
     if (left.p < settings_.alpha && result_.after.excess > 0 && !(left.excess < result_.after.excess))
@@ -214,7 +229,7 @@ class Search {
       result_.more = group->probability >= sure;
       return false;
     }
-    const Trained trained(problem_, now_.changes);
+    const Trained trained(problem_, now_.changes, now_.errors);
     settle(refined(likely_of(*group, trained), trained), *group);
     return true;
   }
@@ -253,6 +268,8 @@ class Search {
     if (!chosen) return;
     keep_others_as_good(group, *chosen);
     now_ = chosen->state();
+    plain_ = left_free(problem_, now_.errors);
+    naming_ = left_free(naming(problem_), now_.errors);
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
   }
@@ -295,12 +312,12 @@ class Search {
 
   /// What comes of adding it.
   SearchStep attempt(const Refinement& one, const WeighedGroup& group) const {
-    const VectorXd residual = one.state().residual;
+    const AmplitudeState state = one.state();
     TestedEffect effect = one.effect();
-    effect.held_out = confirmation_.of(now_.residual, residual);
-    SearchStep step{
-        effect.candidate, {}, now_misfit(), plain_.misfit(residual), lack_of_fit(problem_, plain_, residual)};
-    step.objection = objection(effect, residual, step.left, group);
+    effect.held_out = confirmation_.of(now_.residual, state.residual);
+    const LackOfFit left = lack_of_fit(problem_, left_free(problem_, state.errors), state.residual);
+    SearchStep step{effect.candidate, {}, now_misfit(), one.best(), left};
+    step.objection = objection(effect, state, step.left, group);
     if (!step.objection && group.probability < sure) step.objection = Objection::not_sure;
     if (!step.objection && group.least < even) step.objection = Objection::assumed;
     return step;
@@ -345,7 +362,7 @@ class Search {
   bool leaves_something() const { return result_.after.p < strict() || is_far_beyond_noise(unexplainable); }
   /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
   bool leaves_too_much() const {
-    const double removed = plain_.misfit(problem_.residual) - now_misfit();
+    const double removed = misfit_as_it_is_ - now_misfit();
     return leaves_something() && result_.after.excess > settings_.enough &&
            result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
   }
@@ -430,7 +447,12 @@ class Search {
                                        result_.effects[static_cast<std::size_t>(j)]);
   }
 
+  static Trained left_free(const EffectProblem& problem, const MatrixXd& errors) {
+    return {problem, MatrixXd(problem.residual.size(), 0), errors};
+  }
+
   EffectProblem problem_;  ///< the model is as far off as the data say
+  const SetEvidence& evidence_;
   const SearchSettings& settings_;
   std::vector<bool> refused_;
   const ResidualAt& residual_at_;
@@ -438,36 +460,26 @@ class Search {
   Trained naming_;
   Confirmation confirmation_;
   AmplitudeState now_;
+  double misfit_as_it_is_ = 0;
   SearchResult result_;
   std::vector<std::size_t> rival_of_;
   std::set<std::size_t> tried_;  ///< groups
 };
 
-/// Whether a run of a candidate by itself is of a size that the table was made without.
-bool shows_more(const std::vector<ShownRun>& runs, const EffectProblem& problem, const std::vector<ShownRun>& shown) {
-  const SetEvidence evidence(problem, shown);
-  return std::any_of(runs.begin(), runs.end(), [&](const ShownRun& run) {
-    if ((run.amplitudes.array() != 0).count() != 1 || !run.residual.allFinite()) return false;
-    Index own = 0;
-    run.amplitudes.cwiseAbs().maxCoeff(&own);
-    for (std::size_t c = 0; c < problem.candidates.size(); ++c)
-      if (const auto& all = problem.candidates[c].amplitudes; all.size() == 1 && all.front() == own)
-        return problem.candidates[c].takes_runs() && evidence.beyond_runs(c, run.amplitudes(own), false) > near_a_run;
-    return false;
-  });
-}
-
 }  // namespace
 
 SearchResult search_effects(const EffectProblem& problem, const SearchSettings& settings, const ResidualAt& residual_at,
                             const Weighing& weighing, const ResidualAt& finer) {
-  SearchResult result = Search(problem, settings, residual_at, weighing.weighed).run();
+  const auto search = [&](const Weighing& known) {
+    return Search(problem, settings, residual_at, known.weighed, SetEvidence(problem, known.shown)).run();
+  };
+  SearchResult result = search(weighing);
   if (shows_more(result.runs, problem, weighing.shown)) {
     std::vector<ShownRun> shown = weighing.shown;
     shown.insert(shown.end(), result.runs.begin(), result.runs.end());
     const Weighing again = weigh_effects(problem, settings, {residual_at}, RunsFor::telling, std::move(shown), finer);
     std::vector<ShownRun> earlier = std::move(result.runs);
-    result = Search(problem, settings, residual_at, again.weighed).run();
+    result = search(again);
     set_intervals(result, problem, settings, again.shown);
     result.runs.insert(result.runs.begin(), earlier.begin(), earlier.end());
     return result;

@@ -21,16 +21,33 @@ double product(const Trained& trained, const VectorXd& a, const VectorXd& b) {
   return trained.rows(a).dot(trained.allowed()(trained.rows(b)).col(0));
 }
 
+MatrixXd none_of(const MatrixXd& columns) {
+  return {columns.rows(), 0};
+}
+
+MatrixXd beside(const MatrixXd& some, const MatrixXd& more) {
+  MatrixXd all(some.rows(), some.cols() + more.cols());
+  all << some, more;
+  return all;
+}
+
 }  // namespace
 
-Refinement::Refinement(TestedEffect effect, const AmplitudeState& from, const Trained& trained, const Trained& plain,
+Refinement::Refinement(TestedEffect effect, const AmplitudeState& from, const MatrixXd& error,
                        const EffectProblem& problem)
-    : effect_(std::move(effect)), from_(from), trained_(trained), plain_(plain), problem_(problem) {
+    : effect_(std::move(effect)),
+      from_(from),
+      problem_(problem),
+      errors_(beside(from.errors, error)),
+      trained_(problem, from.changes, errors_),
+      plain_(problem, none_of(from.errors), errors_) {
+  const Trained before(problem, none_of(from.errors), from.errors);
+  if (error.cols() > 0) cost_ = before.cost(error.col(0));
   direction_ = VectorXd::Zero(problem.changes.cols());
   direction_(own(effect_.candidate)) = effect_.amplitudes;
   first_order_ = problem.changes * direction_;
   residual_ = best_residual_ = from.residual;
-  start_ = best_ = plain.misfit(from.residual);
+  start_ = best_ = before.misfit(from.residual);
   expected_ = effect_.gain;
   others_ = best_others_ = VectorXd::Zero(from.changes.cols());
   next_others_ = others_for(from.residual - first_order_);
@@ -108,7 +125,7 @@ void Refinement::take(const VectorXd& residual) {
   last_ = next_;
   others_ = next_others_;
   residual_ = residual;
-  if (const double found = plain_.misfit(residual); found < best_) {
+  if (const double found = plain_.misfit(residual) + cost_; found < best_) {
     best_ = found;
     best_factor_ = last_;
     best_others_ = others_;
@@ -141,7 +158,7 @@ double Refinement::hope() const {
 }
 
 AmplitudeState Refinement::state() const {
-  AmplitudeState state{at(best_factor_, best_others_), best_residual_, from_.changes, from_.accepted};
+  AmplitudeState state{at(best_factor_, best_others_), best_residual_, from_.changes, errors_, from_.accepted};
   state.accepted.push_back(effect_.candidate);
   state.changes.conservativeResize(per_factor_.size(), state.changes.cols() + 1);
   state.changes.rightCols(1) = per_factor_;

@@ -9,6 +9,7 @@ struct AmplitudeState {
   VectorXd amplitudes;                ///< of all candidates [q]
   VectorXd residual;                  ///< [n]
   MatrixXd changes;                   ///< of -r per unit of each accepted effect's factor, at its amplitude [n x m]
+  MatrixXd errors;                    ///< what mesh and step may make wrong in what was accepted: one deviation [n x k]
   std::vector<std::size_t> accepted;  ///< candidates that those columns are of [m]
 };
 
@@ -16,9 +17,8 @@ struct AmplitudeState {
 /// effects accepted before are refitted by factors too. Each run tells where to go next. (D.10)
 class Refinement {
  public:
-  /// trained: with the accepted effects' changes free. plain: without.
-  Refinement(TestedEffect effect, const AmplitudeState& from, const Trained& trained, const Trained& plain,
-             const EffectProblem& problem);
+  /// error: of what the effect does at its amplitude, by mesh and step [n x 1], or nothing [n x 0]. (D.19)
+  Refinement(TestedEffect effect, const AmplitudeState& from, const MatrixXd& error, const EffectProblem& problem);
 
   bool done() const { return done_; }
   bool begun() const { return last_ > 0; }
@@ -27,8 +27,8 @@ class Refinement {
   VectorXd amplitudes() const { return at(next_, next_others_); }
   /// The run at `amplitudes` left this residual; NaN: it failed.
   void take(const VectorXd& residual);
-  /// The smallest misfit so far, and the one that it may come down to: before any run more is hoped for than first
-  /// order promises.
+  /// The smallest misfit so far, with what the freedom to err costs, and the one that it may come down to: before any
+  /// run more is hoped for than first order promises.
   double best() const { return best_; }
   double hope() const;
   void give_up() { done_ = true; }
@@ -52,8 +52,10 @@ class Refinement {
 
   TestedEffect effect_;
   const AmplitudeState& from_;
-  const Trained &trained_, &plain_;
   const EffectProblem& problem_;
+  MatrixXd errors_;                ///< of those accepted before, and of this one
+  Trained trained_, plain_;        ///< with the accepted effects' changes free, and without
+  double cost_ = 0;                ///< of the freedom to err
   VectorXd direction_;             ///< amplitudes at factor 1 [q]
   VectorXd first_order_;           ///< change of -r to first order at factor 1 [n]
   VectorXd per_factor_;            ///< change of -r per logarithm of the factor, by the last runs [n]

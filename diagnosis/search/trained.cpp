@@ -1,15 +1,18 @@
 #include "diagnosis/search/trained.hpp"
 
+#include <cmath>
+
 namespace tether {
 namespace {
 
 using Rows = std::vector<Eigen::Index>;
 
-AllowedErrors allowed_errors(const EffectProblem& problem, const MatrixXd& free, const Rows& rows) {
-  MatrixXd columns(rows.size(), problem.allowed.cols() + free.cols());
-  columns << problem.allowed(rows, Eigen::all), free(rows, Eigen::all);
+AllowedErrors allowed_errors(const EffectProblem& problem, const MatrixXd& free, const MatrixXd& errors,
+                             const Rows& rows) {
+  MatrixXd columns(rows.size(), problem.allowed.cols() + free.cols() + errors.cols());
+  columns << problem.allowed(rows, Eigen::all), free(rows, Eigen::all), errors(rows, Eigen::all);
   VectorXd deviations(columns.cols());
-  deviations << problem.allowed_deviation, VectorXd::Constant(free.cols(), infinite);
+  deviations << problem.allowed_deviation, VectorXd::Constant(free.cols(), infinite), VectorXd::Ones(errors.cols());
   return {problem.precision(rows), columns, deviations};
 }
 
@@ -24,19 +27,36 @@ Rows all_rows(const EffectProblem& problem) {
   return rows;
 }
 
+MatrixXd no_columns(const EffectProblem& problem) {
+  return {problem.residual.size(), 0};
+}
+
 }  // namespace
 
-Trained::Trained(const EffectProblem& problem, const MatrixXd& free)
+Trained::Trained(const EffectProblem& problem, const MatrixXd& free, const MatrixXd& errors)
     : rows_(problem.training),
       counted_rows_(counted_of(problem, problem.training)),
-      allowed_(allowed_errors(problem, free, rows_)),
-      counted_(allowed_errors(problem, free, counted_rows_)) {}
+      allowed_(allowed_errors(problem, free, errors, rows_)),
+      counted_(allowed_errors(problem, free, errors, counted_rows_)) {}
 
-Trained::Trained(const EffectProblem& problem) : Trained(problem, MatrixXd(problem.residual.size(), 0)) {}
+Trained::Trained(const EffectProblem& problem, const MatrixXd& free) : Trained(problem, free, no_columns(problem)) {}
+
+Trained::Trained(const EffectProblem& problem) : Trained(problem, no_columns(problem)) {}
 
 double Trained::misfit(const VectorXd& residual) const {
   const VectorXd r = rows(residual);
   return r.dot(allowed_(r).col(0));
+}
+
+double Trained::cost(const VectorXd& error) const {
+  const VectorXd e = rows(error);
+  return std::log1p(e.dot(allowed_(e).col(0)));
+}
+
+double Trained::misfit(const VectorXd& residual, const VectorXd& error) const {
+  const VectorXd r = rows(residual), e = rows(error), seen = allowed_(e).col(0);
+  const double square = e.dot(seen), along = r.dot(seen);
+  return misfit(residual) - along * along / (1 + square) + std::log1p(square);
 }
 
 double Trained::counted_misfit(const VectorXd& residual) const {
@@ -66,7 +86,7 @@ Foretold::Foretold(const EffectProblem& problem)
     : problem_(problem),
       trained_(problem),
       rows_(all_rows(problem)),
-      everywhere_(allowed_errors(problem, MatrixXd(problem.residual.size(), 0), rows_)) {}
+      everywhere_(allowed_errors(problem, no_columns(problem), no_columns(problem), rows_)) {}
 
 /// With the conditional mean taken off, the held-out part u has the precision M_hh, and M_hh u is that part of M r.
 VectorXd Foretold::misfit(const VectorXd& residual) const {

@@ -7,7 +7,8 @@ namespace tether {
 /// The training part of a problem, with its allowed errors taken out, and more directions if some may be anything.
 class Trained {
  public:
-  /// free: directions that the data may be off in by any amount, on all rows [n x m].
+  /// free: directions that the data may be off in by any amount, on all rows [n x m]; errors: by a deviation of 1.
+  Trained(const EffectProblem& problem, const MatrixXd& free, const MatrixXd& errors);
   Trained(const EffectProblem& problem, const MatrixXd& free);
   explicit Trained(const EffectProblem& problem);
 
@@ -16,6 +17,11 @@ class Trained {
   const AllowedErrors& allowed() const { return allowed_; }
   /// r'M r of a residual on all rows.
   double misfit(const VectorXd& residual) const;
+  /// The same where data may be off along one more column too, by a deviation of 1, with what that freedom costs: of
+  /// twice the negative logarithm of their probability the part that changes.
+  double misfit(const VectorXd& residual, const VectorXd& error) const;
+  /// That cost: by what factor more the data may vary along the column, as a logarithm.
+  double cost(const VectorXd& error) const;
   /// The same of the data that count as independent ones, of which noise makes as much as there are.
   double counted_misfit(const VectorXd& residual) const;
   /// The amplitudes of the problem's allowed errors that the training part of a residual on all rows shows [k].

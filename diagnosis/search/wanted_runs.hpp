@@ -20,5 +20,7 @@ MatrixXd wanted_runs(const EffectProblem& problem, const SetEvidence& evidence, 
 /// [q x m]; each once. shown: runs that were made.
 MatrixXd wanted_refined(const EffectProblem& problem, const SetEvidence& evidence, const Posterior& posterior,
                         const std::vector<ShownRun>& shown);
+/// Whether a run of a candidate by itself is of a size that the table was made without.
+bool shows_more(const std::vector<ShownRun>& runs, const EffectProblem& problem, const std::vector<ShownRun>& shown);
 
 }  // namespace tether
