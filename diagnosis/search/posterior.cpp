@@ -71,9 +71,12 @@ class Sets {
     const std::vector<Members> singles = best(1, leading);
     for (const Members& one : singles)
       for (const std::size_t c : candidates_) add_beside(one, c);
-    for (const Members& pair : best(2, 3))
-      if (counts(pair))
-        for (const Members& one : singles) add_beside(pair, one.front());
+    for (const Members& pair : best(2, 3)) {
+      if (!counts(pair)) continue;
+      for (const Members& one : singles) add_beside(pair, one.front());
+      for (const std::size_t member : pair)
+        for (const std::size_t c : partners(member)) add_beside(pair, c);
+    }
     Posterior posterior = normalised();
     for (EffectSet& set : posterior.sets) set.by_runs = is_possible(set) && is_near_runs(set.members);
     return posterior;
@@ -167,6 +170,20 @@ class Sets {
     return all;
   }
 
+  /// What is most probable beside a candidate. Where many that look alike lead, what explains the rest does not.
+  Members partners(std::size_t candidate) const {
+    std::vector<Members> pairs;
+    for (const auto& [members, weighed] : sets_)
+      if (members.size() == 2 && (members.front() == candidate || members.back() == candidate))
+        pairs.push_back(members);
+    std::sort(pairs.begin(), pairs.end(),
+              [&](const auto& a, const auto& b) { return sets_.at(a).all() > sets_.at(b).all(); });
+    if (pairs.size() > beside_each) pairs.resize(beside_each);
+    Members all;
+    for (const Members& pair : pairs) all.push_back(pair.front() == candidate ? pair.back() : pair.front());
+    return all;
+  }
+
   Posterior normalised() const {
     double most = -infinite, sum = 0, as_it_is = 0;
     for (const auto& [members, weighed] : sets_) most = std::max(most, weighed.all());
@@ -234,6 +251,7 @@ class Sets {
   }
 
   static constexpr std::size_t leading = 10;  ///< candidates that are looked at with each other
+  static constexpr std::size_t beside_each = 5;
 
   const SetEvidence& evidence_;
   std::vector<double> log_odds_;

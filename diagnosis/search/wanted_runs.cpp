@@ -191,7 +191,7 @@ bool shows_more(const std::vector<ShownRun>& runs, const EffectProblem& problem,
   const SetEvidence evidence(problem, shown);
   return std::any_of(runs.begin(), runs.end(), [&](const ShownRun& run) {
     if ((run.amplitudes.array() != 0).count() != 1 || !run.residual.allFinite()) return false;
-    Index own = 0;
+    Eigen::Index own = 0;
     run.amplitudes.cwiseAbs().maxCoeff(&own);
     for (std::size_t c = 0; c < problem.candidates.size(); ++c)
       if (const auto& all = problem.candidates[c].amplitudes; all.size() == 1 && all.front() == own)
