@@ -246,6 +246,12 @@ TEST_F(SetEvidenceOfTwoModels, TakesTheErrorThatAFinerModelShows) {
   const SetEvidence evidence(p, runs);
   const MatrixXd covariance = errors(p, evidence.discrepancies()[2].size);
   const double deviation = std::pow(2, 1.5) / std::sqrt(3), step = 0.05, wide = 0.2;
+  for (const Index c : {0, 1}) {
+    const auto told = evidence.error_of(static_cast<std::size_t>(c), largest);
+    ASSERT_TRUE(told);
+    const VectorXd is = deviation * shift * does(c, largest).dot(seen) / shown.dot(seen);
+    EXPECT_LT((*told - is).norm(), 1e-9 * is.norm());
+  }
   const auto likely = [&](const VectorXd& does) {
     const VectorXd error = deviation * shift * does.dot(seen) / shown.dot(seen);
     return std::exp(log_density(p.residual - does, covariance + error * error.transpose()));
@@ -405,6 +411,28 @@ TEST(Posterior, CountsWhatTheDataDoNotShow) {
   const double in_catalogue = 1 - outside;
   EXPECT_NEAR(posterior.nothing / in_catalogue, std::pow(1 + odds, -many), 0.01);
   for (const std::size_t c : {0, many - 1}) EXPECT_NEAR(posterior.of(c) / in_catalogue, odds / (1 + odds), 2e-3);
+}
+
+/// Twelve do much the same and each of them leads; beside one of them and a second, a third is there that by itself
+/// explains less than any of them.
+TEST(Posterior, FindsAThirdBesideMuchThatLooksAlike) {
+  EffectProblem p = problem(5);
+  p.candidates.clear();
+  p.amplitudes.clear();
+  p.changes.resize(data, 0);
+  const MatrixXd unit = MatrixXd::Identity(data, data);
+  const auto does = [&](Index k) -> VectorXd { return unit.col(k) + unit.col(k + 1); };
+  constexpr std::size_t alike = 12;
+  for (std::size_t k = 0; k < alike; ++k)
+    add_candidate(p, fmt::format("alike_{}", k), does(0) + 0.02 * static_cast<double>(k) * unit.col(8), false);
+  add_candidate(p, "second", does(3), false);
+  add_candidate(p, "third", does(6), false);
+  p.pattern_deviation *= 1e-6;
+  p.residual = 14 * p.changes.col(0) + 12 * does(3) + 9 * does(6);
+  const Posterior posterior = posterior_of(p, SetEvidence(p, {}), std::vector<bool>(p.candidates.size(), false));
+  EXPECT_GT(posterior.of(alike), 0.95);
+  EXPECT_GT(posterior.of(alike + 1), 0.95);
+  EXPECT_EQ(posterior.sets.front().members.size(), 3U);
 }
 
 /// Of data drawn from the prior itself, what is said with a probability is right as often.
