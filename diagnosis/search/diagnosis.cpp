@@ -231,7 +231,8 @@ DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEff
                              as_many(weighing.shown, report.problem.changes.cols()));
   };
   while (true) {
-    const std::vector<VariedNumber> parts = division.next(report.problem, weighing.weighed);
+    const std::vector<VariedNumber> parts =
+        division.next(report.problem, weighing.weighed, SetEvidence(report.problem, weighing.shown));
     if (parts.empty()) break;
     explore(parts);
   }

@@ -1,6 +1,8 @@
 #include "diagnosis/search/division.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace tether {
 namespace {
@@ -8,6 +10,7 @@ namespace {
 constexpr double probable = 0.2;         ///< of a group
 constexpr std::size_t most_hopeful = 2;  ///< groups, where the catalogue has nothing that explains the data
 constexpr double not_least = 0.1;        ///< share of a group's member
+constexpr double look_alike = 0.5;       ///< squared cosine of two that do much the same
 
 /// What may change along the vessel is asked for in both halves from the start.
 bool is_of_whole_wall(const PlacedEffect& effect) {
@@ -16,6 +19,23 @@ bool is_of_whole_wall(const PlacedEffect& effect) {
 
 std::string last_word(const std::string& name) {
   return name.substr(name.rfind('.') + 1);
+}
+
+/// What does much the same as a candidate of a part would if both acted in all of their place: parts of two look less
+/// alike than a part and the whole of one.
+std::vector<std::size_t> alike_as_wholes(const EffectProblem& problem, const SetEvidence& evidence,
+                                         const Candidate& of_part) {
+  std::vector<std::size_t> wholes;
+  std::optional<std::size_t> own;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+    const Candidate& candidate = problem.candidates[c];
+    if (!candidate.takes_runs() || candidate.part != of_part.part || !candidate.extent.is_all()) continue;
+    wholes.push_back(c);
+    if (candidate.type == of_part.type && candidate.number == of_part.number) own = c;
+  }
+  if (!own) return {};
+  std::erase_if(wholes, [&](std::size_t c) { return std::pow(evidence.cosine(*own, c), 2) <= look_alike; });
+  return wholes;
 }
 
 }  // namespace
@@ -37,7 +57,8 @@ bool Division::divides(const Part& part, const Candidate& candidate) const {
   return part.effect->type == candidate.type && part.effect->part == candidate.part && is_number;
 }
 
-std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Weighed& weighed) {
+std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Weighed& weighed,
+                                         const SetEvidence& evidence) {
   std::vector<VariedNumber> wanted;
   const auto want = [&](const Part& part) {
     if (told_.insert(part.number.number.name).second) wanted.push_back(part.number);
@@ -55,8 +76,8 @@ std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Wei
       if (group.shares[k] < not_least) continue;
       if (member.extent.is_all() && k == 0) want_parts_of(member, nullptr);
       if (member.extent.is_all()) continue;
-      for (const std::size_t other : group.members)
-        if (problem.candidates[other].part == member.part) want_parts_of(problem.candidates[other], &member.extent);
+      for (const std::size_t other : alike_as_wholes(problem, evidence, member))
+        want_parts_of(problem.candidates[other], &member.extent);
     }
   }
   return wanted;

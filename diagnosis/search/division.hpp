@@ -19,9 +19,9 @@ class Division {
   /// of the vessel.
   const std::vector<VariedNumber>& undivided() const { return undivided_; }
   /// Numbers of parts that are worth a run now, each told once: the parts of what leads a probable group; of what does
-  /// the same the part in which that leads. Where something is missing that no candidate is, groups that lead count as
-  /// probable.
-  std::vector<VariedNumber> next(const EffectProblem& problem, const Weighed& weighed);
+  /// the same in all of the place the part in which that leads. Where something is missing that no candidate is, groups
+  /// that lead count as probable.
+  std::vector<VariedNumber> next(const EffectProblem& problem, const Weighed& weighed, const SetEvidence& evidence);
 
  private:
   struct Part {

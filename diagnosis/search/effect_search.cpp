@@ -18,7 +18,6 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double sure = 0.95;       ///< probability of a group
-constexpr double hopeless = 12;     ///< of the misfit, behind the best
 constexpr double the_same = 0.99;   ///< cosine
 constexpr double look_alike = 0.5;  ///< squared cosine of two that do much the same
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
@@ -187,13 +186,6 @@ class Search {
   }
   double now_misfit() const { return plain_.misfit(now_.residual); }
 
-  static void give_up_hopeless(std::vector<Refinement>& all) {
-    double best = infinite;
-    for (const Refinement& one : all) best = std::min(best, one.best());
-    for (Refinement& one : all)
-      if (one.hope() > best + hopeless) one.give_up();
-  }
-
   /// Probability that noise makes the gain of one of so many candidates as large, over all data that name.
   double by_chance(const TestedEffect& effect, const AmplitudeState& state, double dispersion) const {
     const double left = state.errors.cols() > now_.errors.cols()
@@ -272,6 +264,15 @@ class Search {
     naming_ = left_free(naming(problem_), now_.errors);
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
+    std::erase_if(tried_, [&](std::size_t g) { return may_be_beside(result_.weighed.groups[g]); });
+  }
+
+  /// Tried by itself it removed nothing, not enough, or left too much: what was accepted now was missing beside it.
+  bool may_be_beside(const WeighedGroup& group) const {
+    return std::none_of(result_.path.begin(), result_.path.end(), [&](const SearchStep& step) {
+      return group.has(step.candidate) && step.objection != Objection::too_weak &&
+             step.objection != Objection::lack_of_fit_stays;
+    });
   }
 
   /// Members that moments do not tell from the first, of which there are more than were refined: with a run each.
@@ -288,12 +289,6 @@ class Search {
       rival_of_[effect.candidate] = chosen.effect().candidate;
       keep(std::move(effect));
     }
-  }
-
-  /// What explains less together with what was accepted, by as much as rivals may, comes last.
-  static void put_first_what_runs_ask_for(std::vector<const Refinement*>& order) {
-    const double best = smallest_misfit(order);
-    std::stable_partition(order.begin(), order.end(), [&](const auto* one) { return one->best() < best + hopeless; });
   }
 
   /// Whether runs do not say against the table that something else than the group is wanted.

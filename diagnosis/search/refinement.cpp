@@ -171,4 +171,16 @@ double smallest_misfit(const std::vector<const Refinement*>& all) {
   return best;
 }
 
+void give_up_hopeless(std::vector<Refinement>& all) {
+  double best = infinite;
+  for (const Refinement& one : all) best = std::min(best, one.best());
+  for (Refinement& one : all)
+    if (one.hope() > best + hopeless) one.give_up();
+}
+
+void put_first_what_runs_ask_for(std::vector<const Refinement*>& all) {
+  const double best = smallest_misfit(all);
+  std::stable_partition(all.begin(), all.end(), [&](const auto* one) { return one->best() < best + hopeless; });
+}
+
 }  // namespace tether

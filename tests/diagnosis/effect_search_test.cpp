@@ -298,6 +298,27 @@ TEST(EffectSearch, SeesASecondThatTheLackOfFitDoesNotShow) {
   EXPECT_LE(counts(false), 0.02);
 }
 
+/// By itself it would have to be negative, as a coarse mesh beside a hidden spring: what is accepted after it was tried
+/// makes it asked for again.
+TEST(EffectSearch, AsksAgainForWhatRemovesNothingByItself) {
+  const double finds = share(
+      [](std::mt19937_64& generator) {
+        EffectProblem problem = band();
+        problem.changes.col(4) -= 0.6 * problem.changes.col(0);
+        problem.residual = noise(generator) + 9 * problem.changes.col(0) + 5 * problem.changes.col(4);
+        const auto residual_at = linear_residual(problem);
+        Weighing weighing = weighed_fully(problem, {}, residual_at);
+        std::stable_partition(weighing.weighed.groups.begin(), weighing.weighed.groups.end(),
+                              [](const WeighedGroup& group) { return group.has(4); });
+        for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
+          weighing.shown.push_back(run);  // so that nothing is weighed again, in another order
+        const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+        return effect_of(result, 0).accepted && effect_of(result, 4).accepted;
+      },
+      20);
+  EXPECT_GT(finds, 0.9);
+}
+
 /// As explain looks again beside an effect that was identified.
 TEST(EffectSearch, StillTestsWhereEnoughIsExplained) {
   EffectProblem problem = band();

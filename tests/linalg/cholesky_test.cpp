@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "common/linalg/blas_kernels.hpp"
 #include "tests/io/less_memory.hpp"
+#include "tests/sanitizers/built_with.hpp"
 
 namespace tether {
 namespace {
@@ -91,9 +92,7 @@ TEST(Blas, UsesWhatTheProcessorOffers) {
 /// Where there is no memory for its buffer OpenBLAS would ask for it without end. In a process of its own, which runs
 /// suites of this name before others: one that has the buffer keeps it.
 TEST(BlasDeathTest, IsRefusedWhereItsBufferDoesNotFit) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer takes more address space than can be limited";
-#endif
+  if (with_address_sanitizer) GTEST_SKIP() << "the sanitizer takes more address space than can be limited";
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto prepare = [] {
     const LessMemory less(std::size_t{64} << 20);

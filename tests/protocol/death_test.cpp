@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "tests/protocol/run_job.hpp"
+#include "tests/sanitizers/built_with.hpp"
 
 /// Whatever dies, whenever, however the job was started: one message, an end of its own accord, no process left.
 /// (How soon: benchmarks/failure.)
@@ -43,16 +44,10 @@ std::string without_details(const std::string& text) {
   return result;
 }
 
-#ifdef __SANITIZE_THREAD__
-constexpr bool ends_slowly = true;
-#else
-constexpr bool ends_slowly = false;
-#endif
-
 /// mpirun's exit code is that of whom it sees end first: the master, or the partner that it killed. A master that ends
 /// slowly (under the thread sanitizer) may be the second; the front-end does not go by it.
 void expect_exit_code(const JobResult& job, int expected, Start start) {
-  if (ends_slowly && start != Start::alone && job.exit_code == 137) return;
+  if (with_thread_sanitizer && start != Start::alone && job.exit_code == 137) return;
   EXPECT_EQ(job.exit_code, expected) << job.errors;
 }
 

@@ -4,6 +4,7 @@
 
 #include "tests/io/temporary_folder.hpp"
 #include "tests/protocol/run_job.hpp"
+#include "tests/sanitizers/built_with.hpp"
 
 /// Codes in C and Python take the place of ours: the examples of docs/protocol.md, as they stand there.
 namespace tether::tests {
@@ -65,9 +66,7 @@ void expect_fits_our_blood() {
 class ForeignPython : public ::testing::Test {
  protected:
   void SetUp() override {
-#ifdef __SANITIZE_THREAD__
-    GTEST_SKIP() << "Python cannot load a library compiled with the thread sanitizer";
-#endif
+    if (with_thread_sanitizer) GTEST_SKIP() << "Python cannot load a library compiled with the thread sanitizer";
   }
 };
 

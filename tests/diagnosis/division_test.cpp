@@ -1,0 +1,77 @@
+/// Which parts of places are worth a run, on a linear system.
+#include "diagnosis/search/division.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+
+#include "tests/diagnosis/band.hpp"
+
+namespace tether {
+namespace effect_search_test {
+
+/// Springs and a stiffening in all of the spine, a ring elsewhere on it that does something else, and the stiffening in
+/// its outlet half, which leads.
+class PartsOfASpine : public ::testing::Test {
+ protected:
+  PartsOfASpine() {
+    place("visco_elastic", "stiffness", response(0, 12, beat), {});
+    place("stiffening", "cubic", response(0, 12, [](int m) { return beat(m) * beat(m); }), {});
+    place("damper", "damping", response(0, 12, [](int m) { return std::sin(2 * std::numbers::pi * m / moments); }), {});
+    place("stiffening", "cubic", response(0, 2.5, [](int m) { return beat(m) * beat(m); }), outlet);
+    problem_.residual = 5 * problem_.changes.rightCols(1);
+    for (const Extent& extent : {inlet, outlet})
+      for (const auto& [type, number] : std::map<std::string, std::string>{
+               {"visco_elastic", "stiffness"}, {"stiffening", "cubic"}, {"damper", "damping"}}) {
+        const std::string path = "solid.effects." + type + (extent == inlet ? "_inlet" : "_outlet");
+        effects_.push_back({path, type, "spine", "", true, {}, {}, extent, "cm"});
+        numbers_.push_back({{path + "." + number, "", "1", ""}, 1});
+      }
+  }
+
+  void place(const std::string& type, const std::string& number, const VectorXd& change, const Extent& extent) {
+    add_candidate(problem_, type, change);
+    Candidate& added = problem_.candidates.back();
+    added.type = type, added.part = "spine", added.number = number, added.extent = extent;
+  }
+
+  const Extent inlet{0, 0.5}, outlet{0.5, 1};
+  EffectProblem problem_ = band();
+  std::vector<PlacedEffect> effects_;
+  std::vector<VariedNumber> numbers_;
+};
+
+/// The half of a spring looks less like the half of a stiffening that leads than the group asks for: it is run, as the
+/// one may be the other. Nothing is asked of what does something else, and each is asked for once.
+TEST_F(PartsOfASpine, AreAskedForOfWhatDoesTheSameInAllOfIt) {
+  const SetEvidence evidence(problem_, {});
+  const std::size_t half = problem_.candidates.size() - 1, spring = half - 3, damper = half - 1;
+  ASSERT_GT(std::pow(evidence.cosine(half - 2, spring), 2), 0.5);
+  ASSERT_LT(std::pow(evidence.cosine(half, spring), 2), 0.5) << "in one group with it, it would be asked for anyway";
+  ASSERT_LT(std::pow(evidence.cosine(half - 2, damper), 2), 0.5);
+
+  Division division(effects_, numbers_);
+  EXPECT_TRUE(division.undivided().empty());
+  Weighed weighed;
+  weighed.groups.push_back({0.99, 0.99, {half}, {1.0}, {5.0}, {true}, {}, {}});
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const VariedNumber& number : division.next(problem_, weighed, evidence)) all.push_back(number.number.name);
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  EXPECT_EQ(names(), (std::vector<std::string>{"solid.effects.stiffening_outlet.cubic",
+                                               "solid.effects.visco_elastic_outlet.stiffness"}));
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(PartsOfASpine, AreAskedForOfWhatLeadsInAllOfIt) {
+  Division division(effects_, numbers_);
+  Weighed weighed;
+  weighed.groups.push_back({0.99, 0.99, {problem_.candidates.size() - 4}, {1.0}, {5.0}, {true}, {}, {}});
+  EXPECT_EQ(division.next(problem_, weighed, SetEvidence(problem_, {})).size(), 2U);
+}
+
+}  // namespace effect_search_test
+}  // namespace tether
