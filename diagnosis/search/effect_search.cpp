@@ -186,13 +186,15 @@ class Search {
   }
   double now_misfit() const { return plain_.misfit(now_.residual); }
 
-  /// Probability that noise makes the gain of one of so many candidates as large, over all data that name.
+  /// Probability that noise makes the gain of one of so many candidates as large, over all data that name. What those
+  /// accepted before remove by other sizes of their own is no gain of this one.
   double by_chance(const TestedEffect& effect, const AmplitudeState& state, double dispersion) const {
     const double left = state.errors.cols() > now_.errors.cols()
                             ? naming_.misfit(state.residual, state.errors.rightCols(1).col(0))
                             : naming_.misfit(state.residual);
-    const double gain = naming_.misfit(now_.residual) - left;
-    return static_cast<double>(problem_.candidates.size()) * chance_of(problem_, effect.candidate, gain / dispersion);
+    const double before = Trained(naming(problem_), now_.changes, now_.errors).misfit(now_.residual);
+    return static_cast<double>(problem_.candidates.size()) *
+           chance_of(problem_, effect.candidate, (before - left) / dispersion);
   }
 
   /// By data that are held out, or by each moment that the others foretell; where neither can be asked it stands.

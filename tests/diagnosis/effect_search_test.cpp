@@ -319,6 +319,34 @@ TEST(EffectSearch, AsksAgainForWhatRemovesNothingByItself) {
   EXPECT_GT(finds, 0.9);
 }
 
+/// The first effect saturates, and stays beside its best size with one run; beside a second one, which does nothing, it
+/// comes there.
+TEST(EffectSearch, WhatTheFirstGainsBesideASecondIsNoReasonToNameThat) {
+  std::mt19937_64 generator(37);
+  EffectProblem problem = band();
+  const auto saturating = [](double a) { return a / (1 + a / 12); };
+  const VectorXd errors = noise(generator);
+  problem.residual = errors + saturating(12) * problem.changes.col(0);
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all(problem.residual.size(), amplitudes.cols());
+    for (Index k = 0; k < all.cols(); ++k)
+      all.col(k) = problem.residual - saturating(amplitudes(0, k)) * problem.changes.col(0);
+    return all;
+  };
+  SearchSettings settings;
+  settings.refinements = 1;
+  Weighing weighing = weighed_fully(problem, settings, runs);
+  ASSERT_TRUE(weighing.weighed.groups.front().has(0));
+  weighing.weighed.groups.front().amplitudes.front() = 6;  // by another run of it
+  weighing.weighed.groups.push_back({1, 1, {6}, {1.0}, {0.1}, {true}, {}, {}});
+  for (const ShownRun& run : search_effects(problem, settings, runs, weighing).runs) weighing.shown.push_back(run);
+  const SearchResult result = search_effects(problem, settings, runs, weighing);
+  ASSERT_TRUE(effect_of(result, 0).accepted);
+  EXPECT_FALSE(effect_of(result, 6).accepted);
+  EXPECT_EQ(result.path.back().candidate, 6U);
+  EXPECT_EQ(result.path.back().objection, Objection::too_weak);
+}
+
 /// As explain looks again beside an effect that was identified.
 TEST(EffectSearch, StillTestsWhereEnoughIsExplained) {
   EffectProblem problem = band();

@@ -11,11 +11,17 @@ def covariance(places, shape, deviation, length):
     return deviation**2 * ((1 - NUGGET) * SHAPES[shape](apart / length) + NUGGET * np.eye(len(places)))
 
 
+def rest(patterns, nuisances, factor):
+    """What nuisances of any size leave of a frame's patterns, in deviations [n x k]. factor: lower, of the covariance."""
+    white = np.linalg.solve(factor, np.c_[nuisances, patterns])
+    columns = np.linalg.qr(white[:, : nuisances.shape[1]])[0]
+    of_patterns = white[:, nuisances.shape[1] :]
+    return of_patterns - columns @ (columns.T @ of_patterns)
+
+
 def left(pattern, nuisances, factor):
-    """z^2 of a frame's pattern beside nuisances of any size. factor: lower, of the covariance."""
-    white = np.linalg.solve(factor, np.c_[nuisances, pattern])
-    columns = np.linalg.qr(white[:, :-1])[0]
-    return np.sum((white[:, -1] - columns @ (columns.T @ white[:, -1])) ** 2)
+    """z^2 of a frame's pattern beside nuisances of any size."""
+    return np.sum(rest(pattern, nuisances, factor) ** 2)
 
 
 def of_frames(normal, along):
