@@ -10,6 +10,9 @@ namespace tether {
 namespace {
 
 constexpr int least_around = 12, least_along = 8;
+/// Residual at which a step is coupled: it leaves out 4e-6 of what an effect does, and a quarter of the evaluations
+/// (decision 93).
+constexpr double coupled_to = 1e-4;
 
 /// Half as many, but not fewer than a tube needs to be one; even. As many as there are where that is hardly fewer: what
 /// they differ by then would say nothing of what is left.
@@ -41,6 +44,9 @@ std::filesystem::path write_coarse(const std::filesystem::path& candidates, cons
     values.push_back({"mesh.swept.around", std::to_string(halved(given.mesh.swept.around, least_around))});
     values.push_back({"mesh.swept.along", std::to_string(halved(given.mesh.swept.along, least_along))});
   }
+  const std::string tolerance = given.file.given("coupling.tolerance");
+  if (tolerance.empty() || std::stod(tolerance) < coupled_to)
+    values.push_back({"coupling.tolerance", number_text(coupled_to)});
   write_overlay(file, {candidates, common.name + "_coarse", common.title + ", coarser", values});
   return file;
 }

@@ -8,8 +8,9 @@
 
 namespace tether {
 
-/// Writes the case of all candidates with a step twice as long, and of a swept mesh fewer elements around and along,
-/// beside it: what each number does to first order is much the same, at a fraction of the cost.
+/// Writes the case of all candidates with a step twice as long, coupled less exactly, and of a swept mesh fewer
+/// elements around and along, beside it: what each number does to first order is much the same, at a fraction of the
+/// cost.
 std::filesystem::path write_coarse(const std::filesystem::path& candidates, const DiagnosedCase& given);
 
 /// How many times as coarse that model is.

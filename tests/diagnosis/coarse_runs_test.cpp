@@ -12,14 +12,15 @@ class CoarseCase : public ::testing::Test {
  protected:
   CoarseCase() { write_file("pressure.csv", "time [s],value [mmHg]\n0,80\n0.4,120\n0.8,80\n"); }
   /// What the coarser case says otherwise, by field.
-  std::map<std::string, double> of(const std::string& time) const {
+  std::map<std::string, double> of(const std::string& time, const std::string& more = "") const {
     const auto path =
         write_file("case.yaml", "name: tube\nunits: cgs\ntime: " + time +
                                     "\nmesh: {source: swept, swept: {radius: 1, length: 4, wall_thickness: 0.2, "
                                     "around: 32, along: 20, regions: "
                                     "{wall: {}}}}\nobservations: {traces: {cuff: {observable: fluid.outlet.pressure, "
                                     "quantity: pressure, curve: "
-                                    "{file: pressure.csv}, noise: {deviation: 1 mmHg, correlation_time: 0.02}}}}\n");
+                                    "{file: pressure.csv}, noise: {deviation: 1 mmHg, correlation_time: 0.02}}}}\n" +
+                                    more);
     const auto candidates = write_file("candidates.yaml", "base: case.yaml\nname: tube_candidates\n");
     std::map<std::string, double> values;
     for (const Overlay::Value& value : values_of_overlay(write_coarse(candidates, DiagnosedCase(path))))
@@ -34,6 +35,13 @@ TEST_F(CoarseCase, HasTwiceTheStepAndHalfTheElements) {
   EXPECT_EQ(values.at("mesh.swept.around"), 16);
   EXPECT_EQ(values.at("mesh.swept.along"), 10);
   EXPECT_FALSE(values.contains("time.end"));
+}
+
+TEST_F(CoarseCase, IsCoupledLessExactlyUnlessTheModelIs) {
+  const std::string time = "{step: 2e-3, end: 0.8}";
+  EXPECT_DOUBLE_EQ(of(time).at("coupling.tolerance"), 1e-4);
+  EXPECT_DOUBLE_EQ(of(time, "coupling: {tolerance: 1e-6}\n").at("coupling.tolerance"), 1e-4);
+  EXPECT_FALSE(of(time, "coupling: {tolerance: 1e-3}\n").contains("coupling.tolerance"));
 }
 
 /// 207 steps of 4 ms end at 0.828 s, and a frame may lie there.
