@@ -71,8 +71,8 @@ inline EffectProblem band(bool naive = false) {
       (m % 3 == 2 ? problem.held_out : problem.training).push_back(m * places + i);
     }
   problem.pattern_deviation = VectorXd::Constant(regions * moments, 0.25);
-  for (int b = 0; b < regions * moments; ++b)
-    problem.pattern_names.push_back({std::to_string(b % regions), static_cast<double>(b / regions)});
+  for (int m = 0; m < moments; ++m)
+    for (int r = 0; r < regions; ++r) problem.pattern_names.push_back({std::to_string(r), static_cast<double>(m)});
   for (int r = 0; r < regions; ++r) {
     add_candidate(problem, "spring_" + std::to_string(r), response(r, 8, beat));
     add_candidate(problem, "mass_" + std::to_string(r),
