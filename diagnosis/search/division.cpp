@@ -21,8 +21,8 @@ std::string last_word(const std::string& name) {
   return name.substr(name.rfind('.') + 1);
 }
 
-/// What does much the same as a candidate of a part would if both acted in all of their place: parts of two look less
-/// alike than a part and the whole of one.
+/// What does much the same as a candidate of a part would if both acted in all of their place. Beside a part that
+/// explains the data the wholes of others are improbable, and in no group; their parts need not be.
 std::vector<std::size_t> alike_as_wholes(const EffectProblem& problem, const SetEvidence& evidence,
                                          const Candidate& of_part) {
   std::vector<std::size_t> wholes;

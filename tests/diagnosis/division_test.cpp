@@ -11,8 +11,8 @@
 namespace tether {
 namespace effect_search_test {
 
-/// Springs and a stiffening in all of the spine, a ring elsewhere on it that does something else, and the stiffening in
-/// its outlet half, which leads.
+/// A spring and a stiffening in all of the spine, a damper that does something else, and the stiffening in its outlet
+/// half, which leads.
 class PartsOfASpine : public ::testing::Test {
  protected:
   PartsOfASpine() {
@@ -42,8 +42,8 @@ class PartsOfASpine : public ::testing::Test {
   std::vector<VariedNumber> numbers_;
 };
 
-/// The half of a spring looks less like the half of a stiffening that leads than the group asks for: it is run, as the
-/// one may be the other. Nothing is asked of what does something else, and each is asked for once.
+/// The spring is improbable as a whole, and looks little like the half that leads: in no group with it. Its half may be
+/// what leads, and is run. Nothing is asked of what does something else, and each is asked for once.
 TEST_F(PartsOfASpine, AreAskedForOfWhatDoesTheSameInAllOfIt) {
   const SetEvidence evidence(problem_, {});
   const std::size_t half = problem_.candidates.size() - 1, spring = half - 3, damper = half - 1;
