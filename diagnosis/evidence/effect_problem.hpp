@@ -60,6 +60,10 @@ struct Candidate {
   bool takes_runs() const { return kind == Kind::effect || kind == Kind::input; }
 };
 
+/// Squared cosine of what two candidates do above which they do much the same: one leaves less than half of the square
+/// of what the other does.
+constexpr double look_alike = 0.5;
+
 /// Whether one candidate is a special shape of the other at the same place, as normal_visco_elastic is a visco_elastic
 /// support, or the same in a part of its place. Which of the two it is is no other verdict.
 bool is_variant(const Candidate& one, const Candidate& other);

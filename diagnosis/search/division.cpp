@@ -10,7 +10,6 @@ namespace {
 constexpr double probable = 0.2;         ///< of a group
 constexpr std::size_t most_hopeful = 2;  ///< groups, where the catalogue has nothing that explains the data
 constexpr double not_least = 0.1;        ///< share of a group's member
-constexpr double look_alike = 0.5;       ///< squared cosine of two that do much the same
 
 /// What may change along the vessel is asked for in both halves from the start.
 bool is_of_whole_wall(const PlacedEffect& effect) {

@@ -19,7 +19,6 @@ using Index = Eigen::Index;
 
 constexpr double sure = 0.95;       ///< probability of a group
 constexpr double the_same = 0.99;   ///< cosine
-constexpr double look_alike = 0.5;  ///< squared cosine of two that do much the same
 constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
 constexpr double even = 0.5;        ///< probability of a group that is tried
 /// Share of a group's member that is named alone: 95 % though logarithms of evidence are off by 1, as between runs.

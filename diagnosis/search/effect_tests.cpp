@@ -234,7 +234,7 @@ void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem
     for (TestedEffect* other : order) {
       if (other == first || other->group >= 0 || other->accepted) continue;
       const double c = cosine(problem, scores, *first, *other);
-      if (rival_of[other->candidate] != first->candidate && (c * c <= 0.5 || first->gain * (1 - c * c) >= tells))
+      if (rival_of[other->candidate] != first->candidate && (c * c <= look_alike || first->gain * (1 - c * c) >= tells))
         continue;
       other->group = groups;
       other->cosine = c;

@@ -13,7 +13,6 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double still_possible = 3.5;  ///< logarithm of evidence, as where runs are wanted (wanted_runs.cpp)
-constexpr double alike = 0.5;           ///< squared cosine of two that do much the same
 constexpr double much = 0.5;            ///< probability of a group; share of a patch
 constexpr std::size_t most_told = 30;   ///< patches
 constexpr Index around = 6;
@@ -45,7 +44,7 @@ double evidence_of(std::size_t candidate, const std::vector<std::size_t>& leadin
   for (std::size_t subset = 0; subset < std::size_t{1} << leading.size(); ++subset) {
     std::vector<std::size_t> members{candidate};
     for (std::size_t k = 0; k < leading.size(); ++k)
-      if ((subset >> k & 1) != 0 && std::pow(evidence.cosine(candidate, leading[k]), 2) < alike)
+      if ((subset >> k & 1) != 0 && std::pow(evidence.cosine(candidate, leading[k]), 2) < look_alike)
         members.push_back(leading[k]);
     most = std::max(most, evidence.fit(members, 0).log_evidence);
   }

@@ -52,7 +52,6 @@ std::vector<double> log_odds(const EffectProblem& problem) {
 }
 
 constexpr double improbable = 7;  ///< logarithm of odds
-constexpr double alike = 0.5;     ///< squared cosine of two that do much the same
 constexpr double about = 1.5;     ///< factor within which a run tells what an amplitude does
 
 class Sets {
@@ -133,7 +132,7 @@ class Sets {
 
   void add_beside(Members members, std::size_t candidate) {
     const auto does_the_same = [&](std::size_t c) {
-      return c == candidate || std::pow(evidence_.cosine(c, candidate), 2) > alike;
+      return c == candidate || std::pow(evidence_.cosine(c, candidate), 2) > look_alike;
     };
     if (std::any_of(members.begin(), members.end(), does_the_same)) return;
     members.push_back(candidate);
@@ -277,7 +276,7 @@ std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const Posterior
   std::vector<WeighedGroup> groups;
   for (const std::size_t c : order) {
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const WeighedGroup& group) {
-      return std::pow(evidence.cosine(group.members.front(), c), 2) > alike;
+      return std::pow(evidence.cosine(group.members.front(), c), 2) > look_alike;
     });
     (same == groups.end() ? groups.emplace_back() : *same).members.push_back(c);
   }
@@ -348,7 +347,7 @@ void compare_moments(WeighedGroup& group, const Compared& of, const EffectSet& b
   group.as_good.assign(group.members.size(), false);
   for (std::size_t c = 0; c < of.problem.candidates.size(); ++c) {
     if (c == first || of.posterior.left_out[c] || !of.problem.candidates[c].takes_runs() ||
-        std::pow(evidence.cosine(first, c), 2) <= alike || best.has(c))
+        std::pow(evidence.cosine(first, c), 2) <= look_alike || best.has(c))
       continue;
     Members instead = best.members;
     std::replace(instead.begin(), instead.end(), first, c);

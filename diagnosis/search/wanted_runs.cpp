@@ -119,7 +119,7 @@ class Wanted {
     std::vector<Alternative> all;
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
       const double alike = std::pow(evidence_.cosine(c, member), 2);
-      if (alike <= 0.5 || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
+      if (alike <= look_alike || std::count(set.members.begin(), set.members.end(), c) > 0) continue;
       with.back() = c;
       const SetFit fit = evidence_.fit(with, 0);
       const double gain = fit.log_evidence - without, hope = gain + wrong * gain;

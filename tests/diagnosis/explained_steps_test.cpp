@@ -1,5 +1,6 @@
 #include "diagnosis/explanation/explained_steps.hpp"
 
+#include "common/base/error.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace tether {

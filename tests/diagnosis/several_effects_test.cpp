@@ -1,0 +1,205 @@
+/// The search where more than one effect is missing, on a linear system.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "diagnosis/search/effect_search.hpp"
+#include "tests/diagnosis/band.hpp"
+
+namespace tether {
+namespace effect_search_test {
+
+/// The amplitude of the first, found alone, has taken in some of the second: both are refitted.
+TEST(EffectSearch, RefitsWhatWasAcceptedBefore) {
+  EffectProblem problem = band();
+  add_candidate(problem, "late", response(2, 12, [](int m) { return m > 7 ? 1.0 : 0.0; }));
+  int within = 0;
+  const double both = share(
+      [&](std::mt19937_64& generator) {
+        problem.residual = noise(generator) + 8 * problem.changes.col(4) + 8 * problem.changes.col(8);
+        const SearchResult result = found(problem);
+        within += std::abs(result.amplitudes(4) - 8) < 3 ? 1 : 0;
+        return result.verdict == Verdict::missing && result.path.size() == 2 && result.effects[1].accepted;
+      },
+      50);
+  EXPECT_GE(both, 0.80);
+  EXPECT_GE(within, 40);
+}
+
+/// A strong spring in region 0 and one in region 2 that hardly shows: what is left beside the first passes for noise in
+/// the patterns of the whole.
+TEST(EffectSearch, SeesASecondThatTheLackOfFitDoesNotShow) {
+  const EffectProblem given = band();
+  const auto counts = [&](bool hidden) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = given;
+          problem.residual = noise(generator) + 12 * problem.changes.col(0);
+          if (hidden) problem.residual += 2.2 * problem.changes.col(4);
+          const SearchResult result = found(problem);
+          return result.path.size() == 2 && result.path.back().accepted();
+        },
+        100);
+  };
+  EXPECT_GT(counts(true), 0.6);
+  EXPECT_LE(counts(false), 0.02);
+}
+
+/// By itself it would have to be negative, as a coarse mesh beside a hidden spring: what is accepted after it was tried
+/// makes it asked for again.
+TEST(EffectSearch, AsksAgainForWhatRemovesNothingByItself) {
+  const double finds = share(
+      [](std::mt19937_64& generator) {
+        EffectProblem problem = band();
+        problem.changes.col(4) -= 0.6 * problem.changes.col(0);
+        problem.residual = noise(generator) + 9 * problem.changes.col(0) + 5 * problem.changes.col(4);
+        const auto residual_at = linear_residual(problem);
+        Weighing weighing = weighed_fully(problem, {}, residual_at);
+        std::stable_partition(weighing.weighed.groups.begin(), weighing.weighed.groups.end(),
+                              [](const WeighedGroup& group) { return group.has(4); });
+        for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
+          weighing.shown.push_back(run);  // so that nothing is weighed again, in another order
+        const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+        return effect_of(result, 0).accepted && effect_of(result, 4).accepted;
+      },
+      20);
+  EXPECT_GT(finds, 0.9);
+}
+
+/// The first effect saturates, and stays beside its best size with one run; beside a second one, which does nothing, it
+/// comes there.
+TEST(EffectSearch, WhatTheFirstGainsBesideASecondIsNoReasonToNameThat) {
+  std::mt19937_64 generator(37);
+  EffectProblem problem = band();
+  const auto saturating = [](double a) { return a / (1 + a / 12); };
+  const VectorXd errors = noise(generator);
+  problem.residual = errors + saturating(12) * problem.changes.col(0);
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all(problem.residual.size(), amplitudes.cols());
+    for (Index k = 0; k < all.cols(); ++k)
+      all.col(k) = problem.residual - saturating(amplitudes(0, k)) * problem.changes.col(0);
+    return all;
+  };
+  SearchSettings settings;
+  settings.refinements = 1;
+  Weighing weighing = weighed_fully(problem, settings, runs);
+  ASSERT_TRUE(weighing.weighed.groups.front().has(0));
+  weighing.weighed.groups.front().amplitudes.front() = 6;  // by another run of it
+  weighing.weighed.groups.push_back({1, 1, {6}, {1.0}, {0.1}, {true}, {}, {}});
+  for (const ShownRun& run : search_effects(problem, settings, runs, weighing).runs) weighing.shown.push_back(run);
+  const SearchResult result = search_effects(problem, settings, runs, weighing);
+  ASSERT_TRUE(effect_of(result, 0).accepted);
+  EXPECT_FALSE(effect_of(result, 6).accepted);
+  EXPECT_EQ(result.path.back().candidate, 6U);
+  EXPECT_EQ(result.path.back().objection, Objection::too_weak);
+}
+
+/// As explain looks again beside an effect that was identified.
+TEST(EffectSearch, StillTestsWhereEnoughIsExplained) {
+  EffectProblem problem = band();
+  const auto finds = [&](double amplitude) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          problem.residual = noise(generator) + amplitude * problem.changes.col(4);
+          SearchSettings settings;
+          settings.enough = infinite;
+          return found(problem, settings).verdict == Verdict::missing;
+        },
+        100);
+  };
+  EXPECT_GT(finds(3), 0.6);
+  EXPECT_LE(finds(0), 0.02);
+}
+
+TEST(EffectSearch, SaysThatMoreIsWantedIfItMayAddOneOnly) {
+  std::mt19937_64 generator(13);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 5 * problem.changes.col(0) + 5 * problem.changes.col(6);
+  SearchSettings settings;
+  settings.most = 1;
+  const SearchResult one = found(problem, settings);
+  EXPECT_NE(one.verdict, Verdict::not_in_catalogue);
+  EXPECT_TRUE(one.more);
+  EXPECT_FALSE(found(problem).more);
+}
+
+/// Beside the first effect the second does nothing at a third of the places where it does by itself: the sum of what
+/// each does alone is right with another candidate, which is none by runs of both.
+TEST(EffectSearch, RunsOfBothDecideWhatTheSumOfBothDoesNotTell) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  const auto two_thirds = [&](const VectorXd& whole) {
+    VectorXd part = whole;
+    for (Index i = 0, seen = 0; i < part.size(); ++i)
+      if (part(i) != 0 && seen++ % 3 == 0) part(i) = 0;
+    return part;
+  };
+  const VectorXd second = problem.changes.col(2), part = two_thirds(second);
+  add_candidate(problem, "part", part);
+  problem.residual = noise(generator) + 12 * problem.changes.col(6) + 8 * part;
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all = linear_residual(problem)(amplitudes);
+    for (Index k = 0; k < all.cols(); ++k)
+      if (amplitudes(6, k) != 0) all.col(k) += amplitudes(2, k) * (second - part) + amplitudes(8, k) * part;
+    return all;
+  };
+  const SearchResult result = search_effects(problem, {}, runs);
+  const auto has_part = std::find_if(result.weighed.groups.begin(), result.weighed.groups.end(),
+                                     [](const WeighedGroup& one) { return one.has(8); });
+  ASSERT_NE(has_part, result.weighed.groups.end());
+  EXPECT_GT(has_part->probability, 0.95) << "by the sum of what each does alone";
+  EXPECT_TRUE(effect_of(result, 6).accepted);
+  EXPECT_TRUE(effect_of(result, 2).accepted);
+  EXPECT_FALSE(effect_of(result, 8).accepted);
+  EXPECT_FALSE(effect_of(result, 8).rival);
+  EXPECT_NEAR(effect_of(result, 2).amplitudes(0), 8, 1.5);
+}
+
+/// A look-alike that does something else by itself, and the same beside a second effect: runs of both decide.
+TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  add_candidate(problem, "other", problem.changes.col(2));
+  problem.residual = noise(generator) + 8 * problem.changes.col(6) + 5 * problem.changes.col(2);
+  const VectorXd bend = 0.35 * response(1, 3, beat);
+  const ResidualAt runs = [&](const MatrixXd& amplitudes) {
+    MatrixXd all = linear_residual(problem)(amplitudes);
+    for (Index k = 0; k < all.cols(); ++k)
+      if (amplitudes(6, k) == 0) all.col(k) += amplitudes(8, k) * bend;
+    return all;
+  };
+  const SearchResult result = search_effects(problem, {}, runs);
+  const WeighedGroup& group = *std::find_if(result.weighed.groups.begin(), result.weighed.groups.end(),
+                                            [](const WeighedGroup& one) { return one.has(2); });
+  ASSERT_EQ(group.members, (std::vector<std::size_t>{2, 8}));
+  EXPECT_GE(group.shares[0], 0.98) << "by what each does alone";
+  EXPECT_TRUE(effect_of(result, 2).accepted);
+  EXPECT_TRUE(effect_of(result, 6).accepted);
+  EXPECT_TRUE(effect_of(result, 8).rival);
+  EXPECT_EQ(result.verdict, Verdict::ambiguous);
+}
+
+/// Beside the first effect the table asks for a second one, which is refused; what explains less is no stand-in for it.
+TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  add_candidate(problem, "other", 0.75 * problem.changes.col(2) + 0.7 * problem.changes.col(1));
+  problem.residual =
+      noise(generator) + 12 * problem.changes.col(6) + 2.4 * problem.changes.col(2) + 0.6 * problem.changes.col(1);
+  const SearchResult free = found(problem);
+  ASSERT_TRUE(effect_of(free, 2).accepted);
+  EXPECT_FALSE(effect_of(free, 8).rival);
+  EXPECT_EQ(free.verdict, Verdict::missing);
+  problem.amplitudes[2].upper = 2;
+  const SearchResult result = found(problem);
+  ASSERT_EQ(result.weighed.groups.size() > 1 ? result.weighed.groups[1].members : std::vector<std::size_t>{},
+            std::vector<std::size_t>{2});
+  EXPECT_GT(result.weighed.groups[1].probability, 0.95);
+  EXPECT_TRUE(effect_of(result, 6).accepted);
+  EXPECT_FALSE(effect_of(result, 8).accepted);
+  EXPECT_EQ(result.path.back().objection, Objection::beyond_its_limit);
+}
+
+}  // namespace effect_search_test
+}  // namespace tether
