@@ -66,7 +66,7 @@ def identifiability(study, figure):
     folder = study.identified("watched", four("wide", gain=0, **{"identification.observe": "never"}))
     times, of = evolution(folder)
     share = {n: ([d / deviations[0] for d in deviations], [0] * len(times)) for n, (_, deviations) in of.items()}
-    plots.evolutions(figure("figure15"), [("deviation over the prior's", times, share, dict.fromkeys(share, 0))])
+    plots.evolutions(figure("figure15"), [("what the data would leave", times, share, dict.fromkeys(share, 0))], label="deviation over the prior's")
     return {"parameters": found(folder, TRUE_OF_FOUR), **{key: read(folder / "estimate.json")[key] for key in ("correlations", "identifiability")}}
 
 
@@ -84,7 +84,7 @@ def judged(study, name, fields):
     try:
         folder = study.identified(name, fields)
     except Failed as failed:
-        print(failed)
+        study.shop.tell(failed)
         return None
     rows = found(folder, TRUE_OF_FOUR)
     return rows, rms(rows), cost(folder), read(folder / "estimate.json")["innovations"]["chi_square_per_datum"]

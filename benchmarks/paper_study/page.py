@@ -35,7 +35,11 @@ def whole(size, study, parts, missing):
         f"Data: ten frames {FRAME_APART * 1e3:.1f} ms apart from the first of the beat on, voxels of {' x '.join(map(str, study.size.voxel))} mm, blurred by 0.4 mm, segmented, with errors of {NOISE} that are alike over 5 mm; nine others, half way between them, judge: nothing is fitted to them. "
         f"The paper's noise is about 1 mm, but its weight `w` takes a frame for 180 cm2 x 180 independent errors per cm2 (32,400); by their correlation length they are 115 here ([K.5](../../docs/equations.md#k-identification)).\n\n"
         f"One beat of 0.8955 s from the imaged state, whose outlets begin in their periodic state. Cost of what is on this page: {shop.cpu_seconds():.0f} CPU s of all processes, on a machine that others used as well; {shop.cpu_seconds() / 120:.0f} minutes of two cores.\n" +
-        (f"\nNot made yet in this size: {', '.join(missing)}, and rows that are absent below.\n" if missing else "") + "".join(parts.values()))
+        (f"\nNot made in this size: {', '.join(missing)}, and rows that are absent below.\n" if missing else "") + broken(shop.broken) + "".join(parts.values()))
+
+
+def broken(steps):
+    return "\nBroke off:\n\n" + "".join(f"- `{step}`: {cause}\n" for step, cause in steps.items()) if steps else ""
 
 
 def found_table(rows):
@@ -64,7 +68,7 @@ def holds(is_so):
 def motion(apparent, clamped):
     if clamped is None:
         return ("\n## Figures 8 and 9: motion, and a model without surroundings\n\n![apparent motion](figure8.png)\n" + by_region({"apparent motion (8)": apparent}) +
-                "The model of figure 9, clamped at its ends with hardly anything behind it (1e3 dyn/cm3), broke off: its wall folds in systole ([decision 107](../../docs/decisions/0107-the-papers-study.md)). The paper's axes end at 4 mm (rms) and 8 mm (largest).\n")
+                "The model of figure 9, clamped at its ends with hardly anything behind it (1e3 dyn/cm3), broke off ([decision 107](../../docs/decisions/0107-the-papers-study.md)). The paper's axes end at 4 mm (rms) and 8 mm (largest).\n")
     ratio = {region: clamped[region][0] / apparent[region][0] for region in ERROR_REGIONS}
     worst = sorted(ratio, key=ratio.get)[-2:]
     return (
@@ -82,7 +86,7 @@ def observer(of):
     return ("\n## Figure 10: the state observer\n\nSupports set by hand, as the paper's; a wrong start is one whose outlets begin 8 mmHg too low, and with them blood and wall.\n\n"
             "".join(f"![{start} start](figure10_{start}.png)\n" for start in ("right", "wrong") if any(s == start for s, _ in of)) +
             table(("start", "gain [1/s]", "data: rms [mm]", "frames between", "largest [mm]"), rows) +
-            "The paper: distances fall in all regions with 3, further with 15 (there with an inlet band masked), and the mesh folds at 30. Here it does not pull in the branches (with 15 1/s their few elements fold after 0.16 s), and does everywhere else. " +
+            "The paper: distances fall in all regions with 3, further with 15 (there with an inlet band masked), and the mesh folds at 30. Here it does not pull in the branches (of the smallest size, whose few elements there fold with 15 1/s), and does everywhere else. " +
             (f"They fall with each gain up to 15: **{holds(falls)}**.\n" if len(of) > 1 else "\n"))
 
 

@@ -13,12 +13,17 @@ def gnuplot(script):
     subprocess.run(["gnuplot"], input=script, text=True, check=True)
 
 
+def quoted(text):
+    """For gnuplot."""
+    return "'" + str(text).replace("'", "''") + "'"
+
+
 def table(rows):
     return "\n".join(" ".join("NaN" if math.isnan(v) else f"{v:.6g}" for v in row) for row in rows)
 
 
 def page_of(file, width, height, columns, rows):
-    return (f"set terminal pngcairo noenhanced size {width},{height} font 'sans,10'\nset output '{file}'\nset grid lc '#dddddd'\nset xtics 0.18\n"
+    return (f"set terminal pngcairo noenhanced size {width},{height} font 'sans,10'\nset output {quoted(file)}\nset grid lc '#dddddd'\nset xtics 0.18\n"
             f"set multiplot layout {rows},{columns}\n")
 
 
@@ -31,20 +36,20 @@ def distances(file, rows):
         script += f"$d{k} << EOD\n{data}\nEOD\n"
         for column, (norm, name) in enumerate((("l2", "L2"), ("linf", "largest"))):
             first = 2 + column * len(SHOWN)
-            lines = ", ".join(f"$d{k} using 1:{first + i} with linespoints lw 1.5 pt 7 ps 0.5 lc rgb '{COLOURS[i]}' title '{region}'" for i, region in enumerate(SHOWN))
-            script += f"set title '{title}: {name} [mm]'\nset yrange [0:{1.3 * top[column]:.3g}]\n{KEY if k == column == 0 else 'unset key'}\nplot {lines}\n"
+            lines = ", ".join(f"$d{k} using 1:{first + i} with linespoints lw 1.5 pt 7 ps 0.5 lc rgb '{COLOURS[i]}' title {quoted(region)}" for i, region in enumerate(SHOWN))
+            script += f"set title {quoted(f'{title}: {name} [mm]')}\nset yrange [0:{1.3 * top[column]:.3g}]\n{KEY if k == column == 0 else 'unset key'}\nplot {lines}\n"
     gnuplot(script + "unset multiplot\n")
 
 
-def evolutions(file, panels):
-    """theta over time with its deviation, a panel for each (title, times, {name: (theta, deviation)}, {name: truth})."""
-    script = page_of(file, 430 * len(panels), 380, len(panels), 1)
+def evolutions(file, panels, label="theta: stiffness = 1e4 2^theta dyn/cm3"):
+    """Numbers over time with their deviations, a panel for each (title, times, {name: (number, deviation)}, {name: truth})."""
+    script = page_of(file, 430 * len(panels), 420, len(panels), 1)
     for k, (title, times, series, truth) in enumerate(panels):
         names = list(series)
         data = table([t, *(v for n in names for v in (series[n][0][i], series[n][1][i]))] for i, t in enumerate(times))
-        script += f"$d{k} << EOD\n{data}\nEOD\nset title '{title}'\nset key bottom left font 'sans,8'\nset xlabel 'time [s]'\nset ylabel 'theta: stiffness = 1e4 2^theta dyn/cm3'\n"
+        script += f"$d{k} << EOD\n{data}\nEOD\nset title {quoted(title)}\nset key outside bottom center horizontal font 'sans,8'\nset xlabel 'time [s]'\nset ylabel {quoted(label)}\n"
         bands = [f"$d{k} using 1:(${2 * i + 2}-${2 * i + 3}):(${2 * i + 2}+${2 * i + 3}) with filledcurves fc rgb '{COLOURS[i]}' fs transparent solid 0.15 notitle" for i in range(len(names))]
-        lines = [f"$d{k} using 1:{2 * i + 2} with lines lw 2 lc rgb '{COLOURS[i]}' title '{n.replace('_', ' ')}'" for i, n in enumerate(names)]
+        lines = [f"$d{k} using 1:{2 * i + 2} with lines lw 2 lc rgb '{COLOURS[i]}' title {quoted(n.replace('_', ' '))}" for i, n in enumerate(names)]
         true = [f"{truth[n]:.5g} with lines dt 2 lc rgb '{COLOURS[i]}' notitle" for i, n in enumerate(names)]
         script += "plot " + ", ".join(bands + true + lines) + "\n"
     gnuplot(script + "unset multiplot\n")
@@ -56,7 +61,7 @@ def curves(file, panels):
     for k, (title, lines) in enumerate(panels):
         for i, (times, values) in enumerate(lines.values()):
             script += f"$d{k}_{i} << EOD\n{table(zip(times, values))}\nEOD\n"
-        script += f"set title '{title}'\nplot " + ", ".join(f"$d{k}_{i} with lines lw 1.5 lc rgb '{COLOURS[i]}' title '{name}'" for i, name in enumerate(lines)) + "\n"
+        script += f"set title {quoted(title)}\nplot " + ", ".join(f"$d{k}_{i} with lines lw 1.5 lc rgb '{COLOURS[i]}' title {quoted(name)}" for i, name in enumerate(lines)) + "\n"
     gnuplot(script + "unset multiplot\n")
 
 
@@ -67,5 +72,5 @@ def outlines(file, panels):
         for i, segments in enumerate(lines.values()):
             data = "\n\n".join(table(segment) for segment in segments)
             script += f"$d{k}_{i} << EOD\n{data}\nEOD\n"
-        script += f"set title '{title}'\nplot " + ", ".join(f"$d{k}_{i} with lines lw 1.5 lc rgb '{COLOURS[i]}' title '{name}'" for i, name in enumerate(lines)) + "\n"
+        script += f"set title {quoted(title)}\nplot " + ", ".join(f"$d{k}_{i} with lines lw 1.5 lc rgb '{COLOURS[i]}' title {quoted(name)}" for i, name in enumerate(lines)) + "\n"
     gnuplot(script + "unset multiplot\n")

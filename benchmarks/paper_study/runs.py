@@ -40,7 +40,7 @@ def clamped(study, figure):
     try:
         found = moments(study.direct("clamped", fields))
     except Failed as failed:
-        print(failed)
+        study.shop.tell(failed)
         return None
     plots.distances(figure("figure9"), [("clamped at its ends", found)])
     return {region: over_beat(found, region) for region in ERROR_REGIONS}

@@ -34,6 +34,14 @@ def children_cpu():
 class Failed(RuntimeError):
     """What a verb said as it failed."""
 
+    def __init__(self, step, message):
+        super().__init__(message)
+        self.step = step
+
+    def cause(self):
+        """Its last line that says something."""
+        return [line for line in str(self).splitlines() if line.strip()][-1].strip()
+
 
 class NotMade(RuntimeError):
     """A step that is not there, where none is to be made."""
@@ -47,6 +55,7 @@ class Workshop:
         self.ledger = folder / "steps"  # a file for each
         self.ledger.mkdir(parents=True, exist_ok=True)
         self.used = []  # names of this study's steps, kept or made
+        self.broken = {}  # the last line that a step said which broke off, by its name
 
     def case(self, name, base, fields):
         """A case that builds on another one; sections as JSON, which YAML reads."""
@@ -66,7 +75,7 @@ class Workshop:
         if before.get("key") == key and before.get("cpu_seconds") is not None and (folder / RESULTS[verb]).exists():
             return folder
         if not self.makes:
-            raise Failed(before["failed"]) if before.get("key") == key and before.get("failed") else NotMade(name)
+            raise Failed(name, before["failed"]) if before.get("key") == key and before.get("failed") else NotMade(name)
         goes_on = verb in RESUMED and before.get("key") == key and any((folder / "checkpoint").glob("*"))
         self._note(name, key=key)
         cpu, begun = children_cpu(), time.time()
@@ -74,7 +83,7 @@ class Workshop:
         done = subprocess.run([PROGRAMS / "tether", verb, case, "--output", folder, *options], capture_output=True, text=True, env={**os.environ, "TETHER_PICTURES": "0"})
         if done.returncode != 0:
             self._note(name, key=key, failed=f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
-            raise Failed(self.step(name)["failed"])
+            raise Failed(name, self.step(name)["failed"])
         self._note(name, key=key, cpu_seconds=children_cpu() - cpu, wall_seconds=time.time() - begun)
         if not self.quiet:
             print(f"{verb} {name}: {self.step(name)['cpu_seconds']:.1f} CPU s", flush=True)
@@ -89,14 +98,21 @@ class Workshop:
         return read(file) if file.exists() else {}
 
     def those_made(self, makers):
-        """Results of functions by key; without those whose steps are not there."""
+        """Results of functions by key; without those whose steps are not there, or broke off."""
         results = {}
         for key, maker in makers.items():
             try:
                 results[key] = maker()
             except NotMade:
                 pass
+            except Failed as failed:
+                self.tell(failed)
         return results
+
+    def tell(self, failed):
+        """A step that broke off is a result, too: the page names it."""
+        self.broken[failed.step] = failed.cause()
+        print(failed, flush=True)
 
     def _note(self, name, **what):
         (self.ledger / f"{name}.json").write_text(json.dumps(what))
