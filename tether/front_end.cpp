@@ -112,9 +112,11 @@ int conform(int argc, char** argv) {
                  "interface fits that of the other code, which gets the same arguments\n";
     return argc == 0 ? exit_input_wrong : exit_done;
   }
-  Command command{{sibling("tether_conform").string()}, {}};
-  command.words.insert(command.words.end(), argv, argv + argc);
-  return run_in_foreground(command).exit_code;
+  return guarded("tether conform", [&] {
+    Command command{{sibling("tether_conform").string()}, {}};
+    command.words.insert(command.words.end(), argv, argv + argc);
+    return run_in_foreground(command).exit_code;
+  });
 }
 
 std::string usage() {

@@ -53,20 +53,6 @@ class Lattice:
         return forces
 
 
-class Inflow:
-    """As Tether reads a curve: linear between its times, again in each period, and risen smoothly from zero."""
-
-    def __init__(self, file, period, scale=1.0, ramp=0.0, **_):
-        times, values = np.loadtxt(file, delimiter=",", comments=("#", "t"), usecols=(0, 1)).T
-        if times[-1] < times[0] + period:
-            times, values = np.append(times, times[0] + period), np.append(values, values[0])
-        self.times, self.values, self.period, self.scale, self.ramp = times, values, period, scale, ramp
-
-    def __call__(self, time):
-        risen = (1 - np.cos(np.pi * min(1.0, time / self.ramp))) / 2 if self.ramp > 0 else 1.0
-        return self.scale * risen * np.interp(self.times[0] + (time - self.times[0]) % self.period, self.times, self.values)
-
-
 class Blood:
     program = "blood_1d 1"
     observables = [("inlet.flow", "cm3/s"), ("outlet.flow", "cm3/s"), ("inlet.pressure", "g/(cm s2)"), ("outlet.pressure", "g/(cm s2)")]
@@ -146,7 +132,7 @@ def of_case():
     numbers = {"density": fluid["density"], "rheology.viscosity": fluid["rheology"]["viscosity"], "distal_pressure": outlet["distal_pressure"],
                **{name: outlet[name.rsplit(".", 1)[1]] for name in PARAMETERS if name.startswith("outlets.")}}
     mesh = fluid.get("mesh", tube)
-    return Blood(Lattice.of_tube(tube["radius"], tube["length"], mesh["around"], mesh["along"]), Inflow(**flow), numbers)
+    return Blood(Lattice.of_tube(tube["radius"], tube["length"], mesh["around"], mesh["along"]), tether.Curve(**flow), numbers)
 
 
 if __name__ == "__main__":

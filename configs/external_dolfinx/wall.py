@@ -185,6 +185,7 @@ class Wall:
             self.constants[name].value = value
 
     def begin_step(self, step, time, dt, predicted):
+        PETSc.garbage_cleanup(self.V.vector.comm)  # vectors that nobody names any more
         self.dt.value = dt
         self.V.x.array[:] = self.u0.x.array  # what a step begins with is known from the state alone
         self.factored = False
@@ -248,13 +249,7 @@ class Wall:
 
     def gathered(self, values, places, count):
         """Of all processes, at the first one."""
-        parts = self.communicator.gather((places, values))
-        if parts is None:
-            return None
-        whole = np.zeros((count, 3))
-        for some, of_them in parts:
-            whole[some] = of_them
-        return whole
+        return tether.gathered(self.communicator, values, places, count)
 
 
 if __name__ == "__main__":

@@ -79,6 +79,14 @@ class BesideOurs(unittest.TestCase):
         for name, difference in told.items():
             self.assertLess(largest_difference(theirs, ours, name), difference + 0.001, name)
 
+    def assert_moves_as_one_process(self, one, several):
+        """To the coupling's tolerance, as rounding in another order may take an iteration more or less."""
+        for name, case in (("one", one), ("several", several)):
+            self.call("simulate", case, "--steps", 20, "--output", name, "--quiet")
+        alone, together = columns(self.folder / "one"), columns(self.folder / "several")
+        for name in ("fluid.outlet.pressure", "fluid.outlet.flow", "interface.max_displacement"):
+            self.assertLess(largest_difference(together, alone, name), 1e-6, name)
+
     def assert_goes_on_to_the_same_bits(self, case):
         self.call("simulate", case, "--steps", 40, "--output", "whole", "--quiet")
         self.call("simulate", case, "--steps", 20, "--output", "parts", "--quiet")

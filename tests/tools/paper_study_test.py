@@ -49,6 +49,16 @@ class KeptSteps(unittest.TestCase):
         self.assertEqual(self.run_of(3, 2)[0], 2)
         self.assertEqual(self.run_of(3, 4)[0], 3)
 
+    def test_a_step_that_breaks_off_ends_no_other_and_is_told(self):
+        shop = workshop.Workshop(pathlib.Path(self.folder.name), quiet=True)
+        (pathlib.Path(PROGRAMS.name) / "tether").write_text("#!/bin/sh\necho 'step 3'; echo 'the wall folds' >&2; exit 1\n")
+        (shop.folder / "base.yaml").write_text("name: base\n")
+        made = shop.those_made({"folds": lambda: shop.make("simulate", shop.case("a", shop.folder / "base.yaml", {})), "is there": lambda: 3})
+        self.assertEqual(made, {"is there": 3})
+        self.assertEqual(shop.broken, {"a": "the wall folds"})
+        self.assertIn("- `a`: the wall folds", page.broken(shop.broken))
+        self.assertEqual(page.broken({}), "")
+
 
 class Computed(unittest.TestCase):
     def test_distances_of_regions_are_joined_by_area(self):

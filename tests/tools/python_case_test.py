@@ -42,6 +42,23 @@ class Case(unittest.TestCase):
         self.assertEqual(case["mesh"]["swept"]["radius"], 2.0, "the tube's")
         self.assertEqual(case["solid"]["support"]["regions"]["spine"], {"stiffness": 0, "damping": 2e3})
 
+    def test_a_curve_is_read_as_tether_reads_it(self):
+        table = self.write("flow.csv", "# of a pump\ntime [s], pressure [mmHg], flow [ml/s]\n0.1, 70, 10\n0.3, 80, 30\n0.5, 75, 20\n")
+        curve = tether.Curve(table, period=0.8, time="time", value="flow", scale=2)
+        self.assertAlmostEqual(curve(0.2), 40)
+        self.assertAlmostEqual(curve(0.5), 40)
+        self.assertAlmostEqual(curve(0.7), 30, msg="back to the first value at the period's end")
+        self.assertAlmostEqual(curve(0.2 + 3 * 0.8), 40)
+        self.assertAlmostEqual(curve(0.05), 2 * (20 - 10 * 0.35 / 0.4), msg="before its first time: the end of a period")
+        risen = tether.Curve(table, period=0.8, value="flow", ramp=0.4)
+        self.assertAlmostEqual(risen(0.2), 10)
+        self.assertAlmostEqual(risen(0.5), 20)
+
+    def test_a_curve_names_the_column_that_is_not_there(self):
+        table = self.write("flow.csv", "time [s], flow [ml/s]\n0, 10\n1, 10\n")
+        with self.assertRaisesRegex(ValueError, "no column volume"):
+            tether.Curve(table, period=1, value="volume")
+
 
 if __name__ == "__main__":
     unittest.main()

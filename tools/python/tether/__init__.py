@@ -7,10 +7,11 @@
     found.distances("spine", 3)         # at the nodes of a region, at the source's fourth moment (numpy)
 
 Results are as docs/schema has them (tether.results). A code is coupled by tether.serve (tether.coupling), and
-reads its case by tether.case.
+reads its case by tether.case, its inflow by tether.Curve.
 """
 
 from tether.case import case
+from tether.curve import Curve
 from tether.results import Result, load
 
 
@@ -21,4 +22,11 @@ def serve(role, make, communicator=None, together=False):
     return coupling.serve(role, make, communicator, together)
 
 
-__all__ = ["Result", "case", "load", "serve"]
+def gathered(communicator, values, places, count):
+    """Rows of an array that the processes of a code have in parts; see tether.coupling."""
+    from tether import coupling
+
+    return coupling.gathered(communicator, values, places, count)
+
+
+__all__ = ["Curve", "Result", "case", "gathered", "load", "serve"]

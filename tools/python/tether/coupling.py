@@ -211,6 +211,18 @@ def _checked(kind, answer, nodes):
     return answer
 
 
+def gathered(communicator, values, places, count):
+    """Rows of an array [count, ...] that processes have in parts: each its `values`, and which rows they are. At the first process; None
+    at the others."""
+    parts = communicator.gather((numpy.asarray(places), numpy.asarray(values)))
+    if parts is None:
+        return None
+    whole = numpy.zeros((count, *parts[0][1].shape[1:]))
+    for some, of_them in parts:
+        whole[some] = of_them
+    return whole
+
+
 class _Alone:
     """The leader answers, and sees to other processes, if there are any."""
 
