@@ -49,8 +49,13 @@ def four_parameters(study, figure):
 
 
 def seeds(study):
-    """The wide prior on other errors of the data."""
-    return study.shop.those_made({seed: lambda seed=seed: found(study.identified(f"four_wide_seed_{seed}", four("wide"), seed), TRUE_OF_FOUR) for seed in study.size.seeds[1:]})
+    """{observe: {seed: what is found}} with the wide prior on all sets of errors, corrected between frames (the default) or at frames only."""
+    def of(seed, observe):
+        first, name = seed == study.size.seeds[0], "four_wide" if observe == "every_step" else "four_frames"
+        fields = four("wide", **({} if observe == "every_step" else {"identification.observe": observe}))
+        return found(study.identified(name if first else f"{name}_seed_{seed}", fields, seed), TRUE_OF_FOUR)
+
+    return {observe: study.shop.those_made({seed: lambda seed=seed: of(seed, observe) for seed in study.size.seeds}) for observe in ("every_step", "frames")}
 
 
 def eleven_parameters(study, figure, earlier):

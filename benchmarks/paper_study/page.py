@@ -126,10 +126,19 @@ def four(rows, seeds):
             "`theta` counts powers of two from 1e4 dyn/cm3. The paper's first prior is `theta` = 0 with variances of 1.25 (spine), 0.125 (vicinity, light support), 0.625 (outlet); its second has values set by hand, and 0.125. "
             "Its weight `w` takes a frame for 32,400 independent errors of 1 mm.\n")
     text += "".join(f"\n{title}:\n{found_table(rows[key])}" for key, title in PRIOR_TITLES.items() if key in rows)
-    text += "".join(f"The same with other errors of the data (seed {seed}):\n{found_table(of)}" for seed, of in seeds.items())
+    text += "".join(over_seeds(observe, of) for observe, of in seeds.items() if of)
     return text + table(("the paper", "here, with its weights", "noise as it is"), [
         ("both priors lead to the same values", agreement(rows, "light_weighed", "by_hand_weighed"), agreement(rows, "light", "by_hand")),
         *((what, finding(rows, "light_weighed", is_so, names), finding(rows, "wide", is_so, names)) for what, is_so, names in FINDINGS)])
+
+
+def over_seeds(observe, of):
+    """Of the wide prior, a column for each set of errors."""
+    sets = list(of.values())
+    return (f"\nThe wide prior on {len(of)} sets of errors, `observe: {observe}`: error in powers of two, and in deviations:\n" +
+            table(("parameter", *(f"seed {seed}" for seed in of), "truth inside"),
+                  [(name, *(f"{rows[name]['octaves']:+.2f} ({rows[name]['deviations']:+.1f})" for rows in sets), f"{sum(is_inside(rows[name]) for rows in sets)} of {len(sets)}")
+                   for name in sets[0]]))
 
 
 def eleven(rows):
