@@ -372,7 +372,8 @@ class Search {
 
   /// Allowed errors that somebody may look after, by how much of them the data ask for.
   std::vector<StrainedError> strained_errors() const {
-    const VectorXd found = plain_.amplitudes(now_.residual).cwiseQuotient(problem_.allowed_deviation);
+    const VectorXd& deviation = problem_.allowed_deviation;  // behind the allowed ones stand others that are left free
+    const VectorXd found = plain_.amplitudes(now_.residual).head(deviation.size()).cwiseQuotient(deviation);
     std::vector<StrainedError> all;
     for (std::size_t k = 0; k < problem_.allowed_names.size(); ++k)
       if (const double size = std::abs(found(static_cast<Index>(k)));

@@ -6,9 +6,6 @@
 namespace tether {
 namespace {
 
-/// Whose trees are kept, of frames that are asked for in turn: some 300 bytes each.
-constexpr std::size_t most_triangles = 200'000;
-
 std::vector<double> times_of(const std::vector<SurfaceFrame>& frames) {
   std::vector<double> times;
   for (const SurfaceFrame& frame : frames) times.push_back(frame.time);
@@ -81,7 +78,7 @@ std::vector<Sample> SurfaceSeries::observe(const Points& x, double time) const {
 }
 
 std::vector<Sample> SurfaceSeries::observe(const Points& x, const Frame& frame) const {
-  tree(frame.number).closest.clear();  // of another motion, and what is found would depend on which, by rounding
+  std::erase_if(trees_, [&](const auto& kept) { return kept.first != frame.number; });
   return against(x, frame.number);
 }
 
@@ -103,12 +100,6 @@ std::uint64_t SurfaceSeries::content() const {
 SurfaceSeries::FrameTree& SurfaceSeries::tree(std::size_t frame) const {
   const auto found = trees_.find(frame);
   if (found != trees_.end()) return found->second;
-  // Frames are asked for in turn, again and again: of what has no room the latest goes, lest all go before their turn.
-  const auto triangles = [&](std::size_t of) { return frames_[of].surface.triangles.size(); };
-  std::size_t kept = triangles(frame);
-  for (const auto& [of, _] : trees_) kept += triangles(of);
-  if (kept > most_triangles) trees_.erase(latest_);
-  latest_ = frame;
   return trees_.emplace(frame, FrameTree{SignedSurface(frames_[frame].surface), {}}).first->second;
 }
 

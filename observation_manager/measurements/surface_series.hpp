@@ -50,9 +50,7 @@ class SurfaceSeries : public LumenSeries {
   std::vector<SurfaceFrame> frames_;
   VectorXd areas_;
   std::vector<Note> notes_;
-  /// Of the two frames between which a run is, or of those that are asked for one after the other.
-  mutable std::map<std::size_t, FrameTree> trees_;
-  mutable std::size_t latest_ = 0;  ///< of them
+  mutable std::map<std::size_t, FrameTree> trees_;  ///< of the two frames in use
 };
 
 }  // namespace tether

@@ -27,7 +27,11 @@ class ChangedInput : public ::testing::Test {
         TETHER_PROGRAM,        "simulate", case_file.string(), "--output", (folder / "out").string(), "--steps",
         std::to_string(steps), "--quiet"};
     words.insert(words.end(), options.begin(), options.end());
-    return capture({words, {{"PYTHONPATH", TETHER_SOURCE "/tools/python"}, {"PYTHONDONTWRITEBYTECODE", "1"}}});
+    const fs::path built = fs::path(TETHER_PROGRAM).parent_path().parent_path();
+    return capture({words,
+                    {{"PYTHONPATH", TETHER_SOURCE "/tools/python"},
+                     {"PYTHONDONTWRITEBYTECODE", "1"},
+                     {"TETHER_CLIENT", (built / "lib/libtether_client.so").string()}}});
   }
   /// Writes the inflow anew, as of an hour ago.
   void write_flow(const std::string& text) const {
