@@ -86,7 +86,7 @@ def observer(of):
     return ("\n## Figure 10: the state observer\n\nSupports set by hand, as the paper's; a wrong start is one whose outlets begin 8 mmHg too low, and with them blood and wall.\n\n"
             "".join(f"![{start} start](figure10_{start}.png)\n" for start in ("right", "wrong") if any(s == start for s, _ in of)) +
             table(("start", "gain [1/s]", "data: rms [mm]", "frames between", "largest [mm]"), rows) +
-            "The paper: distances fall in all regions with 3, further with 15 (there with an inlet band masked), and the mesh folds at 30. Here it does not pull in the branches (of the smallest size, whose few elements there fold with 15 1/s), and does everywhere else. " +
+            "The paper: distances fall in all regions with 3, further with 15 (there with an inlet band masked), and the mesh folds at 30. Here it pulls everywhere but in the branches, whose few elements fold with 15 1/s in the smallest size. " +
             (f"They fall with each gain up to 15: **{holds(falls)}**.\n" if len(of) > 1 else "\n"))
 
 
