@@ -37,16 +37,26 @@ std::string effective_sections(BloodCase& blood) {
   return echo.json();
 }
 
+FluidServer server_of(const std::filesystem::path& case_file, const protocol::Welcome& welcome) {
+  BloodCase blood(case_file);
+  auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file));
+  return {std::move(solver), blood.file.units(), effective_sections(blood), welcome.output,
+          held_curves(blood.fluid, blood.file)};
+}
+
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToObservedFluid>("fluid", [&command](const protocol::Welcome& welcome) {
-    BloodCase blood(command.case_file);
-    auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file));
-    return FluidServer(std::move(solver), blood.file.units(), effective_sections(blood), welcome.output,
-                       held_curves(blood.fluid, blood.file));
-  });
+  return protocol::run_partner<protocol::ToObservedFluid>(
+      "fluid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); });
 }
 
 }  // namespace
+
+protocol::Here fluid_here() {
+  return protocol::partner_here<protocol::ToObservedFluid>(
+      [](const protocol::Program& program, const protocol::Welcome& welcome) {
+        return server_of(program.arguments.front(), welcome);
+      });
+}
 
 Program fluid_program() {
   prepare_process();

@@ -126,6 +126,8 @@ std::vector<std::string> notices_of(const CoupledCodes& codes, const RunPlan& pl
 /// What the processes have cost so far, in the order of RunStatistics.
 std::vector<PartnerUsage> costs(Crew& crew, std::span<Partner> partners) {
   std::vector<PartnerUsage> all{{cpu_seconds(), peak_memory_mb()}, crew.fluid.usage().get(), crew.solid.usage().get()};
+  for (std::size_t code = 0; code < 2; ++code)
+    if (partners[code].is_here()) all[0].cpu_seconds -= all[code + 1].cpu_seconds;
   if (partners.size() > 2) {
     const auto usage = partners[2].ask(protocol::GetUsage{});
     all.push_back({usage.cpu_seconds, usage.peak_memory_mb});
@@ -249,8 +251,15 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const Inpu
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }
 
+/// The same, some of them in this process.
+std::vector<protocol::Program> together(std::vector<protocol::Program> programs, const CodesHere& here) {
+  for (protocol::Program& program : programs)
+    if (const auto found = here.find(program.executable); found != here.end()) program.here = found->second;
+  return programs;
+}
+
 /// The master's own life.
-void run_direct(const CommandLine& command, protocol::Session& session) {
+void run_direct(const CommandLine& command, const CodesHere& here, protocol::Session& session) {
   MasterCase master(command.case_file);
   RunPlan plan = plan_of(master, command);
   plan.output = fs::absolute(claim_output(command, master.file));
@@ -262,28 +271,32 @@ void run_direct(const CommandLine& command, protocol::Session& session) {
     mark_output(plan.output, command.case_file);
   }
   const bool observed = master.file.common().observer.is_on();
-  const std::span<Partner> partners = session.launch(programs_of(master, observed), plan.output.string());
+  std::vector<protocol::Program> programs = programs_of(master, observed);
+  if (master.coupling.processes == "together") programs = together(std::move(programs), here);
+  const std::span<Partner> partners = session.launch(programs, plan.output.string());
   for (Partner& partner : partners) partner.hello();
   simulate(master, plan, from, inputs, partners);
   for (Partner& partner : partners) partner.stop("the run is done");
 }
 
 /// Its life as a group of an identification_master.
-GroupServer serve_as_group(const CommandLine& command, const protocol::Welcome& welcome, protocol::Session& session) {
+GroupServer serve_as_group(const CommandLine& command, const CodesHere& here, const protocol::Welcome& welcome,
+                           protocol::Session& session) {
   auto master = std::make_unique<MasterCase>(command.case_file);
   RunPlan plan = plan_of(*master, command);
   plan.quiet = true;
   plan.write_every = plan.checkpoint_every = std::numeric_limits<int>::max();
-  const std::span<Partner> partners = session.launch(programs_of(*master, master->measures_lumen), welcome.output);
+  const std::span<Partner> partners =
+      session.launch(together(programs_of(*master, master->measures_lumen), here), welcome.output);
   for (Partner& partner : partners) partner.hello();
   return GroupServer(std::move(master), std::move(plan), partners);
 }
 
-int run(const CommandLine& command) {
+int run(const CommandLine& command, const CodesHere& here) {
   return protocol::run_either<protocol::ToGroup>(
-      "fsi_master", [&command](protocol::Session& session) { run_direct(command, session); },
-      [&command](const protocol::Welcome& welcome, protocol::Session& session) {
-        return serve_as_group(command, welcome, session);
+      "fsi_master", [&](protocol::Session& session) { run_direct(command, here, session); },
+      [&](const protocol::Welcome& welcome, protocol::Session& session) {
+        return serve_as_group(command, here, welcome, session);
       });
 }
 
@@ -346,7 +359,7 @@ void validate(const CommandLine& command) {
 
 }  // namespace
 
-Program fsi_master_program() {
+Program fsi_master_program(const CodesHere& here) {
   Program program;
   program.name = "fsi_master";
   program.purpose = "Simulates a vessel: launches fluid and solid and brings them to agree at every time step.";
@@ -357,7 +370,7 @@ Program fsi_master_program() {
     fields.group("initial_state", initial_state, meaning_of_section("initial_state"));
   };
   program.validate = validate;
-  program.run = run;
+  program.run = [here](const CommandLine& command) { return run(command, here); };
   return program;
 }
 

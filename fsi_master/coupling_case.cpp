@@ -41,6 +41,12 @@ void CouplingCase::declare(Fields& f) {
       "where nodes must match");
   f.group("programs", programs,
           "executables; a name without slash is one of Tether's own, a path is relative to the case file");
+  f.choice("processes", processes,
+           {{"apart", "fluid and solid are processes of their own"},
+            {"together",
+             "what of them is Tether's own is in the master's process: a small model takes half the time, a large one "
+             "does not have both at work at once"}},
+           "of a direct run; the groups of an identification and of a diagnosis have them together");
   f.group("ranks", ranks, "processes of a program of one's own that runs in several; on an mpirun line its -n says it");
 }
 

@@ -15,7 +15,7 @@ struct CouplingCase {
     int fluid = 1, solid = 1;
     void declare(Fields& f);
   };
-  std::string method = "automatic", mapping = "automatic";
+  std::string method = "automatic", mapping = "automatic", processes = "apart";
   double tolerance = 1e-6;
   int max_iterations = 30, reuse = 20, halvings = 3;
   std::optional<double> mapping_distance;

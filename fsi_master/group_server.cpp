@@ -254,6 +254,7 @@ protocol::Ready GroupServer::operator()(const protocol::Write& m) {
 protocol::Usage GroupServer::operator()(const protocol::GetUsage& m) {
   protocol::Usage all{cpu_seconds(), peak_memory_mb()};
   for (Partner& partner : codes_->processes()) {
+    if (partner.is_here()) continue;
     const auto usage = partner.ask(m);
     all.cpu_seconds += usage.cpu_seconds;
     all.peak_memory_mb += usage.peak_memory_mb;

@@ -35,15 +35,25 @@ std::string effective_sections(WallCase& wall) {
   return echo.json();
 }
 
+SolidServer server_of(const std::filesystem::path& case_file, const protocol::Welcome& welcome) {
+  WallCase wall(case_file);
+  return {prepare_wall(wall.solid, wall.wall(), wall.file), wall.file.units(), effective_sections(wall),
+          welcome.output};
+}
+
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToObservedSolid>("solid", [&command](const protocol::Welcome& welcome) {
-    WallCase wall(command.case_file);
-    return SolidServer(prepare_wall(wall.solid, wall.wall(), wall.file), wall.file.units(), effective_sections(wall),
-                       welcome.output);
-  });
+  return protocol::run_partner<protocol::ToObservedSolid>(
+      "solid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); });
 }
 
 }  // namespace
+
+protocol::Here solid_here() {
+  return protocol::partner_here<protocol::ToObservedSolid>(
+      [](const protocol::Program& program, const protocol::Welcome& welcome) {
+        return server_of(program.arguments.front(), welcome);
+      });
+}
 
 Program solid_program() {
   prepare_process();

@@ -20,13 +20,13 @@ PHASES = {
     },
     "identify": {
         "start": ("identification_master", "fsi_master"),
-        "step": ("tether", "mpirun", "identification_master", "fsi_master", "fluid", "solid"),
-        "checkpoint": ("tether", "identification_master", "fsi_master", "solid"),
+        "step": ("tether", "mpirun", "identification_master", "fsi_master", "observation_manager"),
+        "checkpoint": ("tether", "identification_master", "fsi_master", "observation_manager"),
         "report": ("tether", "gnuplot"),
     },
     "explain": {
         "first run": ("tether", "fsi_master", "solid"),
-        "diagnosis": ("tether", "mpirun", "identification_master", "fsi_master", "solid"),
+        "diagnosis": ("tether", "mpirun", "identification_master", "fsi_master"),
         "report": ("tether",),
     },
 }

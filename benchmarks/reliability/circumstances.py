@@ -14,7 +14,7 @@ DAMAGED = {  # of a job that was killed
 }
 AT_WORK = {"simulate": "later", "identify": "later", "explain": "diagnosis"}  # two checkpoints are behind it, or a run
 MEMORY = {"simulate": {"start": ("fsi_master", "fluid", "solid"), "step": ("fsi_master", "fluid", "solid"), "report": ("tether_picture",)},
-          "identify": {"step": ("identification_master", "fsi_master")}, "explain": {"diagnosis": ("identification_master", "solid")}}
+          "identify": {"step": ("identification_master", "fsi_master")}, "explain": {"diagnosis": ("identification_master", "fsi_master")}}
 LITTLE = 1 << 20  # bytes that a process may still ask for
 HOUR = 3600  # [s]
 

@@ -24,7 +24,7 @@ HAPPENS = {
     "the first host is lost": lambda hosts: hosts[0].lose(),
 } | {
     f"{name} of {program} on the second": lambda hosts, a=(program, name): os.kill(of(hosts[1], a[0]), getattr(signal, f"SIG{a[1]}"))
-    for program in ("fsi_master", "fluid", "solid", "orted") for name in ("KILL", "TERM", "STOP")
+    for program in ("fsi_master", "observation_manager", "orted") for name in ("KILL", "TERM", "STOP")
 }
 SLOWLY = {"the first host is lost", "the second host is cut off"}  # there it is found out by silence, half a minute
 

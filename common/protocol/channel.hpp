@@ -50,6 +50,9 @@ class Channel {
   /// does not call it for long, this process ends with the exit code.
   virtual void close(int exit_code) = 0;
 
+  /// Whether the other end is in this process.
+  virtual bool is_here() const { return false; }
+
   Peer& peer() { return peer_; }
   const Peer& peer() const { return peer_; }
 

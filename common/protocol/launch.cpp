@@ -233,6 +233,10 @@ std::span<Partner> Session::launch(const std::vector<Program>& programs, const s
   if (parts_->roles.size() > 1) candidates = partners_of(parts_->roles, parts_->rank);
   std::vector<Partner>& group = parts_->groups.emplace_back();
   for (const Program& program : programs) {
+    if (program.here && candidates.empty()) {
+      group.emplace_back(program.here(program, {version, host_name(), process_id(), output}));
+      continue;
+    }
     auto channel = parts_->roles.size() > 1 ? parts_->take(program, candidates) : parts_->start(program);
     welcome(*channel, output);
     group.emplace_back(std::move(channel));

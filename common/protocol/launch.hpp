@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +13,10 @@
 /// The same executables work both ways; docs/decisions/0002 tells what was measured.
 namespace tether::protocol {
 
+struct Program;
+/// Makes a partner in this process, which is told what it would be told on arrival.
+using Here = std::function<std::unique_ptr<Channel>(const Program&, const Welcome&)>;
+
 /// A program to be launched as a partner.
 struct Program {
   std::string role;                    ///< "fluid"; empty: whatever the spawned program says it is
@@ -20,6 +25,7 @@ struct Program {
   int processes = 1;                   ///< of a parallel code; only its rank 0 talks
   std::string where = {};              ///< that the user named it, for messages: "case.yaml:4: coupling.programs.fluid"
   std::string node = {};               ///< to run on; empty: the one of its master
+  Here here = {};                      ///< instead of a process of its own; not on an mpirun line that holds it
 };
 
 /// Whether a program that a case names is Tether's own: without slash.

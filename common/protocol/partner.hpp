@@ -27,6 +27,7 @@ class Partner {
 
   const std::string& role() const { return channel_->peer().role; }
   const Peer& peer() const { return channel_->peer(); }
+  bool is_here() const { return channel_->is_here(); }  ///< in this process
   /// What the partner is and can do. Waits for it the first time, at most `limit` seconds.
   const Hello& hello(double limit = setup_limit());
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/protocol/launch.hpp"
+#include "common/protocol/local_channel.hpp"
 #include "common/protocol/serve.hpp"
 
 /// The main functions of the executables.
@@ -38,6 +39,19 @@ int run_either(const std::string& role, const std::function<void(Session&)>& as_
     }
     serve<Requests>(*link.channel, handler->hello(), *handler);
   });
+}
+
+/// A partner that lives in the process of its master. `build(program, welcome)` does what `build` does below.
+template <class Requests, class Build>
+Here partner_here(Build build) {
+  return [build](const Program& program, const Welcome& welcome) -> std::unique_ptr<Channel> {
+    using Handler = decltype(build(program, welcome));
+    try {
+      return local_channel<Requests>(program.role, std::shared_ptr<Handler>(new Handler(build(program, welcome))));
+    } catch (...) {
+      return std::make_unique<LocalChannel>(program.role, pack(detail::current_failure()), nullptr);
+    }
+  };
 }
 
 /// A partner's main. `build(welcome)` reads the case and returns the handler: `Hello hello()` and one call operator for

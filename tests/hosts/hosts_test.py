@@ -69,7 +69,7 @@ class Hosts(unittest.TestCase):
 
     def test_each_model_is_on_a_host_of_its_own_and_the_estimate_is_that_of_one_host(self):
         run = self.identify("over")
-        wait(lambda: all("solid" in self.ours(host) and "fsi_master" in self.ours(host) for host in self.group.hosts), 60,
+        wait(lambda: all({"fsi_master", "observation_man"} <= set(self.ours(host)) for host in self.group.hosts), 60,
                         "a model on each host")
         self.assertEqual((run.communicate(timeout=120)[1], run.returncode), ("", 0))
         self.assertEqual(cases.estimates(self.folder / "over"), cases.estimates(self.folder / "here"))
@@ -121,7 +121,7 @@ class Hosts(unittest.TestCase):
         self.assert_goes_on("first", "h0,h1,h2")
 
     def test_a_process_that_dies_on_another_host_is_told(self):
-        for program, told_as in (("fsi_master", "the master"), ("fluid", "fluid")):
+        for program, told_as in (("fsi_master", "the master"), ("observation_man", "observation_manager")):
             with self.subTest(program):
                 name = f"died_{program}"
                 run = self.identify(name)

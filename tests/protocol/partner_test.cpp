@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "common/base/process.hpp"
+#include "common/protocol/run.hpp"
 #include "tests/fakes/fake_fluid.hpp"
 #include "tests/fakes/fake_solid.hpp"
 #include "tests/protocol/in_process.hpp"
@@ -28,7 +30,48 @@ TEST(Partner, Answers_each_request_with_its_reply) {
   const Motion motion = partner.ask(SolidEvaluate{std::vector<double>(54, 1.0)});
   EXPECT_DOUBLE_EQ(motion.velocity[7], 1 / (1 / 0.01 + 2 + 50 * 0.01));
   EXPECT_DOUBLE_EQ(motion.displacement[7], 0.01 * motion.velocity[7]);
-  EXPECT_GT(partner.ask(GetUsage{}).peak_memory_mb, 0);
+}
+
+/// What it costs is told apart from what its master does; its memory is the master's.
+TEST(PartnerHere, Tells_what_its_answers_cost) {
+  const auto answer = [](const Packet&) {
+    volatile double sum = 0;
+    for (const double begin = cpu_seconds(); cpu_seconds() < begin + 0.02;) sum = sum + 1;
+    return pack(Ready{});
+  };
+  Partner partner(std::make_unique<LocalChannel>("fluid", pack(Hello{}), answer));
+  partner.hello();
+  EXPECT_TRUE(partner.is_here());
+  EXPECT_EQ(partner.ask(GetUsage{}).cpu_seconds, 0);
+  partner.ask(Write{});
+  partner.ask(Write{});
+  const double before = cpu_seconds();
+  for (double busy = 0; cpu_seconds() < before + 0.1;) busy = busy + 1;
+  const Usage usage = partner.ask(GetUsage{});
+  EXPECT_GT(usage.cpu_seconds, 0.039);
+  EXPECT_LT(usage.cpu_seconds, 0.1) << "what its master does meanwhile is the master's";
+  EXPECT_EQ(usage.peak_memory_mb, 0);
+}
+
+TEST(PartnerHere, Is_made_of_the_program_and_the_welcome) {
+  std::vector<std::string> told;
+  const Here here = partner_here<ToSolid>([&](const Program& program, const Welcome& welcome) {
+    told = {program.arguments.front(), welcome.output};
+    return fakes::FakeSolid();
+  });
+  Partner partner(here({"solid", "solid", {"case.yaml"}}, {version, "node7", 12, "out"}));
+  EXPECT_EQ(partner.hello().unknowns, 54);
+  EXPECT_EQ(told, (std::vector<std::string>{"case.yaml", "out"}));
+  EXPECT_EQ(partner.peer().describe(), "solid");
+  EXPECT_EQ(partner.ask(GetState{}).values.size(), 108U);
+}
+
+TEST(PartnerHere, Refuses_what_it_cannot_be_made_of) {
+  const Here here = partner_here<ToSolid>([](const Program& program, const Welcome&) -> fakes::FakeSolid {
+    throw input_error("{}:3: no such material", program.arguments.front());
+  });
+  Partner partner(here({"solid", "solid", {"case.yaml"}}, {}));
+  EXPECT_THROW(partner.hello(), InputError);
 }
 
 TEST(Partner, Failure_names_role_step_and_reason_and_leaves_it_reachable) {
@@ -50,14 +93,14 @@ TEST(Partner, A_request_for_another_role_is_a_failure) {
 }
 
 TEST(Partner, An_unexpected_reply_names_both) {
-  Partner partner(std::make_unique<DirectChannel>("fluid", pack(Hello{}), [](const Packet&) { return pack(Ready{}); }));
+  Partner partner(std::make_unique<LocalChannel>("fluid", pack(Hello{}), [](const Packet&) { return pack(Ready{}); }));
   partner.hello();
   EXPECT_EQ(message_of([&] { partner.ask(FluidTangent{}); }),
             "fluid while answering FluidTangent: replied Ready instead of Load");
 }
 
 TEST(Partner, A_refusing_partner_is_an_input_error) {
-  Partner partner(std::make_unique<DirectChannel>("fluid", pack(Failure{"case.yaml:3: wrong", true}), nullptr));
+  Partner partner(std::make_unique<LocalChannel>("fluid", pack(Failure{"case.yaml:3: wrong", true}), nullptr));
   EXPECT_EQ(message_of([&] { partner.hello(); }), "fluid: case.yaml:3: wrong");
 }
 

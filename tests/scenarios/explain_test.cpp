@@ -116,10 +116,11 @@ TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
   EXPECT_EQ(again["sentences"], found["sentences"]);
 }
 
-/// Broken off, the run of a model goes on from its checkpoint.
+/// Broken off, the run of a model goes on from its checkpoint. It has steps for more than the half second that a
+/// program still works after a signal (common/protocol/signals).
 TEST_F(Explain, GoesOnFromTheCheckpointOfARun) {
   const fs::path file = folder / "twin/often.yaml";
-  write("twin/often.yaml", "base: case.yaml\nname: often\ntime: {step: 1e-3}\noutput: {checkpoint_every: 5}\n");
+  write("twin/often.yaml", "base: case.yaml\nname: often\ntime: {step: 2e-4}\noutput: {checkpoint_every: 20}\n");
   const auto broken_off_when = [&](const fs::path& is_there) {
     auto end = std::async(std::launch::async, [&] {
       return tether({"explain", file.string(), "--output", output().string(), "--quiet"});
@@ -137,7 +138,7 @@ TEST_F(Explain, GoesOnFromTheCheckpointOfARun) {
   EXPECT_EQ(told.find("To continue"), std::string::npos) << "one way on: " << told;
   ASSERT_FALSE(fs::exists(output() / "model_0/summary.json"));
   broken_off_when(output() / "model_0/summary.json");
-  EXPECT_GE(Json::parse(content_of(output() / "model_0/summary.json"))["resumed_at_step"], 5);
+  EXPECT_GE(Json::parse(content_of(output() / "model_0/summary.json"))["resumed_at_step"], 20);
 }
 
 /// The catalogue is cut to what cannot explain the data: the force itself is sought, and holds the wall

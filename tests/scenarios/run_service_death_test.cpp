@@ -68,7 +68,7 @@ TEST_F(RunService, EndsWithTheDiagnosisThatIsKilled) {
 }
 
 TEST_F(RunService, ThatDiesEndsTheDiagnosisWithAMessage) {
-  for (const char* program : {"identification_master", "solid"}) {
+  for (const char* program : {"identification_master", "fsi_master"}) {
     fs::remove_all(output);
     const ChildEnd end = killed(program, coarse);
     EXPECT_EQ(end.exit_code, 1) << program;

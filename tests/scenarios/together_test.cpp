@@ -1,0 +1,102 @@
+/// Tether's own codes in the master's process: the same run, at less cost.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/base/child_process.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/scenarios/case_variant.hpp"
+
+namespace tether {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int steps = 12, saved_at = 6;
+
+class Together : public ::testing::Test {
+ protected:
+  Together() {
+    folder.file("apart.yaml",
+                fmt::format("base: {}/configs/tube/case.yaml\nname: apart\nmesh: {{swept: {{around: 12, along: 8}}}}\n"
+                            "output: {{checkpoint_every: {}}}\n",
+                            TETHER_SOURCE, saved_at));
+    folder.file("together.yaml", "base: apart.yaml\nname: together\ncoupling: {processes: together}\n");
+  }
+  ChildEnd simulate(const std::string& name, const std::string& output, int until,
+                    const std::vector<std::string>& more = {"--overwrite"}) const {
+    std::vector<std::string> words{TETHER_PROGRAM,
+                                   "simulate",
+                                   (folder / (name + ".yaml")).string(),
+                                   "--output",
+                                   (folder / output).string(),
+                                   "--steps",
+                                   std::to_string(until)};
+    words.insert(words.end(), more.begin(), more.end());
+    return capture({words, {}});
+  }
+  Json summary(const std::string& output) const { return Json::parse(content_of(folder / output / "summary.json")); }
+  /// The numbers of a run's table, row by row.
+  std::vector<std::vector<double>> table(const std::string& output) const {
+    std::ifstream file(folder / output / "timeseries.csv");
+    std::vector<std::vector<double>> rows;
+    for (std::string line; std::getline(file, line);) {
+      if (line.empty() || std::isdigit(static_cast<unsigned char>(line.front())) == 0) continue;
+      std::istringstream cells(line);
+      std::vector<double>& row = rows.emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    }
+    return rows;
+  }
+  TemporaryFolder folder;
+};
+
+/// What several objects define alike is not rounded alike in two programs: no more than that differs.
+TEST_F(Together, ItIsTheSameRun) {
+  for (const char* name : {"apart", "together"}) {
+    const ChildEnd end = simulate(name, name, steps);
+    ASSERT_EQ(end.exit_code, 0) << end.errors;
+  }
+  const auto apart = table("apart"), together = table("together");
+  ASSERT_EQ(apart.size(), static_cast<std::size_t>(steps));
+  ASSERT_EQ(together.size(), apart.size());
+  for (std::size_t column = 0; column < apart.front().size(); ++column) {
+    double largest = 0;
+    for (const auto& row : apart) largest = std::max(largest, std::abs(row[column]));
+    for (std::size_t row = 0; row < apart.size(); ++row)
+      EXPECT_NEAR(together[row][column], apart[row][column], 1e-7 * std::max(largest, 1e-3)) << row << ", " << column;
+  }
+}
+
+TEST_F(Together, ItsCostIsToldByCode) {
+  ASSERT_EQ(simulate("together", "out", steps).exit_code, 0);
+  const Json cost = summary("out")["cpu_seconds"];
+  double sum = 0;
+  for (const char* code : {"fluid", "solid", "fsi_master"}) {
+    EXPECT_GT(cost[code], 0.0) << cost;
+    sum += cost[code].get<double>();
+  }
+  EXPECT_NEAR(sum, cost["total"], 1e-9);
+}
+
+/// How the codes are placed is no part of the model.
+TEST_F(Together, GoesOnFromWhatWasSavedApart) {
+  ASSERT_EQ(simulate("apart", "out", saved_at).exit_code, 0);
+  const ChildEnd on = simulate("together", "out", steps, {"--resume"});
+  ASSERT_EQ(on.exit_code, 0) << on.errors;
+  EXPECT_EQ(summary("out")["resumed_at_step"], saved_at);
+  EXPECT_EQ(table("out").size(), static_cast<std::size_t>(steps));
+}
+
+TEST_F(Together, SaysWhatIsWrongAsACodeOfItsOwnWould) {
+  folder.file("wrong.yaml", "base: together.yaml\nname: wrong\nfluid: {inlets: {inlet: {flow: {scale: 1e6}}}}\n");
+  const ChildEnd end = simulate("wrong", "out", steps);
+  EXPECT_EQ(end.exit_code, 1) << end.output;
+  EXPECT_NE(end.errors.find("fsi_master: "), std::string::npos) << end.errors;
+  EXPECT_NE(end.errors.find("step 1"), std::string::npos) << end.errors;
+}
+
+}  // namespace
+}  // namespace tether
