@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+"""Blood in OpenFOAM 1912 in the place of Tether's fluid: pimpleFoam on hexahedra in a straight tube along z that move with its wall.
+
+An evaluation is a run of pimpleFoam over one step: from the step's start, which is written each time, to where the wall is to be. What
+it leaves (points, U, p, Uf) is the next step's start once the step is accepted; nothing else goes from step to step.
+
+The wall's motion and the inflow are given in an evaluation, so that incompressible blood leaves the tube as they say, whatever the
+pressure at the outlet: that lifts all pressures alike. So pimpleFoam has no pressure there, and what the Windkessel answers to its outflow is
+added to what it finds."""
+import pathlib
+import sys
+
+import numpy as np
+import tether
+from foam import Case, read_field
+from tube import Tube
+
+FIELDS = {"U": ("volVectorField", "[0 1 -1 0 0 0 0]"), "Uf": ("surfaceVectorField", "[0 1 -1 0 0 0 0]"), "p": ("volScalarField", "[0 2 -2 0 0 0 0]"),
+          "pointDisplacement": ("pointVectorField", "[0 1 0 0 0 0 0]")}
+REST = "uniform (0 0 0)"
+PARAMETERS = {"density": "g/cm3", "rheology.viscosity": "g/(cm s)", "outlets.outlet.proximal_resistance": "g/(cm4 s)",
+              "outlets.outlet.distal_resistance": "g/(cm4 s)", "outlets.outlet.compliance": "cm4 s2/g"}  # Windkessel's last, in its order
+
+
+class Windkessel:
+    """After implicit Euler the pressure at the outlet is `offset + slope Q`, Q what leaves at the end of the step."""
+
+    def __init__(self, proximal, distal, compliance, distal_pressure, stored, dt):
+        share = dt / compliance
+        whole = 1 + share / distal
+        self.offset, self.slope = (stored + share * distal_pressure / distal) / whole, proximal + share / whole
+        self.proximal = proximal
+
+    def stored(self, flow):
+        return self.offset + (self.slope - self.proximal) * flow
+
+
+class Start:
+    """What a step starts from. displacement: [points, 3]; U: [cells + outer faces, 3]; Uf: [faces, 3], velocities at faces; p: [cells], over
+    the density, less the outlet's; stored: the Windkessel's pressure."""
+
+    def __init__(self, displacement, U, Uf, p, stored):
+        self.displacement, self.U, self.Uf, self.p, self.stored = displacement, U, Uf, p, stored
+
+    @classmethod
+    def at_rest(cls, tube):
+        cells, faces, inner = len(tube.cells), len(tube.faces), len(tube.neighbour)
+        return cls(np.zeros_like(tube.points), np.zeros((cells + faces - inner, 3)), np.zeros((faces, 3)), np.zeros(cells), 0.0)
+
+    def vector(self):
+        return np.concatenate([self.displacement.ravel(), self.U.ravel(), self.Uf.ravel(), self.p, [self.stored]])
+
+    def taken_from(self, values):
+        """One of the same sizes."""
+        displacement, U, Uf, p, stored = np.split(values, np.cumsum([self.displacement.size, self.U.size, self.Uf.size, self.p.size]))
+        return Start(displacement.reshape(-1, 3), U.reshape(-1, 3), Uf.reshape(-1, 3), p, stored[0])
+
+
+class Blood:
+    program = "OpenFOAM blood 1"
+    observables = [("inlet.flow", "cm3/s"), ("outlet.flow", "cm3/s"), ("inlet.pressure", "g/(cm s2)"), ("outlet.pressure", "g/(cm s2)")]
+
+    def __init__(self):
+        case = tether.case(sys.argv[1])
+        swept, fluid = case["mesh"]["swept"], case["fluid"]
+        outlet = fluid["outlets"]["outlet"]
+        for where, kind, own in (("fluid.rheology", fluid["rheology"]["type"], "newtonian"), ("fluid.outlets.outlet", outlet["type"], "windkessel")):
+            if kind != own:
+                raise ValueError(f"{where}.type: {kind}: this blood knows {own} only")
+        self.numbers = {"density": fluid["density"], "rheology.viscosity": fluid["rheology"]["viscosity"],
+                        **{name: outlet[name.rsplit(".", 1)[1]] for name in PARAMETERS if name.startswith("outlets.")}}
+        self.parameters = [dict(name=name, value=self.numbers[name], unit=unit, transform="log2", prior_deviation=1, lower=0) for name, unit in PARAMETERS.items()]
+        self.distal_pressure, self.flow = outlet["distal_pressure"], tether.Curve(**fluid["inlets"]["inlet"]["flow"])
+        lattice = fluid["mesh"]
+        self.tube = Tube(swept["radius"], swept["length"], lattice["around"], lattice["along"], lattice["rings"])
+        self.radius = swept["radius"]
+        self.set_up_interface()
+        self.case = Case(pathlib.Path(__file__).parent / "foam", self.tube)
+        self.start, self.told = Start.at_rest(self.tube), [0.0] * 4
+        self.state_size = len(self.start.vector())
+
+    def set_up_interface(self):
+        """Nodes in the order in which the wall's faces name them, which is OpenFOAM's of the patch; two triangles a face."""
+        faces = self.faces("wall")
+        nodes, first = np.unique(faces, return_index=True)
+        self.wall = nodes[np.argsort(first)]
+        self.points = self.tube.points[self.wall]
+        place = np.zeros(len(self.tube.points), dtype=int)
+        place[self.wall] = np.arange(len(self.wall))
+        self.triangles = place[faces[:, [0, 1, 2, 0, 2, 3]]].reshape(-1, 3)
+
+    def set_parameters(self, values):
+        self.numbers |= values
+
+    def begin_step(self, step, time, dt, predicted):
+        self.dt, self.inflow = dt, self.flow(time + dt)
+        self.density, self.viscosity, *outlet = (self.numbers[name] for name in PARAMETERS)
+        self.windkessel = Windkessel(*outlet, self.distal_pressure, self.start.stored, dt)
+        self.write_start()
+
+    def write_start(self):
+        inner, cells = len(self.tube.neighbour), len(self.tube.cells)
+        outer = {name: slice(part.start - inner, part.stop - inner) for name, part in self.tube.patches.items()}
+        U, Uf = ({name: values[some] for name, some in outer.items()} for values in (self.start.U[cells:], self.start.Uf[inner:]))
+        self.case.write_points(self.tube.points + self.start.displacement)
+        self.write_field("U", self.start.U[:cells], {
+            "wall": {"type": "movingWallVelocity", "value": U["wall"]},
+            "inlet": {"type": "fixedValue", "value": self.parabola()},
+            "outlet": {"type": "pressureInletOutletVelocity", "value": U["outlet"]}})
+        self.write_field("p", self.start.p, {"wall": {"type": "zeroGradient"}, "inlet": {"type": "zeroGradient"}, "outlet": {"type": "fixedValue", "value": "uniform 0"}})
+        self.write_field("Uf", self.start.Uf[:inner], {name: {"type": "calculated", "value": values} for name, values in Uf.items()})
+
+    def write_field(self, name, inside, patches):
+        self.case.write_field(name, *FIELDS[name], inside, patches)
+
+    def parabola(self):
+        """Velocities [faces of the inlet, 3] that bring the step's inflow."""
+        corners = (self.tube.points + self.start.displacement)[self.faces("inlet")]
+        x, y, _ = corners.mean(axis=1).T
+        profile = 1 - (x**2 + y**2) / self.radius**2
+        areas = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])[:, 2] / 2  # negative: outward is -z
+        return (-self.inflow / (profile @ areas) * profile)[:, None] * [0, 0, 1]
+
+    def faces(self, patch):
+        """Corners [faces, 4]."""
+        return self.tube.faces[self.tube.patches[patch]]
+
+    def evaluate(self, displacement, velocity):
+        self.write_field("pointDisplacement", REST, {
+            "wall": {"type": "fixedValue", "value": displacement}, "inlet": {"type": "slip"}, "outlet": {"type": "slip"}})
+        self.read(self.case.step("pimpleFoam", self.dt, nu=self.viscosity / self.density))
+        return self.forces(self.points + displacement)
+
+    def read(self, folder):
+        """What a step leaves: `trial` is what the next one would start from."""
+        fields = {name: read_field(folder / name) for name in (*FIELDS, "phi", "wallShearStress")}
+        inside = {name: parts["internalField"] for name, parts in fields.items()}
+        whole = lambda name: np.concatenate([inside[name], *(self.of_patch(fields[name], patch) for patch in self.tube.patches)])
+        self.shear, flow = self.of_patch(fields["wallShearStress"], "wall"), self.of_patch(fields["phi"], "outlet").sum()
+        self.trial = Start(inside["pointDisplacement"], whole("U"), whole("Uf"), inside["p"], self.windkessel.stored(flow))
+        pressure = self.windkessel.offset + self.windkessel.slope * flow
+        self.pressure = pressure + self.density * inside["p"]  # of the cells
+        self.trial_told = [-self.of_patch(fields["phi"], "inlet").sum(), flow, self.beside("inlet").mean(), pressure]
+
+    def of_patch(self, parts, patch):
+        """Values of its faces, one for all or one for each."""
+        value = parts[patch]
+        return np.broadcast_to(value, (len(self.tube.patches[patch]), *value.shape[1:]))
+
+    def beside(self, patch):
+        """Pressure [faces] of the cells at a patch."""
+        return self.pressure[self.tube.owner[self.tube.patches[patch]]]
+
+    def forces(self, nodes):
+        """On the wall's nodes [nodes, 3], of pressure and friction that are the same all over each face."""
+        a, b, c = (nodes[corner] for corner in self.triangles.T)
+        normal = np.cross(b - a, c - a) / 2
+        of_face = np.arange(len(self.triangles)) // 2
+        friction = -self.density * self.shear[of_face] * np.linalg.norm(normal, axis=1)[:, None]
+        forces = np.zeros_like(nodes)
+        np.add.at(forces, self.triangles, ((self.beside("wall")[of_face, None] * normal + friction) / 3)[:, None])
+        return forces
+
+    def end_step(self, accepted):
+        if accepted:
+            self.start, self.told = self.trial, self.trial_told
+        return self.told
+
+    def get_state(self):
+        return self.start.vector()
+
+    def set_state(self, values):
+        self.start = self.start.taken_from(values)
+
+
+if __name__ == "__main__":
+    sys.exit(tether.serve("fluid", Blood))

@@ -1,0 +1,108 @@
+"""A case of OpenFOAM in a folder of its own: mesh and fields are written and read in binary form, a program runs one time step of it."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+
+import numpy as np
+
+HEADER = """FoamFile
+{{
+    version 2.0;
+    format  binary;
+    arch    "LSB;label=32;scalar=64";
+    class   {kind};
+    location "{where}";
+    object  {name};
+}}
+"""
+VALUES = re.compile(rb"(?P<block>\w+)\s*\{|(?P<key>internalField|value)\s+(?:nonuniform List<(?P<kind>scalar|vector)>\s*(?P<count>\d+)\s*\(|uniform (?P<uniform>[^;]+);)")
+ENVIRONMENT = {"WM_PROJECT_DIR": "/usr/share/openfoam"}  # where Debian has OpenFOAM's own settings
+
+
+class Case:
+    """The files of `template`, a mesh, and a start of a step at time 0."""
+
+    def __init__(self, template, tube):
+        self.temporary = tempfile.TemporaryDirectory(prefix="tether_openfoam_", dir=memory())
+        self.folder = pathlib.Path(self.temporary.name)
+        shutil.copytree(template, self.folder, dirs_exist_ok=True)
+        mesh = "constant/polyMesh"
+        self.write(mesh, "points", "vectorField", counted(tube.points, float))
+        self.write(mesh, "faces", "faceCompactList", counted(4 * np.arange(len(tube.faces) + 1), np.int32) + counted(tube.faces.ravel(), np.int32))
+        self.write(mesh, "owner", "labelList", counted(tube.owner, np.int32))
+        self.write(mesh, "neighbour", "labelList", counted(tube.neighbour, np.int32))
+        patches = [f"{name} {{ type {'wall' if name == 'wall' else 'patch'}; nFaces {len(part)}; startFace {part.start}; }}" for name, part in tube.patches.items()]
+        self.write(mesh, "boundary", "polyBoundaryMesh", "\n".join([str(len(patches)), "(", *patches, ")"]).encode())
+
+    def write(self, where, name, kind, text):
+        folder = self.folder / where
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(HEADER.format(kind=kind, where=where, name=name).encode() + text)
+
+    def write_points(self, points):
+        """[points, 3]: where they are as the step begins."""
+        self.write("0/polyMesh", "points", "vectorField", counted(points, float))
+
+    def write_field(self, name, kind, dimensions, inside, patches):
+        """inside: one or three numbers, or an array of them for cells, points or inner faces; patches: {name: what is said of each}, where a
+        value may be an array."""
+        blocks = [name.encode() + b"\n{\n" + b"".join(entry(*said) for said in patch.items()) + b"}\n" for name, patch in patches.items()]
+        self.write("0", name, kind, b"".join([entry("dimensions", dimensions), entry("internalField", inside), b"boundaryField\n{\n", *blocks, b"}\n"]))
+
+    def step(self, program, dt, **numbers):
+        """Runs one step from time 0; `numbers` are what the template's files read. Returns the folder with its end."""
+        for old in self.folder.glob("0?*"):
+            shutil.rmtree(old)
+        numbers |= {"deltaT": dt, "endTime": dt}
+        (self.folder / "numbers").write_text("".join(f"{name} {float(value)!r};\n" for name, value in numbers.items()))
+        done = subprocess.run([program], cwd=self.folder, env=os.environ | ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.log, ends = done.stdout, list(self.folder.glob("0?*"))
+        if done.returncode != 0 or len(ends) != 1:
+            raise RuntimeError(f"{program} ended with {done.returncode}: {last_words(done.stdout)}")
+        return ends[0]
+
+
+def memory():
+    """A folder that costs no disk, unless TMPDIR says where."""
+    return None if os.environ.get("TMPDIR") or not os.access("/dev/shm", os.W_OK) else "/dev/shm"
+
+
+def last_words(log):
+    """What OpenFOAM says is wrong, else the end of what it says."""
+    _, fatal, error = log.rpartition("FOAM FATAL")
+    return " ".join((error if fatal else log[-500:]).split())
+
+
+def counted(values, kind):
+    """A list in binary form."""
+    values = np.ascontiguousarray(values, dtype=kind)
+    return b"%d\n(" % len(values) + values.tobytes() + b")\n"
+
+
+def entry(key, value):
+    """Of a dictionary: a text, or numbers of a field."""
+    if isinstance(value, np.ndarray):
+        kind = b"vector" if value.ndim == 2 else b"scalar"
+        return key.encode() + b" nonuniform List<" + kind + b">\n" + counted(value, float) + b";\n"
+    return f"{key} {value};\n".encode()
+
+
+def read_field(path):
+    """{"internalField": values, patch: its `value`}, each [entries] or [entries, 3]; one that is the same everywhere has one entry."""
+    data, parts, position, block = path.read_bytes(), {}, 0, None
+    while found := VALUES.search(data, position):
+        position = found.end()
+        if found["block"]:
+            block = found["block"].decode()
+            continue
+        name = "internalField" if found["key"] == b"internalField" else block
+        if found["uniform"]:
+            parts[name] = np.array([[float(word) for word in found["uniform"].strip(b"()").split()]]).squeeze(-1 if found["uniform"][:1] != b"(" else ())
+            continue
+        components = 3 if found["kind"] == b"vector" else 1
+        values = np.frombuffer(data, float, components * int(found["count"]), position)
+        parts[name], position = values.reshape(-1, 3) if components == 3 else values, position + values.nbytes
+    return parts
