@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 import tether
-from foam import Case, read_field
+from foam import Case, Field
 from tube import Tube
 
 FIELDS = {"U": ("volVectorField", "[0 1 -1 0 0 0 0]"), "Uf": ("surfaceVectorField", "[0 1 -1 0 0 0 0]"), "p": ("volScalarField", "[0 2 -2 0 0 0 0]"),
@@ -73,7 +73,7 @@ class Blood:
         self.distal_pressure, self.flow = outlet["distal_pressure"], tether.Curve(**fluid["inlets"]["inlet"]["flow"])
         lattice = fluid["mesh"]
         self.tube = Tube(swept["radius"], swept["length"], lattice["around"], lattice["along"], lattice["rings"])
-        self.radius = swept["radius"]
+        self.radius, self.length, self.along = swept["radius"], swept["length"], lattice["along"]
         self.set_up_interface()
         self.case = Case(pathlib.Path(__file__).parent / "foam", self.tube)
         self.start, self.told = Start.at_rest(self.tube), [0.0] * 4
@@ -133,19 +133,13 @@ class Blood:
 
     def read(self, folder):
         """What a step leaves: `trial` is what the next one would start from."""
-        fields = {name: read_field(folder / name) for name in (*FIELDS, "phi", "wallShearStress")}
-        inside = {name: parts["internalField"] for name, parts in fields.items()}
-        whole = lambda name: np.concatenate([inside[name], *(self.of_patch(fields[name], patch) for patch in self.tube.patches)])
-        self.shear, flow = self.of_patch(fields["wallShearStress"], "wall"), self.of_patch(fields["phi"], "outlet").sum()
-        self.trial = Start(inside["pointDisplacement"], whole("U"), whole("Uf"), inside["p"], self.windkessel.stored(flow))
-        pressure = self.windkessel.offset + self.windkessel.slope * flow
-        self.pressure = pressure + self.density * inside["p"]  # of the cells
-        self.trial_told = [-self.of_patch(fields["phi"], "inlet").sum(), flow, self.beside("inlet").mean(), pressure]
-
-    def of_patch(self, parts, patch):
-        """Values of its faces, one for all or one for each."""
-        value = parts[patch]
-        return np.broadcast_to(value, (len(self.tube.patches[patch]), *value.shape[1:]))
+        cells, inner = len(self.tube.cells), len(self.tube.neighbour)
+        motion, U, Uf, p, phi, shear = (Field(folder / name, self.tube.patches) for name in ("pointDisplacement", "U", "Uf", "p", "phi", "wallShearStress"))
+        inflow, outflow = -phi.at("inlet").sum(), phi.at("outlet").sum()
+        self.trial = Start(motion.inside(len(self.tube.points)), U.whole(cells), Uf.whole(inner), p.inside(cells), self.windkessel.stored(outflow))
+        at_outlet = self.windkessel.offset + self.windkessel.slope * outflow
+        self.pressure, self.shear = at_outlet + self.density * p.inside(cells), shear.at("wall")  # of cells; of faces, over the density
+        self.trial_told = [inflow, outflow, self.beside("inlet").mean(), at_outlet]
 
     def beside(self, patch):
         """Pressure [faces] of the cells at a patch."""

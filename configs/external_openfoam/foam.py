@@ -18,7 +18,8 @@ HEADER = """FoamFile
     object  {name};
 }}
 """
-VALUES = re.compile(rb"(?P<block>\w+)\s*\{|(?P<key>internalField|value)\s+(?:nonuniform List<(?P<kind>scalar|vector)>\s*(?P<count>\d+)\s*\(|uniform (?P<uniform>[^;]+);)")
+VALUES = re.compile(rb"(?P<block>\w+)\s*\{|(?P<key>internalField|value)\s+"
+                    rb"(?:nonuniform List<(?P<kind>scalar|vector)>\s*(?P<count>\d+)\s*\(|uniform (?P<uniform>[^;]+);)")
 ENVIRONMENT = {"WM_PROJECT_DIR": "/usr/share/openfoam"}  # where Debian has OpenFOAM's own settings
 
 
@@ -58,11 +59,34 @@ class Case:
             shutil.rmtree(old)
         numbers |= {"deltaT": dt, "endTime": dt}
         (self.folder / "numbers").write_text("".join(f"{name} {float(value)!r};\n" for name, value in numbers.items()))
-        done = subprocess.run([program], cwd=self.folder, env=os.environ | ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run([program], cwd=self.folder, env=os.environ | ENVIRONMENT | {"PWD": str(self.folder)}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.log, ends = done.stdout, list(self.folder.glob("0?*"))
         if done.returncode != 0 or len(ends) != 1:
             raise RuntimeError(f"{program} ended with {done.returncode}: {last_words(done.stdout)}")
         return ends[0]
+
+
+class Field:
+    """Of a file that OpenFOAM wrote."""
+
+    def __init__(self, path, patches):
+        self.parts, self.patches = parts_of(path.read_bytes()), patches
+
+    def inside(self, count):
+        """At cells, points or inner faces: [count] or [count, 3]."""
+        return everywhere(self.parts["internalField"], count)
+
+    def at(self, patch):
+        """[faces] or [faces, 3]."""
+        return everywhere(self.parts[patch], len(self.patches[patch]))
+
+    def whole(self, count):
+        """Inside, then at the faces of all patches."""
+        return np.concatenate([self.inside(count), *map(self.at, self.patches)])
+
+
+def everywhere(values, count):
+    return np.broadcast_to(values, (count, *values.shape[1:]))
 
 
 def memory():
@@ -90,9 +114,10 @@ def entry(key, value):
     return f"{key} {value};\n".encode()
 
 
-def read_field(path):
-    """{"internalField": values, patch: its `value`}, each [entries] or [entries, 3]; one that is the same everywhere has one entry."""
-    data, parts, position, block = path.read_bytes(), {}, 0, None
+def parts_of(data):
+    """Of a field's file: {"internalField": values, patch: its `value`}, each [entries] or [entries, 3]; what is the same everywhere has one
+    entry."""
+    parts, position, block = {}, 0, None
     while found := VALUES.search(data, position):
         position = found.end()
         if found["block"]:
@@ -100,9 +125,15 @@ def read_field(path):
             continue
         name = "internalField" if found["key"] == b"internalField" else block
         if found["uniform"]:
-            parts[name] = np.array([[float(word) for word in found["uniform"].strip(b"()").split()]]).squeeze(-1 if found["uniform"][:1] != b"(" else ())
+            parts[name] = one_for_all(found["uniform"])
             continue
         components = 3 if found["kind"] == b"vector" else 1
         values = np.frombuffer(data, float, components * int(found["count"]), position)
         parts[name], position = values.reshape(-1, 3) if components == 3 else values, position + values.nbytes
     return parts
+
+
+def one_for_all(text):
+    """[1] or [1, 3] of `5` or `(0 0 5)`."""
+    values = np.array(text.strip(b"()").split(), dtype=float)
+    return values if len(values) == 1 else values[None]
