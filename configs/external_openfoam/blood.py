@@ -63,19 +63,16 @@ class Blood:
     def __init__(self):
         case = tether.case(sys.argv[1])
         swept, fluid = case["mesh"]["swept"], case["fluid"]
-        outlet = fluid["outlets"]["outlet"]
-        for where, kind, own in (("fluid.rheology", fluid["rheology"]["type"], "newtonian"), ("fluid.outlets.outlet", outlet["type"], "windkessel")):
-            if kind != own:
-                raise ValueError(f"{where}.type: {kind}: this blood knows {own} only")
-        self.numbers = {"density": fluid["density"], "rheology.viscosity": fluid["rheology"]["viscosity"],
-                        **{name: outlet[name.rsplit(".", 1)[1]] for name in PARAMETERS if name.startswith("outlets.")}}
+        refuse_others("fluid.rheology", fluid["rheology"], "newtonian")
+        refuse_others("fluid.outlets.outlet", fluid["outlets"]["outlet"], "windkessel")
+        self.numbers = {name: within(fluid, name) for name in PARAMETERS}
         self.parameters = [dict(name=name, value=self.numbers[name], unit=unit, transform="log2", prior_deviation=1, lower=0) for name, unit in PARAMETERS.items()]
-        self.distal_pressure, self.flow = outlet["distal_pressure"], tether.Curve(**fluid["inlets"]["inlet"]["flow"])
+        self.distal_pressure, self.flow = within(fluid, "outlets.outlet.distal_pressure"), tether.Curve(**fluid["inlets"]["inlet"]["flow"])
         lattice = fluid["mesh"]
         self.tube = Tube(swept["radius"], swept["length"], lattice["around"], lattice["along"], lattice["rings"])
         self.radius, self.length, self.along = swept["radius"], swept["length"], lattice["along"]
         self.set_up_interface()
-        self.case = Case(pathlib.Path(__file__).parent / "foam", self.tube)
+        self.case = Case("pimpleFoam", pathlib.Path(__file__).parent / "foam", self.tube)
         self.start, self.told = Start.at_rest(self.tube), [0.0] * 4
         self.state_size = len(self.start.vector())
 
@@ -107,7 +104,8 @@ class Blood:
             "wall": {"type": "movingWallVelocity", "value": U["wall"]},
             "inlet": self.parabola(),
             "outlet": {"type": "pressureInletOutletVelocity", "value": U["outlet"]}})
-        self.write_field("p", self.start.p, {"wall": {"type": "zeroGradient"}, "inlet": {"type": "zeroGradient"}, "outlet": {"type": "fixedValue", "value": "uniform 0"}})
+        self.write_field("p", self.start.p, {
+            "wall": {"type": "zeroGradient"}, "inlet": {"type": "zeroGradient"}, "outlet": {"type": "fixedValue", "value": "uniform 0"}})
         self.write_field("Uf", self.start.Uf[:inner], {name: {"type": "calculated", "value": values} for name, values in Uf.items()})
 
     def write_field(self, name, inside, patches):
@@ -126,7 +124,7 @@ class Blood:
     def evaluate(self, displacement, velocity):
         self.write_field("pointDisplacement", REST, {
             "wall": {"type": "fixedValue", "value": displacement}, "inlet": {"type": "slip"}, "outlet": {"type": "slip"}})
-        self.read(self.case.step("pimpleFoam", self.dt, nu=self.viscosity / self.density))
+        self.read(self.case.step(self.dt, nu=self.viscosity / self.density))
         return self.forces(self.points + displacement)
 
     def read(self, folder):
@@ -163,6 +161,18 @@ class Blood:
 
     def set_state(self, values):
         self.start = self.start.taken_from(values)
+
+
+def refuse_others(where, section, own):
+    if section["type"] != own:
+        raise ValueError(f"{where}.type: {section['type']}: this blood knows {own} only")
+
+
+def within(section, name):
+    """What a section of the case has at a place, `outlets.outlet.compliance`."""
+    for key in name.split("."):
+        section = section[key]
+    return section
 
 
 if __name__ == "__main__":

@@ -20,19 +20,25 @@ HEADER = """FoamFile
 """
 VALUES = re.compile(rb"(?P<block>\w+)\s*\{|(?P<key>internalField|value)\s+"
                     rb"(?:nonuniform List<(?P<kind>scalar|vector)>\s*(?P<count>\d+)\s*\(|uniform (?P<uniform>[^;]+);)")
-ENVIRONMENT = {"WM_PROJECT_DIR": "/usr/share/openfoam"}  # where Debian has OpenFOAM's own settings
+DEBIAN = {"WM_PROJECT_DIR": "/usr/share/openfoam"}  # where its package has OpenFOAM's own settings
 
 
 class Case:
-    """The files of `template`, a mesh, and a start of a step at time 0."""
+    """The files of `template`, a mesh, and a start of a step at time 0, which `program` goes on from."""
 
-    def __init__(self, template, tube):
+    def __init__(self, program, template, tube):
+        if shutil.which(program) is None:
+            raise FileNotFoundError(f"{program}: not found (Debian's package openfoam)")
+        self.program = program
         self.temporary = tempfile.TemporaryDirectory(prefix="tether_openfoam_", dir=memory())
         self.folder = pathlib.Path(self.temporary.name)
         shutil.copytree(template, self.folder, dirs_exist_ok=True)
-        mesh = "constant/polyMesh"
+        self.write_mesh(tube)
+
+    def write_mesh(self, tube):
+        mesh, corners = "constant/polyMesh", 4 * np.arange(len(tube.faces) + 1)
         self.write(mesh, "points", "vectorField", counted(tube.points, float))
-        self.write(mesh, "faces", "faceCompactList", counted(4 * np.arange(len(tube.faces) + 1), np.int32) + counted(tube.faces.ravel(), np.int32))
+        self.write(mesh, "faces", "faceCompactList", counted(corners, np.int32) + counted(tube.faces.ravel(), np.int32))
         self.write(mesh, "owner", "labelList", counted(tube.owner, np.int32))
         self.write(mesh, "neighbour", "labelList", counted(tube.neighbour, np.int32))
         patches = [f"{name} {{ type {'wall' if name == 'wall' else 'patch'}; nFaces {len(part)}; startFace {part.start}; }}" for name, part in tube.patches.items()]
@@ -53,17 +59,22 @@ class Case:
         blocks = [name.encode() + b"\n{\n" + b"".join(entry(*said) for said in patch.items()) + b"}\n" for name, patch in patches.items()]
         self.write("0", name, kind, b"".join([entry("dimensions", dimensions), entry("internalField", inside), b"boundaryField\n{\n", *blocks, b"}\n"]))
 
-    def step(self, program, dt, **numbers):
+    def step(self, dt, **numbers):
         """Runs one step from time 0; `numbers` are what the template's files read. Returns the folder with its end."""
-        for old in self.folder.glob("0?*"):
+        for old in self.ends():
             shutil.rmtree(old)
         numbers |= {"deltaT": dt, "endTime": dt}
         (self.folder / "numbers").write_text("".join(f"{name} {float(value)!r};\n" for name, value in numbers.items()))
-        done = subprocess.run([program], cwd=self.folder, env=os.environ | ENVIRONMENT | {"PWD": str(self.folder)}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.log, ends = done.stdout, list(self.folder.glob("0?*"))
+        done = subprocess.run([self.program], cwd=self.folder, env=DEBIAN | os.environ | {"PWD": str(self.folder)}, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        ends = self.ends()
         if done.returncode != 0 or len(ends) != 1:
-            raise RuntimeError(f"{program} ended with {done.returncode}: {last_words(done.stdout)}")
+            raise RuntimeError(f"{self.program} ended with {done.returncode}: {last_words(done.stdout)}")
         return ends[0]
+
+    def ends(self):
+        """Folders of times after 0."""
+        return [path for path in self.folder.iterdir() if path.name[0].isdigit() and path.name != "0"]
 
 
 class Field:
