@@ -30,8 +30,7 @@ class Case:
         if shutil.which(program) is None:
             raise FileNotFoundError(f"{program}: not found (Debian's package openfoam)")
         self.program = program
-        self.temporary = tempfile.TemporaryDirectory(prefix="tether_openfoam_", dir=memory())
-        self.folder = pathlib.Path(self.temporary.name)
+        self.folder, self.keeper = folder_for_now()
         shutil.copytree(template, self.folder, dirs_exist_ok=True)
         self.write_mesh(tube)
 
@@ -100,9 +99,13 @@ def everywhere(values, count):
     return np.broadcast_to(values, (count, *values.shape[1:]))
 
 
-def memory():
-    """A folder that costs no disk, unless TMPDIR says where."""
-    return None if os.environ.get("TMPDIR") or not os.access("/dev/shm", os.W_OK) else "/dev/shm"
+def folder_for_now():
+    """A new folder, and a shell that removes it once this process is gone, however it went: its input ends then. It has nothing of the job's
+    environment, by which Tether finds what an interrupted job has left running."""
+    folder = tempfile.mkdtemp(prefix="tether_openfoam_")
+    keeper = subprocess.Popen(["/bin/sh", "-c", 'cat; sleep 1; rm -rf "$0"', folder], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, start_new_session=True, env={"PATH": os.defpath})
+    return pathlib.Path(folder), keeper
 
 
 def last_words(log):

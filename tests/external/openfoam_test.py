@@ -31,6 +31,9 @@ class OpenfoamBlood(BesideOurs):
     def test_goes_on_to_the_same_bits(self):
         self.assert_goes_on_to_the_same_bits(self.case)
 
+    def test_identifies_the_spring_that_data_of_ours_hide(self):
+        self.assert_identifies_the_spring(self.case, "fluid: {mesh: {around: 16, along: 12, rings: 4}}\n")
+
 
 if __name__ == "__main__":
     run_with(sys.argv)
