@@ -133,6 +133,8 @@ class Blood:
         motion, U, Uf, p, phi, shear = (Field(folder / name, self.tube.patches) for name in ("pointDisplacement", "U", "Uf", "p", "phi", "wallShearStress"))
         inflow, outflow = -phi.at("inlet").sum(), phi.at("outlet").sum()
         self.trial = Start(motion.inside(len(self.tube.points)), U.whole(cells), Uf.whole(inner), p.inside(cells), self.windkessel.stored(outflow))
+        if not self.tube.is_sound(self.tube.points + self.trial.displacement):
+            raise RuntimeError("the wall moves so far that cells are turned inside out")
         at_outlet = self.windkessel.offset + self.windkessel.slope * outflow
         self.pressure, self.shear = at_outlet + self.density * p.inside(cells), shear.at("wall")  # of cells; of faces, over the density
         self.trial_told = [inflow, outflow, self.beside("inlet").mean(), at_outlet]

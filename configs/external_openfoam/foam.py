@@ -3,6 +3,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 
@@ -68,7 +69,7 @@ class Case:
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         ends = self.ends()
         if done.returncode != 0 or len(ends) != 1:
-            raise RuntimeError(f"{self.program} ended with {done.returncode}: {last_words(done.stdout)}")
+            raise RuntimeError(f"{self.program} {how_ended(done.returncode)}: {last_words(done.stdout)}")
         return ends[0]
 
     def ends(self):
@@ -108,10 +109,15 @@ def folder_for_now():
     return pathlib.Path(folder), keeper
 
 
+def how_ended(code):
+    return f"ended with {code}" if code >= 0 else f"was ended by {signal.Signals(-code).name}"
+
+
 def last_words(log):
-    """What OpenFOAM says is wrong, else the end of what it says."""
+    """What OpenFOAM says is wrong, else the end of what it says, before a stack of calls."""
+    log = log.partition("\n#0 ")[0]
     _, fatal, error = log.rpartition("FOAM FATAL")
-    return " ".join((error if fatal else log[-500:]).split())
+    return " ".join((error if fatal else log[-200:]).split())
 
 
 def counted(values, kind):

@@ -2,7 +2,7 @@
 import numpy as np
 
 CORE, ROUND = 0.55, 0.6  # of the square in the middle: its corners [radius]; its sides (0: straight, 1: a circle)
-SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))  # of a hexahedron, normals outward
+SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))  # of a hexahedron: low, high, then around; normals outward
 
 
 class Tube:
@@ -41,6 +41,11 @@ class Tube:
     def nodes(self, patch):
         """Points of a patch, ascending."""
         return np.unique(self.faces[self.patches[patch]])
+
+    def is_sound(self, points):
+        """Whether no cell is turned inside out in its middle, with points elsewhere than at rest [points, 3]."""
+        low, high, front, right, back, left = (points[self.cells[:, side]].mean(axis=1) for side in SIDES)
+        return np.all(np.einsum("ci,ci->c", np.cross(right - left, back - front), high - low) > 0)
 
 
 def disc(radius, around, rings):
