@@ -41,10 +41,16 @@ struct Session::Parts {
     auto [communicator, peer] = spawn(program, role);
     return std::make_unique<MpiChannel>(MpiChannel::To::partner, peer, communicator, watch);
   }
-  /// The first of the candidates (world ranks) that has the program's role.
+  /// The first of the candidates (world ranks) that has a role.
+  std::vector<int>::iterator first_with(const std::string& wanted, std::vector<int>& candidates) const {
+    return std::find_if(candidates.begin(), candidates.end(),
+                        [&](int candidate) { return roles[static_cast<std::size_t>(candidate)] == wanted; });
+  }
+  bool has(const std::string& wanted, std::vector<int>& candidates) const {
+    return first_with(wanted, candidates) != candidates.end();
+  }
   std::unique_ptr<Channel> take(const Program& program, std::vector<int>& candidates) {
-    const auto is_such = [&](int candidate) { return roles[static_cast<std::size_t>(candidate)] == program.role; };
-    const auto found = std::find_if(candidates.begin(), candidates.end(), is_such);
+    const auto found = first_with(program.role, candidates);
     if (found == candidates.end()) throw input_error("the mpirun line has no {} for this {}", program.role, role);
     const int partner = *found;
     candidates.erase(found);
@@ -233,7 +239,7 @@ std::span<Partner> Session::launch(const std::vector<Program>& programs, const s
   if (parts_->roles.size() > 1) candidates = partners_of(parts_->roles, parts_->rank);
   std::vector<Partner>& group = parts_->groups.emplace_back();
   for (const Program& program : programs) {
-    if (program.here && candidates.empty()) {
+    if (program.here && !parts_->has(program.role, candidates)) {
       group.emplace_back(program.here(program, {version, host_name(), process_id(), output}));
       continue;
     }

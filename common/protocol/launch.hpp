@@ -25,7 +25,7 @@ struct Program {
   int processes = 1;                   ///< of a parallel code; only its rank 0 talks
   std::string where = {};              ///< that the user named it, for messages: "case.yaml:4: coupling.programs.fluid"
   std::string node = {};               ///< to run on; empty: the one of its master
-  Here here = {};                      ///< instead of a process of its own; not on an mpirun line that holds it
+  Here here = {};                      ///< instead of a process of its own, unless the mpirun line holds one
 };
 
 /// Whether a program that a case names is Tether's own: without slash.

@@ -58,9 +58,9 @@ class SlurmOverHosts(unittest.TestCase):
     def test_srun_starts_an_identification_with_a_model_on_each_host(self):
         case, output, hosts = self.identification, self.folder / "srun", ["h0", "h1", "h2"]
         programs = [f"identification_master {case} --output {output}"]
-        for name in ("fsi_master", "fluid", "solid", "observation_manager"):
+        for name in ("fsi_master", "observation_manager"):
             programs += [f"{name} {case}"] * HOSTS
-        done = self.srun(programs, ["h0"] + hosts * 4, "--overcommit")
+        done = self.srun(programs, ["h0"] + hosts * 2, "--overcommit")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(cases.estimates(output), cases.estimates(self.folder / "here"))
 

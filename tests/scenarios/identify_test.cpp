@@ -127,6 +127,25 @@ TEST_F(Identify, FindsWhatTheDataWereMadeWith) {
   expect_same("one", "three");
 }
 
+/// Where a cluster forbids that programs start others: groups have the codes that the line does not hold.
+TEST_F(Identify, IsTheSameOnAnMpirunLine) {
+  const fs::path programs = fs::path(TETHER_PROGRAM).parent_path();
+  const auto part = [&](const char* program, const char* number) {
+    return std::vector<std::string>{"-n", number, programs / program, case_file};
+  };
+  std::vector<std::string> words{"mpirun", "-q",    "--oversubscribe",     "--bind-to",
+                                 "none",   "--mca", "mpi_yield_when_idle", "1"};
+  for (const auto& more : {part("identification_master", "1"),
+                           {"--output", folder / "line", "--steps", std::to_string(steps), "--quiet", ":"},
+                           part("fsi_master", "2"),
+                           {":"},
+                           part("observation_manager", "2")})
+    words.insert(words.end(), more.begin(), more.end());
+  const ChildEnd end = capture({words, {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}}});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(content_of(folder / "line/estimate.csv"), content_of(folder / "one/estimate.csv"));
+}
+
 /// To the bit: with three particles on two groups of processes.
 TEST_F(Identify, KilledAndResumedItFindsTheSame) {
   for (const char* program : {"fsi_master", "observation_manager"}) {
