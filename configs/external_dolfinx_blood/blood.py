@@ -58,19 +58,6 @@ class Tube:
         self.ends = {"inlet": np.arange(size), "outlet": np.arange(size) + size * along}
 
 
-class Windkessel:
-    """After implicit Euler the pressure at the outlet is `offset + slope Q`, Q what leaves at the end of the step."""
-
-    def __init__(self, proximal, distal, compliance, distal_pressure, stored, dt):
-        share = dt / compliance
-        whole = 1 + share / distal
-        self.offset, self.slope = (stored + share * distal_pressure / distal) / whole, proximal + share / whole
-        self.proximal = proximal
-
-    def stored(self, flow):
-        return self.offset + (self.slope - self.proximal) * flow
-
-
 class Operator:
     """A matrix on arrays of this process' own entries. Of vectors it has two for all times: PETSc keeps those that Python drops."""
 
@@ -109,7 +96,7 @@ class Inverse(Operator):
         self.solver.solve(self.given, self.result)
 
 
-# In the order in which Windkessel takes its own.
+# In the order in which tether.Windkessel takes its own.
 PARAMETERS = {"density": "g/cm3", "rheology.viscosity": "g/(cm s)", "outlets.outlet.proximal_resistance": "g/(cm4 s)",
               "outlets.outlet.distal_resistance": "g/(cm4 s)", "outlets.outlet.compliance": "cm4 s2/g"}
 
@@ -229,7 +216,7 @@ class Blood:
     def begin_step(self, step, time, dt, predicted):
         density, viscosity, *outlet = (self.numbers[name] for name in PARAMETERS)
         self.density.value, self.viscosity.value, self.dt.value = density, viscosity, dt
-        self.windkessel = Windkessel(*outlet, self.distal_pressure, self.stored, dt)
+        self.windkessel = tether.Windkessel(*outlet, self.distal_pressure, self.stored, dt)
         self.trial_motion = self.extended(predicted)
         self.mesh.geometry.x[:] = self.rest + self.trial_motion
         self.carrier.x.array[:] = self.before.x.array - ((self.trial_motion - self.motion) / dt)[self.geometry_of_velocities].ravel()

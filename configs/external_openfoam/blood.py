@@ -22,19 +22,6 @@ PARAMETERS = {"density": "g/cm3", "rheology.viscosity": "g/(cm s)", "outlets.out
               "outlets.outlet.distal_resistance": "g/(cm4 s)", "outlets.outlet.compliance": "cm4 s2/g"}  # Windkessel's last, in its order
 
 
-class Windkessel:
-    """After implicit Euler the pressure at the outlet is `offset + slope Q`, Q what leaves at the end of the step."""
-
-    def __init__(self, proximal, distal, compliance, distal_pressure, stored, dt):
-        share = dt / compliance
-        whole = 1 + share / distal
-        self.offset, self.slope = (stored + share * distal_pressure / distal) / whole, proximal + share / whole
-        self.proximal = proximal
-
-    def stored(self, flow):
-        return self.offset + (self.slope - self.proximal) * flow
-
-
 class Start:
     """What a step starts from. displacement: [points, 3]; U: [cells + outer faces, 3]; Uf: [faces, 3], velocities at faces; p: [cells], over
     the density, less the outlet's; stored: the Windkessel's pressure."""
@@ -92,7 +79,7 @@ class Blood:
     def begin_step(self, step, time, dt, predicted):
         self.dt, self.inflow = dt, self.flow(time + dt)
         self.density, self.viscosity, *outlet = (self.numbers[name] for name in PARAMETERS)
-        self.windkessel = Windkessel(*outlet, self.distal_pressure, self.start.stored, dt)
+        self.windkessel = tether.Windkessel(*outlet, self.distal_pressure, self.start.stored, dt)
         self.write_start()
 
     def write_start(self):

@@ -1,5 +1,6 @@
 """tether.case: a case merged with those it builds on, as Tether itself reads it."""
 
+import math
 import pathlib
 import sys
 import tempfile
@@ -58,6 +59,22 @@ class Case(unittest.TestCase):
         table = self.write("flow.csv", "time [s], flow [ml/s]\n0, 10\n1, 10\n")
         with self.assertRaisesRegex(ValueError, "no column volume"):
             tether.Curve(table, period=1, value="volume")
+
+    def test_a_windkessel_fills_as_its_equation_says_to_first_order(self):
+        proximal, distal, compliance, below, flow, end = 100.0, 1500.0, 1e-3, 2e4, 50.0, 1.2
+
+        def wrong_by(steps):
+            stored, dt = 3e4, end / steps
+            for _ in range(steps):
+                windkessel = tether.Windkessel(proximal, distal, compliance, below, stored, dt)
+                stored = windkessel.stored(flow)
+            self.assertAlmostEqual(windkessel.offset + windkessel.slope * flow, stored + proximal * flow, places=7)
+            settled = below + distal * flow
+            return stored - (settled + (3e4 - settled) * math.exp(-end / (distal * compliance)))
+
+        coarse, fine = wrong_by(40), wrong_by(80)
+        self.assertLess(abs(fine), 0.01 * 6.5e4)
+        self.assertAlmostEqual(coarse / fine, 2, delta=0.05)
 
 
 if __name__ == "__main__":

@@ -7,12 +7,13 @@
     found.distances("spine", 3)         # at the nodes of a region, at the source's fourth moment (numpy)
 
 Results are as docs/schema has them (tether.results). A code is coupled by tether.serve (tether.coupling), and
-reads its case by tether.case, its inflow by tether.Curve.
+reads its case by tether.case, its inflow by tether.Curve; tether.Windkessel is its outlet over one step.
 """
 
 from tether.case import case
 from tether.curve import Curve
 from tether.results import Result, load
+from tether.windkessel import Windkessel
 
 
 def serve(role, make, communicator=None, together=False):
@@ -29,4 +30,4 @@ def gathered(communicator, values, places, count):
     return coupling.gathered(communicator, values, places, count)
 
 
-__all__ = ["Curve", "Result", "case", "gathered", "load", "serve"]
+__all__ = ["Curve", "Result", "Windkessel", "case", "gathered", "load", "serve"]
