@@ -126,8 +126,11 @@ std::vector<std::string> notices_of(const CoupledCodes& codes, const RunPlan& pl
 /// What the processes have cost so far, in the order of RunStatistics.
 std::vector<PartnerUsage> costs(Crew& crew, std::span<Partner> partners) {
   std::vector<PartnerUsage> all{{cpu_seconds(), peak_memory_mb()}, crew.fluid.usage().get(), crew.solid.usage().get()};
-  for (std::size_t code = 0; code < 2; ++code)
-    if (partners[code].is_here()) all[0].cpu_seconds -= all[code + 1].cpu_seconds;
+  for (std::size_t code = 0; code < 2; ++code) {
+    if (!partners[code].is_here()) continue;
+    all[0].cpu_seconds -= all[code + 1].cpu_seconds;
+    all[code + 1].peak_memory_mb = 0;  // is the master's
+  }
   if (partners.size() > 2) {
     const auto usage = partners[2].ask(protocol::GetUsage{});
     all.push_back({usage.cpu_seconds, usage.peak_memory_mb});

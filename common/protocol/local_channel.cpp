@@ -13,7 +13,7 @@ LocalChannel::LocalChannel(const std::string& role, Packet first, Answer answer)
 
 void LocalChannel::send(Packet packet) {
   TETHER_ASSERT(answer_, "{} is asked after its end", peer().role);
-  if (holds<GetUsage>(packet)) return replies_.push_back(pack(Usage{cpu_seconds_, 0}));
+  if (holds<GetUsage>(packet)) return replies_.push_back(pack(Usage{cpu_seconds_, peak_memory_mb()}));
   const double before = cpu_seconds();
   replies_.push_back(answer_(packet));
   cpu_seconds_ += cpu_seconds() - before;

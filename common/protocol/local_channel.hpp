@@ -11,7 +11,7 @@
 namespace tether::protocol {
 
 /// The way to a partner that lives in this process: it answers as it is asked. Its usage is the processor's time that
-/// its answers took; its memory is this process' own.
+/// its answers took, and the memory of this process.
 class LocalChannel final : public Channel {
  public:
   using Answer = std::function<Packet(const Packet&)>;

@@ -32,7 +32,7 @@ TEST(Partner, Answers_each_request_with_its_reply) {
   EXPECT_DOUBLE_EQ(motion.displacement[7], 0.01 * motion.velocity[7]);
 }
 
-/// What it costs is told apart from what its master does; its memory is the master's.
+/// What it costs is told apart from what its master does; its memory is that of both.
 TEST(PartnerHere, Tells_what_its_answers_cost) {
   const auto answer = [](const Packet&) {
     volatile double sum = 0;
@@ -50,7 +50,7 @@ TEST(PartnerHere, Tells_what_its_answers_cost) {
   const Usage usage = partner.ask(GetUsage{});
   EXPECT_GT(usage.cpu_seconds, 0.039);
   EXPECT_LT(usage.cpu_seconds, 0.1) << "what its master does meanwhile is the master's";
-  EXPECT_EQ(usage.peak_memory_mb, 0);
+  EXPECT_GT(usage.peak_memory_mb, 0);
 }
 
 TEST(PartnerHere, Is_made_of_the_program_and_the_welcome) {

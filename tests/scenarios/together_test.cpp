@@ -79,6 +79,10 @@ TEST_F(Together, ItsCostIsToldByCode) {
     sum += cost[code].get<double>();
   }
   EXPECT_NEAR(sum, cost["total"], 1e-9);
+  const Json memory = summary("out")["peak_memory_mb"];
+  EXPECT_EQ(memory["fluid"], 0.0) << "is the master's: " << memory;
+  EXPECT_EQ(memory["solid"], 0.0) << memory;
+  EXPECT_EQ(memory["fsi_master"], memory["total"]) << memory;
 }
 
 /// How the codes are placed is no part of the model.
