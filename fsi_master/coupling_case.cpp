@@ -44,8 +44,8 @@ void CouplingCase::declare(Fields& f) {
   f.choice("processes", processes,
            {{"apart", "fluid and solid are processes of their own"},
             {"together",
-             "what of them is Tether's own is in the master's process: a small model takes half the time, a large one "
-             "does not have both at work at once"}},
+             "what of them is Tether's own is in the master's process: a small model takes two fifths less of the "
+             "processor's time, a large one does not have both at work at once"}},
            "of a direct run; the groups of an identification and of a diagnosis have them together");
   f.group("ranks", ranks, "processes of a program of one's own that runs in several; on an mpirun line its -n says it");
 }
