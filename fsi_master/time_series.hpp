@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include "common/base/checked_file.hpp"
 #include "common/base/units.hpp"
+#include "common/io/growing_table.hpp"
 
 namespace tether {
 
@@ -22,17 +21,12 @@ class TimeSeries {
  public:
   TimeSeries(std::filesystem::path path, std::vector<Column> columns, const UnitSystem& units);
 
-  /// A new file with its headings.
-  void start();
-  /// Goes on behind the first `rows` rows of the file; later ones are dropped. Throws InputError if the file has other
-  /// headings, fewer rows or others than those of the checksum; it is as it was then.
-  void resume(std::int64_t rows, std::uint64_t checksum);
+  void start() { table_.start(); }
+  void resume(std::int64_t rows, std::uint64_t checksum) { table_.resume(rows, checksum); }
   /// To be read by others when this returns. Throws RunError if it cannot be written.
   void append(const std::vector<double>& values);
-  /// To the disk: what a checkpoint counts on must outlast a loss of power. Throws RunError.
-  void flush() const { flush_to_disk(path_); }
-  /// Of the headings and all rows so far.
-  std::uint64_t checksum() const { return checksum_; }
+  void flush() const { table_.flush(); }
+  std::uint64_t checksum() const { return table_.checksum(); }
 
  private:
   struct Copy {
@@ -41,14 +35,11 @@ class TimeSeries {
     double factor;
   };
   std::string headings() const;
-  void open(std::ios::openmode mode);
-  void write(const std::string& line);
+  static std::vector<Copy> copies_of(const std::vector<Column>& columns, const UnitSystem& units);
 
-  std::filesystem::path path_;
   std::vector<Column> columns_;
   std::vector<Copy> copies_;
-  std::uint64_t checksum_ = 0;
-  std::ofstream file_;
+  GrowingTable table_;
 };
 
 }  // namespace tether

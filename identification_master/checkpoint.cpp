@@ -76,6 +76,20 @@ EstimateRecord unpacked(const PackedRecord& p) {
           p.numbers[3], p.numbers[4],    p.numbers[5],          p.numbers[6]};
 }
 
+std::vector<double> packed(const DataTotals& all) {
+  return {all.data,
+          all.used,
+          all.rejected,
+          all.chi_square,
+          all.expected_chi_square,
+          static_cast<double>(all.tempered_steps)};
+}
+
+DataTotals totals_of(const std::vector<double>& packed) {
+  require_size(packed, 6);
+  return {packed[0], packed[1], packed[2], packed[3], packed[4], whole(packed[5])};
+}
+
 fs::path newest_in(const fs::path& folder) {
   return folder / "identification.bin";
 }
@@ -92,10 +106,11 @@ IdentificationCheckpoint unpacked(const CheckedContent& content) {
   IdentificationState& state = checkpoint.state;
   state.step = content.step;
   PackedMatrix theta, states, last_mean, lasting_mean, lasting_slope, lasting_covariance, information;
-  std::vector<PackedRecord> records;
-  std::vector<double> innovations, cost;
+  PackedRecord last;
+  std::vector<double> totals, innovations, cost;
+  std::int64_t table = 0;
   protocol::Reader reader("checkpoint", content.bytes);
-  reader(theta, states, state.memories, checkpoint.at_hand, records, innovations, last_mean, lasting_mean,
+  reader(theta, states, state.memories, checkpoint.at_hand, last, totals, table, innovations, last_mean, lasting_mean,
          lasting_slope, lasting_covariance, information, cost);
   reader.expect_end();
   require_size(innovations, 3), require_size(cost, 4);
@@ -104,7 +119,9 @@ IdentificationCheckpoint unpacked(const CheckedContent& content) {
   state.last_mean = last_mean.vector();
   state.lasting = {lasting_mean.vector(), lasting_slope.matrix(), lasting_covariance.matrix()};
   state.information = information.matrix();
-  for (const PackedRecord& record : records) state.records.push_back(unpacked(record));
+  checkpoint.table = static_cast<std::uint64_t>(table);
+  state.last = unpacked(last);
+  state.totals = totals_of(totals);
   state.innovations = {innovations[0], innovations[1], innovations[2]};
   checkpoint.cost = {cost[0], cost[1], cost[2], whole(cost[3])};
   return checkpoint;
@@ -120,13 +137,16 @@ std::pair<std::uint64_t, IdentificationCheckpoint> read_file(const fs::path& pat
   }
 }
 
-/// The newest that is whole, and the fingerprint of its case.
-std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::path& folder) {
+using Found = std::pair<std::uint64_t, IdentificationCheckpoint>;  ///< with the fingerprint of its case
+
+/// The newest that is whole and that `take_up` does not refuse.
+Found newest_whole_in(const fs::path& folder, const std::function<void(const Found&)>& take_up) {
   std::string damage;
   for (const fs::path& file : {fresh_in(folder), newest_in(folder), before_in(folder)}) {
     if (!fs::exists(file)) continue;
     try {
-      auto found = read_file(file);
+      Found found = read_file(file);
+      take_up(found);
       found.second.refused = damage;
       return found;
     } catch (const InputError& error) {
@@ -135,7 +155,7 @@ std::pair<std::uint64_t, IdentificationCheckpoint> newest_whole_in(const fs::pat
   }
   if (damage.empty())
     throw input_error("{}: holds no checkpoint of an identification to resume from", folder.parent_path().string());
-  throw input_error("{}; there is none before it: start anew without --resume", damage);
+  throw input_error("{}; there is none before it to go on from: start anew without --resume", damage);
 }
 
 bool is_whole(const fs::path& file) {
@@ -154,12 +174,11 @@ void put_fresh_in_place(const fs::path& folder) {
 
 }  // namespace
 
-void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationState& state,
-                      const std::vector<std::vector<double>>& at_hand, const IdentificationCost& cost) {
-  std::vector<PackedRecord> records;
-  for (const EstimateRecord& record : state.records) records.push_back(packed(record));
+void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationCheckpoint& checkpoint) {
+  const auto& [state, at_hand, cost, table, refused] = checkpoint;
   protocol::Writer writer;
-  writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, at_hand, records,
+  writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, at_hand, packed(state.last),
+         packed(state.totals), static_cast<std::int64_t>(table),
          std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
          PackedMatrix(state.last_mean), PackedMatrix(state.lasting.mean), PackedMatrix(state.lasting.slope),
          PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),
@@ -174,12 +193,17 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
 }
 
 std::size_t groups_of_checkpoint(const fs::path& output) {
-  return newest_whole_in(output / "checkpoint").second.at_hand.size();
+  return newest_whole_in(output / "checkpoint", [](const Found&) {}).second.at_hand.size();
 }
 
-IdentificationCheckpoint read_identification_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
+/// Of which case it is comes before what lies beside it.
+IdentificationCheckpoint read_identification_checkpoint(
+    const fs::path& output, std::uint64_t fingerprint,
+    const std::function<void(const IdentificationCheckpoint&)>& take_up) {
   const fs::path folder = output / "checkpoint";
-  auto [of_case, checkpoint] = newest_whole_in(folder);
+  auto [of_case, checkpoint] = newest_whole_in(folder, [&](const Found& found) {
+    if (found.first == fingerprint) take_up(found.second);
+  });
   if (of_case != fingerprint)
     throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
                       newest_in(folder).string());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "identification_master/identification.hpp"
 
@@ -16,19 +17,23 @@ struct IdentificationCheckpoint {
   IdentificationState state;
   std::vector<std::vector<double>> at_hand;  ///< of each group (GroupPool)
   IdentificationCost cost;
-  std::string refused = {};  ///< why a newer one is not taken: it is damaged
+  std::uint64_t table = 0;   ///< checksum of estimate.csv so far
+  std::string refused = {};  ///< why a newer one is not taken: it, or what it counts on, is damaged
 };
 
 /// OUTPUT/checkpoint/identification.bin: written beside the old one, flushed, renamed; the one before stays as
 /// identification.previous. Throws RunError if the disk refuses.
-void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint, const IdentificationState& state,
-                      const std::vector<std::vector<double>>& at_hand, const IdentificationCost& cost);
+void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint,
+                      const IdentificationCheckpoint& checkpoint);
 
 /// On how many groups the steps before the newest whole one were made: what solves have taught each group is not the
 /// same on others, so that results differ within the coupling's tolerance. Throws InputError: none, both damaged.
 std::size_t groups_of_checkpoint(const std::filesystem::path& output);
 
-/// The newest whole one. Throws InputError: none, both damaged, of another case.
-IdentificationCheckpoint read_identification_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
+/// The newest whole one whose step finds what it counts on beside it: `take_up` goes on there, or throws InputError.
+/// Throws InputError: none, both damaged, of another case.
+IdentificationCheckpoint read_identification_checkpoint(
+    const std::filesystem::path& output, std::uint64_t fingerprint,
+    const std::function<void(const IdentificationCheckpoint&)>& take_up);
 
 }  // namespace tether

@@ -25,7 +25,7 @@ std::string headings(const IdentifiedParameters& parameters) {
   std::string line = "time [s]";
   for (std::size_t i = 0; i < columns.size(); ++i)
     line += ", " + columns[i] + (i < 3 * list.size() ? fmt::format(" [{}]", list[i / 3].unit) : "");
-  return line + ", data, chi_square, expected_chi_square, rejected, tempering, evaluations\n";
+  return line + ", data, chi_square, expected_chi_square, rejected, tempering, evaluations";
 }
 
 std::string row(const IdentifiedParameters& parameters, const EstimateRecord& record) {
@@ -41,7 +41,7 @@ std::string row(const IdentifiedParameters& parameters, const EstimateRecord& re
   const MatrixXd correlation = correlations(record.covariance);
   for (Eigen::Index i = 0; i < correlation.rows(); ++i)
     for (Eigen::Index j = 0; j < i; ++j) line += fmt::format(", {}", correlation(j, i));
-  return line + fmt::format(", {}, {}, {}, {}, {}, {}\n", record.data, record.chi_square, record.expected_chi_square,
+  return line + fmt::format(", {}, {}, {}, {}, {}, {}", record.data, record.chi_square, record.expected_chi_square,
                             record.rejected_share(), record.tempering, record.evaluations);
 }
 
@@ -70,7 +70,7 @@ EstimatedParameter estimated(const IdentifiedParameter& p, double mean, double d
 }
 
 InnovationsTold innovations_of(const Identification& done) {
-  const DataTotals all = totals_of(done.state().records);
+  const DataTotals& all = done.state().totals;
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
   return {all.data,
           all.used,
@@ -119,11 +119,16 @@ ValueEstimate estimate_of(const IdentifiedParameter& parameter, double mean, dou
           std::max(value, bounded(mean + two_sided_95 * deviation))};
 }
 
-void write_estimates(const std::filesystem::path& path, const IdentifiedParameters& parameters,
-                     const std::vector<EstimateRecord>& records) {
-  std::string text = headings(parameters);
-  for (const EstimateRecord& record : records) text += row(parameters, record);
-  write_whole(path, text);
+EstimateTable::EstimateTable(const std::filesystem::path& output, const IdentifiedParameters& parameters)
+    : parameters_(parameters), table_(output / "estimate.csv", headings(parameters)) {}
+
+void EstimateTable::start(const EstimateRecord& prior) {
+  table_.start();
+  append(prior);
+}
+
+void EstimateTable::append(const EstimateRecord& record) {
+  table_.append(row(parameters_, record));
 }
 
 void write_estimate(const std::filesystem::path& path, const IdentifiedParameters& parameters,

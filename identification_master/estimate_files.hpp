@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "common/io/growing_table.hpp"
 #include "identification_master/checkpoint.hpp"
 
 namespace tether {
@@ -22,10 +23,24 @@ struct ValueEstimate {
 };
 ValueEstimate estimate_of(const IdentifiedParameter& parameter, double mean, double deviation);
 
-/// estimate.csv: a row a step, with mean, interval and theta of each parameter, their correlations, and how the data
-/// fit. All rows are written at once; throws RunError if that fails.
-void write_estimates(const std::filesystem::path& path, const IdentifiedParameters& parameters,
-                     const std::vector<EstimateRecord>& records);
+/// estimate.csv: a row a step, the prior's before the first, with mean, interval and theta of each parameter, their
+/// correlations, and how the data fit.
+class EstimateTable {
+ public:
+  /// parameters: must outlive it.
+  EstimateTable(const std::filesystem::path& output, const IdentifiedParameters& parameters);
+  /// Anew, with the prior. Throws RunError as all that write.
+  void start(const EstimateRecord& prior);
+  /// Goes on behind that step; rows of later ones are dropped. Throws InputError as GrowingTable does.
+  void resume(std::int64_t step, std::uint64_t checksum) { table_.resume(step + 1, checksum); }
+  void append(const EstimateRecord& record);
+  void flush() const { table_.flush(); }
+  std::uint64_t checksum() const { return table_.checksum(); }
+
+ private:
+  const IdentifiedParameters& parameters_;
+  GrowingTable table_;
+};
 
 /// estimate.json: prior and estimate, correlations, what the data can tell (K.7), whether innovations are consistent,
 /// cost. docs/identification.md

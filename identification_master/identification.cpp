@@ -25,17 +25,13 @@ constexpr double nearness = 0.05;
 
 }  // namespace
 
-DataTotals totals_of(const std::vector<EstimateRecord>& records) {
-  DataTotals all;
-  for (const EstimateRecord& record : records) {
-    all.data += record.data;
-    all.used += record.tempering * record.data;
-    all.rejected += record.rejected;
-    all.chi_square += record.chi_square;
-    all.expected_chi_square += record.expected_chi_square;
-    all.tempered_steps += record.tempering < 1 ? 1 : 0;
-  }
-  return all;
+void DataTotals::add(const EstimateRecord& step) {
+  data += step.data;
+  used += step.tempering * step.data;
+  rejected += step.rejected;
+  chi_square += step.chi_square;
+  expected_chi_square += step.expected_chi_square;
+  tempered_steps += step.tempering < 1 ? 1 : 0;
 }
 
 Identification::Identification(IdentificationPlan plan, const IdentifiedParameters& parameters,
@@ -61,7 +57,7 @@ Identification::Identification(IdentificationPlan plan, const IdentifiedParamete
   state_.lasting = filter_.lasting();
   const Eigen::Index numbers = filter_.parameters() + state_.lasting.count();
   state_.information = MatrixXd::Zero(plan.corrects ? 0 : numbers, plan.corrects ? 0 : numbers);
-  state_.records.push_back({plan.start, parameters.prior_mean(), parameters.prior_covariance()});
+  state_.last = {plan.start, parameters.prior_mean(), parameters.prior_covariance()};
 }
 
 void Identification::restore(IdentificationState state) {
@@ -98,7 +94,8 @@ void Identification::advance() {
   record.mean = filter_.mean();
   state_.theta = filter_.particles();
   state_.lasting = filter_.lasting();
-  state_.records.push_back(std::move(record));
+  state_.totals.add(record);
+  state_.last = std::move(record);
   ++state_.step;
 }
 

@@ -53,8 +53,9 @@ struct DataTotals {
   double data = 0, used = 0, rejected = 0;  ///< effective numbers of independent data; used: after tempering
   double chi_square = 0, expected_chi_square = 0;
   int tempered_steps = 0;
+
+  void add(const EstimateRecord& step);
 };
-DataTotals totals_of(const std::vector<EstimateRecord>& records);
 
 /// How the discrepancies of the mean behave from frame to frame of a series: about zero if model and noise are right.
 /// Sums over pairs of successive frames, with the later one's precision.
@@ -69,7 +70,8 @@ struct IdentificationState {
   std::int64_t step = 0;
   MatrixXd theta, states;  ///< one particle a column
   std::vector<std::vector<double>> memories;
-  std::vector<EstimateRecord> records;
+  EstimateRecord last;  ///< of this step; the prior before the first
+  DataTotals totals;
   InnovationStatistics innovations;
   VectorXd last_mean;  ///< discrepancy of the mean at each datum's last frame; NaN before the first
   LastingErrors lasting;
@@ -94,7 +96,7 @@ class Identification {
   const IdentificationState& state() const { return state_; }
   /// Continues from such a state. Throws InputError if it does not fit.
   void restore(IdentificationState state);
-  const EstimateRecord& last() const { return state_.records.back(); }
+  const EstimateRecord& last() const { return state_.last; }
   /// What the data may be off by at all times; state().lasting has what was found of it, in these deviations.
   const std::vector<LastingError>& lasting_errors() const { return lasting_.errors(); }
   /// Called in each observed step if nothing is corrected.

@@ -63,8 +63,8 @@ std::uint64_t fingerprint_of(const IdentifiedCase& given, GroupPool& pool, const
 }
 
 /// What a reader of the estimate must know of the data behind it.
-std::vector<std::string> notices_of(const std::vector<EstimateRecord>& records) {
-  const DataTotals all = totals_of(records);
+std::vector<std::string> notices_of(const IdentificationState& found) {
+  const DataTotals& all = found.totals;
   if (all.data == 0)
     return {all.rejected > 0
                 ? "all data were rejected (identification.reject_beyond): the estimate is the prior"
@@ -73,7 +73,7 @@ std::vector<std::string> notices_of(const std::vector<EstimateRecord>& records) 
   if (all.tempered_steps == 0) return {};
   return {fmt::format(
       "{} of {} steps were tempered (identification.largest_shift): {:.3g} of {:.3g} independent data were used",
-      all.tempered_steps, records.size() - 1, all.used, all.data)};
+      all.tempered_steps, found.step, all.used, all.data)};
 }
 
 SensitivityTables tables_of(const IdentifiedCase& given, const fs::path& output, const Observations& data,
@@ -97,7 +97,8 @@ class Job {
                    {given.file.common().time.start, given.file.common().time.end}),
         plan_(plan_of(given, command)),
         filter_(plan_, parameters_, prepared(), data_, pool,
-                {data_, given.lumen(), pool.lumen(), given.identification.allowed, plan_.ends()}) {}
+                {data_, given.lumen(), pool.lumen(), given.identification.allowed, plan_.ends()}),
+        table_(output_, parameters_) {}
 
   void run() {
     begin();
@@ -109,6 +110,7 @@ class Job {
       while (!filter_.is_done()) {
         check_held(output_);
         filter_.advance();
+        table_.append(filter_.last());
         progress.show(filter_.state().step, news(filter_, parameters_));
         const bool ends = end_is_requested() && !filter_.is_done();
         if (ends || filter_.state().step % given_.file.common().output.checkpoint_every == 0) save();
@@ -125,7 +127,7 @@ class Job {
     save();
     if (plan_.corrects)
       write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
-    const std::vector<std::string> notices = notices_of(filter_.state().records);
+    const std::vector<std::string> notices = notices_of(filter_.state());
     write_estimate(output_ / "estimate.json", parameters_, filter_, facts(notices));
     if (!command_.quiet)
       for (const std::string& notice : notices) std::cout << notice << "\n";
@@ -139,7 +141,9 @@ class Job {
   void begin() {
     fingerprint_ = fingerprint_of(given_, pool_, data_);
     if (command_.resume) {
-      IdentificationCheckpoint checkpoint = read_identification_checkpoint(output_, fingerprint_);
+      IdentificationCheckpoint checkpoint = read_identification_checkpoint(
+          output_, fingerprint_,
+          [this](const IdentificationCheckpoint& found) { table_.resume(found.state.step, found.table); });
       if (!checkpoint.refused.empty())
         fmt::print(stderr, "{}: the identification goes on from the checkpoint before, step {}\n", checkpoint.refused,
                    checkpoint.state.step);
@@ -153,6 +157,8 @@ class Job {
       cost_before_ = checkpoint.cost;
       saved_ = filter_.state().step;
       mark_output(output_, command_.case_file);
+    } else {
+      table_.start(filter_.last());
     }
     if (!plan_.corrects) begin_sensitivities();
     if (command_.quiet) return;
@@ -169,8 +175,8 @@ class Job {
     filter_.report_sensitivities([tables](const StepSensitivities& step) { tables->add(step); });
   }
   void save() {
-    write_estimates(output_ / "estimate.csv", parameters_, filter_.state().records);
-    write_checkpoint(output_, fingerprint_, filter_.state(), pool_.at_hand(), cost());
+    table_.flush();
+    write_checkpoint(output_, fingerprint_, {filter_.state(), pool_.at_hand(), cost(), table_.checksum()});
     saved_ = filter_.state().step;
   }
   std::string what_is_saved() const {
@@ -208,6 +214,7 @@ class Job {
   DataPrecision precision_;
   IdentificationPlan plan_;
   Identification filter_;
+  EstimateTable table_;
   std::uint64_t fingerprint_ = 0;
   std::optional<std::int64_t> saved_;
   Clock::time_point begun_;

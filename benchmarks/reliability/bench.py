@@ -37,7 +37,7 @@ PAUSES = {  # where a program waits until the fault was made
     ("identify", "report"): "{}:open:plots/:1:PAUSE",
     ("explain", "report"): "tether:open:explain.json:1:PAUSE",
 }
-LINES = {("simulate", "step"): ("timeseries.csv", 8), ("simulate", "later"): ("timeseries.csv", 14), ("identify", "step"): ("estimate.csv", 4), ("identify", "later"): ("estimate.csv", 14), ("explain", "first run"): ("model_0/timeseries.csv", 8),
+LINES = {("simulate", "step"): ("timeseries.csv", 8), ("simulate", "later"): ("timeseries.csv", 14), ("identify", "step"): ("estimate.csv", 8), ("identify", "later"): ("estimate.csv", 14), ("explain", "first run"): ("model_0/timeseries.csv", 8),
          ("explain", "diagnosis"): ("diagnosis_1/coarse/runs/solid.material.young/timeseries.csv", 4)}
 WRITES = {  # program, call, part of the path, which of them
     "simulate": [("tether", "mkdir", "", 1), ("tether", "open", ".lock", 1), ("fsi_master", "open", "case_as_run.yaml", 1), ("fsi_master", "open", "timeseries.csv", 1),
@@ -50,7 +50,7 @@ WRITES = {  # program, call, part of the path, which of them
                  ("solid", "mkdir", "vtk", 1), ("solid", "open", "vtk/solid", 2), ("solid", "write", "vtk/solid", 5), ("solid", "write", "solid.pvd", 3), ("solid", "write", "rest.json", 1),
                  ("tether", "mkdir", "plots", 1), ("tether", "write", "plots", 1), ("tether_picture", "open", "wall.png", 1), ("tether_picture", "write", "blood.png", 20),
                  ("gnuplot", "open", "plots/flows.png", 1), ("gnuplot", "write", "plots/flows.png", 3)],
-    "identify": [("identification_master", "open", "estimate.csv", 1), ("identification_master", "write", "estimate.csv", 3), ("identification_master", "write", "identification.new", 2),
+    "identify": [("identification_master", "open", "estimate.csv", 1), ("identification_master", "write", "estimate.csv", 9), ("identification_master", "write", "identification.new", 2),
                  ("identification_master", "rename", "identification.bin", 1), ("identification_master", "write", "estimate.json", 1), ("identification_master", "write", "identified.yaml", 1),
                  ("tether", "write", "estimate.gnuplot", 1)],
     "explain": [("tether", "open", "steps.json", 1), ("tether", "write", "diagnosis.json", 1), ("tether", "write", "explain.json", 1), ("tether", "open", "report.html", 1),

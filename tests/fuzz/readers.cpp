@@ -132,7 +132,7 @@ void read_run_checkpoint(const Input& input) {
 void read_checkpoint_of_filter(const Input& input) {
   for (const std::string& bytes : {input.bytes, sealed(input.bytes)}) {
     written(folder() / "checkpoint" / "identification.bin", bytes);
-    try_reading([] { read_identification_checkpoint(folder(), 0); });
+    try_reading([] { read_identification_checkpoint(folder(), 0, [](const IdentificationCheckpoint&) {}); });
   }
 }
 

@@ -174,7 +174,7 @@ TEST(Identification, ResumesWhereItWas) {
   while (!second.is_done()) second.advance();
   EXPECT_EQ(whole.last().mean, second.last().mean);
   EXPECT_EQ(whole.last().covariance, second.last().covariance);
-  EXPECT_EQ(whole.state().records.size(), second.state().records.size());
+  EXPECT_EQ(whole.state().totals.data, second.state().totals.data);
 }
 
 /// The trace `fluid.front` of a tube whose front widens by 0.3.
@@ -204,17 +204,17 @@ IdentificationState state_after(const Observations& data, bool every_step, doubl
 }
 
 double counted(const Observations& data, bool every_step) {
-  return totals_of(state_after(data, every_step).records).data;
+  return state_after(data, every_step).totals.data;
 }
 
 TEST(Identification, HeldOutTracesAreAsIfTheyWereNotThere) {
   Observations data = surfaces(24, 20, 0.3, -0.1, 24, 20);
-  const EstimateRecord without = state_after(data, true).records.back();
+  const EstimateRecord without = state_after(data, true).last;
   Trace wrong = front_trace({0, 0.2, 0.4, 0.6}, 0);  // without noise: nobody asks
   wrong.held_out = true;
   for (double& value : wrong.values) value += 5;
   data.traces.push_back(wrong);
-  const EstimateRecord with = state_after(data, true).records.back();
+  const EstimateRecord with = state_after(data, true).last;
   EXPECT_LT((with.mean - without.mean).norm(), 1e-14);
   EXPECT_LT((with.covariance - without.covariance).norm(), 1e-14);
 }
@@ -226,7 +226,7 @@ TEST(Identification, EachValueOfATraceCountsOnceInBothModes) {
     EXPECT_NEAR(counted(data, every_step), 5, 1e-9) << every_step;
     data.traces.front() = front_trace({0.4});
     EXPECT_NEAR(counted(data, every_step), 1, 1e-9) << every_step;
-    const EstimateRecord found = state_after(data, every_step).records.back();
+    const EstimateRecord found = state_after(data, every_step).last;
     EXPECT_NEAR(found.mean(0), 0.3, 2e-3);
     EXPECT_NEAR(found.covariance(0, 0), 1 / (1 / 0.04 + 1e4), 1e-8);  // swing(0.4) = 1
   }
@@ -256,7 +256,7 @@ TEST(Identification, ChiSquareIsAsExpectedWhenAllIsRight) {
       for (double& value : trace.values) value += 0.05 * normal(random);
       trace.curve = Curve(trace.times, trace.values);
       data.traces.push_back(trace);
-      const DataTotals totals = totals_of(state_after(data, every_step).records);
+      const DataTotals totals = state_after(data, every_step).totals;
       chi_square += totals.chi_square;
       expected += totals.expected_chi_square;
     }
@@ -286,12 +286,12 @@ TEST(Identification, SaysWhichShareWasRejectedAndWhatWasUsed) {
   for (double& value : wrong.values) value = 5;
   wrong.curve = Curve(wrong.times, wrong.values);
   data.traces.push_back(wrong);
-  const DataTotals frames = totals_of(state_after(data, false, 4).records);
+  const DataTotals frames = state_after(data, false, 4).totals;
   EXPECT_NEAR(frames.rejected, 4, 1e-9);
 
   Observations good;
   good.traces.push_back(front_trace({0.3, 0.4}, 1e-3));
-  const DataTotals tempered = totals_of(state_after(good, false, 0, 0.1).records);
+  const DataTotals tempered = state_after(good, false, 0, 0.1).totals;
   EXPECT_GT(tempered.tempered_steps, 0);
   EXPECT_NEAR(tempered.data, 2, 1e-9);
   EXPECT_LT(tempered.used, 0.1);
@@ -309,6 +309,10 @@ TEST(Identification, MemoryForgetsNothingBeforeTheFirstData) {
   EXPECT_LT((deviations(filter.last()).array() - 0.2).abs().maxCoeff(), 1e-12);
 }
 
+IdentificationCheckpoint taken_up(const std::filesystem::path& output, std::uint64_t fingerprint) {
+  return read_identification_checkpoint(output, fingerprint, [](const IdentificationCheckpoint&) {});
+}
+
 /// Before the first data too, when there is no discrepancy yet.
 TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
   const TemporaryFolder folder;
@@ -317,18 +321,21 @@ TEST(IdentificationCheckpoint, IsReadAsItWasWritten) {
   for (const bool with_data : {false, true}) {
     IdentificationState state = state_after(data, false);
     if (!with_data) state.last_mean = VectorXd();
-    write_checkpoint(folder.path(), 7, state, {{1, 2}, {3}}, {1.5, 2.5, 0.5, 3});
-    const IdentificationCheckpoint found = read_identification_checkpoint(folder.path(), 7);
+    write_checkpoint(folder.path(), 7, {state, {{1, 2}, {3}}, {1.5, 2.5, 0.5, 3}, 11});
+    const IdentificationCheckpoint found = taken_up(folder.path(), 7);
     EXPECT_EQ(found.state.step, state.step);
     EXPECT_EQ(found.state.theta, state.theta);
     EXPECT_EQ(found.state.last_mean, state.last_mean);
-    EXPECT_EQ(found.state.records.size(), state.records.size());
-    EXPECT_EQ(found.state.records.back().expected_chi_square, state.records.back().expected_chi_square);
+    EXPECT_EQ(found.state.last.mean, state.last.mean);
+    EXPECT_EQ(found.state.last.expected_chi_square, state.last.expected_chi_square);
+    EXPECT_EQ(found.state.totals.data, state.totals.data);
+    EXPECT_EQ(found.state.totals.expected_chi_square, state.totals.expected_chi_square);
+    EXPECT_EQ(found.table, 11u);
     EXPECT_EQ(found.state.innovations.squares_before, state.innovations.squares_before);
     EXPECT_EQ(found.at_hand, (std::vector<std::vector<double>>{{1, 2}, {3}}));
     EXPECT_EQ(found.cost.cpu_seconds, 2.5);
     EXPECT_EQ(found.cost.moved_values, 3);
-    EXPECT_THROW(read_identification_checkpoint(folder.path(), 8), InputError);
+    EXPECT_THROW(taken_up(folder.path(), 8), InputError);
   }
 }
 
@@ -338,29 +345,49 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestIsDamagedOrMissing)
   data.traces.push_back(front_trace({0.2, 0.4}));
   IdentificationState state = state_after(data, false);
   const auto step = state.step;
-  write_checkpoint(folder.path(), 7, state, {}, {});
+  write_checkpoint(folder.path(), 7, {state, {}, {}});
   ++state.step;
-  write_checkpoint(folder.path(), 7, state, {}, {});
-  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1);
+  write_checkpoint(folder.path(), 7, {state, {}, {}});
+  EXPECT_EQ(taken_up(folder.path(), 7).state.step, step + 1);
   const auto newest = folder / "checkpoint/identification.bin";
   std::filesystem::resize_file(newest, std::filesystem::file_size(newest) - 1);
-  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step);
-  EXPECT_NE(read_identification_checkpoint(folder.path(), 7).refused.find("identification.bin: is cut short"),
-            std::string::npos);
+  EXPECT_EQ(taken_up(folder.path(), 7).state.step, step);
+  EXPECT_NE(taken_up(folder.path(), 7).refused.find("identification.bin: is cut short"), std::string::npos);
   std::filesystem::remove(newest);
-  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step);
-  write_checkpoint(folder.path(), 8, state, {}, {});
-  EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError) << "that before is of this case, but old";
+  EXPECT_EQ(taken_up(folder.path(), 7).state.step, step);
+  write_checkpoint(folder.path(), 8, {state, {}, {}});
+  EXPECT_THROW(taken_up(folder.path(), 7), InputError) << "that before is of this case, but old";
   std::filesystem::remove(newest);
   std::filesystem::resize_file(folder / "checkpoint/identification.previous", 9);
-  EXPECT_THROW(read_identification_checkpoint(folder.path(), 7), InputError);
-  write_checkpoint(folder.path(), 7, state, {}, {});
+  EXPECT_THROW(taken_up(folder.path(), 7), InputError);
+  write_checkpoint(folder.path(), 7, {state, {}, {}});
   std::filesystem::rename(newest, folder / "checkpoint/identification.new");
-  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1) << "killed between the two renames";
+  EXPECT_EQ(taken_up(folder.path(), 7).state.step, step + 1) << "killed between the two renames";
   ++state.step;
-  write_checkpoint(folder.path(), 7, state, {}, {});
+  write_checkpoint(folder.path(), 7, {state, {}, {}});
   std::filesystem::resize_file(newest, 9);
-  EXPECT_EQ(read_identification_checkpoint(folder.path(), 7).state.step, step + 1) << "it made no room for the next";
+  EXPECT_EQ(taken_up(folder.path(), 7).state.step, step + 1) << "it made no room for the next";
+}
+
+/// What a checkpoint counts on may be damaged while it is whole itself.
+TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestsTableIsDamaged) {
+  const TemporaryFolder folder;
+  Observations data;
+  data.traces.push_back(front_trace({0.2, 0.4}));
+  IdentificationState state = state_after(data, false);
+  for (const std::uint64_t table : {1, 2}) {
+    write_checkpoint(folder.path(), 7, {state, {}, {}, table});
+    ++state.step;
+  }
+  const auto refusing = [&](std::uint64_t last_whole) {
+    return read_identification_checkpoint(folder.path(), 7, [&](const IdentificationCheckpoint& found) {
+      if (found.table > last_whole) throw input_error("estimate.csv: has 3 rows, the checkpoint 9");
+    });
+  };
+  EXPECT_EQ(refusing(2).table, 2u);
+  EXPECT_EQ(refusing(1).table, 1u);
+  EXPECT_EQ(refusing(1).refused, "estimate.csv: has 3 rows, the checkpoint 9");
+  EXPECT_THROW(refusing(0), InputError);
 }
 
 TEST(Observations, TheirContentNamesWhatWasMeasured) {

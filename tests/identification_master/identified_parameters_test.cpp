@@ -107,7 +107,8 @@ TEST_F(Parameters, OutputsSayTheValueThatIsRun) {
   write_identified_case(folder / "identified.yaml", file, parameters, beyond);
   const CaseFile found(folder / "identified.yaml");
   EXPECT_DOUBLE_EQ(std::stod(found.given("solid.a.stiffness")), run);
-  write_estimates(folder / "estimate.csv", parameters, {{.mean = beyond, .covariance = MatrixXd::Identity(2, 2)}});
+  EstimateTable table(folder.path(), parameters);
+  table.start({.mean = beyond, .covariance = MatrixXd::Identity(2, 2)});
   EXPECT_DOUBLE_EQ(CsvTable(folder / "estimate.csv").numbers("a").front(), run);
   EXPECT_EQ(parameters.moved(), 1) << "writing is no move";
 }
