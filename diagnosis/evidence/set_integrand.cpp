@@ -10,6 +10,9 @@ namespace {
 
 using Index = Eigen::Index;
 
+/// exp(-50) is 2e-22: of a sum over less than a million places nothing that a double can hold.
+constexpr double beyond_digits = 50;
+
 VectorXd log_of(const VectorXd& sums, double most) {
   return sums.array().log() + most;
 }
@@ -38,12 +41,14 @@ Summed summed(const SetIntegrand& integrand) {
   const std::vector<VectorXd>& amplitudes = integrand.density.alone;
   const Index places = amplitudes.front().size();
   std::vector<MatrixXd> slices;
-  double most = -infinite;
-  for (Index i = 0; i < places; ++i) most = std::max(most, slices.emplace_back(integrand.at(i)).maxCoeff());
+  VectorXd largest(places);
+  for (Index i = 0; i < places; ++i) largest(i) = slices.emplace_back(integrand.at(i)).maxCoeff();
+  const double most = largest.maxCoeff();
   if (!std::isfinite(most)) return {most, amplitudes};
   std::vector<VectorXd> sums{VectorXd::Zero(places)};
   for (std::size_t k = 1; k < amplitudes.size(); ++k) sums.push_back(VectorXd::Zero(amplitudes[k].size()));
   for (Index i = 0; i < places; ++i) {
+    if (largest(i) < most - beyond_digits) continue;
     const MatrixXd weights = (slices[static_cast<std::size_t>(i)].array() - most).exp();
     sums[0](i) = weights.sum();
     if (sums.size() > 1) sums[1] += weights.rowwise().sum();
