@@ -52,6 +52,7 @@ protocol::RunEnded RunService::operator()(const protocol::NextRun&) {
 std::optional<MadeRun> RunService::stored(const MadeRun& wanted, const std::string& folder) const {
   const std::optional<MadeRun> own = made_run_in(folder);
   if (!own || !is_same_run(*own, wanted)) return shared_.lend(wanted, folder);
+  if (own->failure) return failed_.contains(folder) ? own : std::nullopt;
   shared_.take(*own, folder);
   return own;
 }
@@ -99,11 +100,11 @@ void RunService::end_next() {
   const RunMakers::End end = makers_.next();
   Work done = *std::exchange(at_work_[end.group], std::nullopt);
   begin_waiting();
-  if (!end.how.failure.empty()) done.run.failure = end.how.failure;
+  if (!end.how.failure.empty()) done.run.failure = end.how.failure, failed_.insert(done.order.folder);
   done.run.evaluations = end.how.evaluations;
   done.run.cpu_seconds = end.cpu_seconds;
   write_made_run(done.order.folder, done.run);
-  shared_.take(done.run, done.order.folder);
+  if (!done.run.failure) shared_.take(done.run, done.order.folder);
   ended_.push_back(told(done.order.folder, done.run, true));
 }
 

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "identification_master/run_makers.hpp"
@@ -29,7 +30,7 @@ class RunService {
     MadeRun run;  ///< what it will be of
   };
 
-  /// A run that was made before.
+  /// A run that was made before. One that failed is made again by another service: what it lacked may be there now.
   std::optional<MadeRun> stored(const MadeRun& wanted, const std::string& folder) const;
   MadeRun run_of(const protocol::RunOrder& order) const;
   /// All numbers of the model: a group keeps what it was last told. Throws RunError for one that it does not have.
@@ -44,6 +45,7 @@ class RunService {
   std::deque<Work> waiting_;
   std::vector<std::optional<Work>> at_work_;  ///< of each group
   std::deque<protocol::RunEnded> ended_;
+  std::set<std::string> failed_;  ///< folders of runs that this service made
 };
 
 }  // namespace tether

@@ -67,7 +67,7 @@ std::optional<MadeRun> RunStore::lend(const MadeRun& wanted, const fs::path& fol
   if (folder_.empty()) return std::nullopt;
   const fs::path place = place_of(wanted);
   std::optional<MadeRun> kept = made_run_in(place);
-  if (!kept || !is_same_run(*kept, wanted)) return std::nullopt;
+  if (!kept || kept->failure || !is_same_run(*kept, wanted)) return std::nullopt;
   fs::remove_all(folder);  // of a link the link alone
   fs::create_directories(folder.parent_path());
   fs::create_directory_symlink(place, folder);
@@ -78,7 +78,8 @@ void RunStore::take(const MadeRun& made, const fs::path& folder) const {
   if (folder_.empty() || fs::is_symlink(folder)) return;
   const fs::path place = place_of(made);
   fs::create_directories(place.parent_path());
-  if (fs::exists(place) && !made_run_in(place)) fs::remove_all(place);  // of another version, or damaged
+  const std::optional<MadeRun> kept = made_run_in(place);
+  if (!kept || kept->failure) fs::remove_all(place);  // of another version, damaged, or without an end
   move_folder(folder, place);
   lend(made, folder);
 }

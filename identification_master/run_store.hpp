@@ -25,7 +25,7 @@ class RunStore {
 
   /// Makes `folder` a link to a run, if it is here.
   std::optional<MadeRun> lend(const MadeRun& wanted, const std::filesystem::path& folder) const;
-  /// Takes a run that ended in `folder`, and lends it in that place.
+  /// Takes a run that came to its end in `folder`, and lends it in that place.
   void take(const MadeRun& made, const std::filesystem::path& folder) const;
 
  private:

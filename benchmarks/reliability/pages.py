@@ -105,8 +105,18 @@ def of_haul(folder):
         name = next((program for program in LONG_NAMES if program.startswith(short)), short)
         memory, descriptors = one["kilobytes"], one["descriptors"]
         lines.append(f"| {name} | {memory['last'] / 1024:.0f} | {memory['per_hour']:.0f} | {descriptors['last']} | {descriptors['per_hour']:.2f} | {one['processes']['last']} |")
-    of_table = found["programs"]["identification_"]["kilobytes"]["per_hour"] * found["hours"] / found["steps"]
-    return [*lines, "", f"`identification_master` grows by {of_table:.1f} kB a step: the estimate of each step, which a checkpoint keeps.", ""]
+    return [*lines, "", *of_leaks(found["leaks"])]
+
+
+def of_leaks(found):
+    if not found:
+        return []
+    lines = ["Built with the address sanitizer, and asked at the end what nobody can reach any more:", "",
+             "| program | leaked [bytes] | by Open MPI and VTK [bytes] |", "|---|---|---|"]
+    for one in found:
+        name = next((program for program in LONG_NAMES if program.startswith(one["program"])), one["program"])
+        lines.append(f"| {name} | {one['bytes']} | {one['of_libraries']} |")
+    return [*lines, ""]
 
 
 def of_fuzz():

@@ -1,6 +1,7 @@
 #include "common/protocol/run.hpp"
 
 #include <cstdio>
+#include <new>
 
 #include "common/protocol/signals.hpp"
 #include "common/protocol/told.hpp"
@@ -25,6 +26,9 @@ int guarded(const std::string& role, const std::function<void()>& body) {
     return exit_input_wrong;
   } catch (const Interrupted& interrupted) {
     tell(role, interrupted.what(), Told::interruption);
+    return exit_run_failed;
+  } catch (const std::bad_alloc&) {
+    tell(role, "it gets no more memory than it has (std::bad_alloc)");
     return exit_run_failed;
   } catch (const std::exception& error) {
     tell(role, error.what());

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "common/base/process.hpp"
@@ -39,11 +40,14 @@ Packet reply_to(const Packet& request, Handler& handler) {
   return detail::answer(static_cast<Requests*>(nullptr), request, handler);
 }
 
-/// The same; what a handler throws becomes Failure.
+/// The same; what a handler throws becomes Failure, but for std::bad_alloc: that memory is lacking says nothing of the
+/// request, and whoever lacks it cannot go on.
 template <class Requests, class Handler>
 Packet answer(const Packet& request, Handler& handler) {
   try {
     return reply_to<Requests>(request, handler);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (...) {
     return pack(detail::current_failure());
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <thread>
 
 #include "common/base/process.hpp"
@@ -72,6 +73,19 @@ TEST(PartnerHere, Refuses_what_it_cannot_be_made_of) {
   });
   Partner partner(here({"solid", "solid", {"case.yaml"}}, {}));
   EXPECT_THROW(partner.hello(), InputError);
+}
+
+struct Greedy : fakes::FakeSolid {
+  using fakes::FakeSolid::operator();
+  State operator()(const GetState&) { throw std::bad_alloc(); }
+};
+
+/// It would be taken for what the request deserves, and kept as that.
+TEST(PartnerHere, Lack_of_memory_is_no_failure_of_a_request) {
+  const Here here = partner_here<ToSolid>([](const Program&, const Welcome&) { return Greedy(); });
+  Partner partner(here({"solid", "solid", {"case.yaml"}}, {version, "node7", 12, "out"}));
+  EXPECT_EQ(partner.hello().unknowns, 54);
+  EXPECT_THROW(partner.ask(GetState{}), std::bad_alloc);
 }
 
 TEST(Partner, Failure_names_role_step_and_reason_and_leaves_it_reachable) {
