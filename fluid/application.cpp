@@ -2,6 +2,7 @@
 
 #include "common/base/process.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/input_files.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
 #include "fluid/case.hpp"
@@ -46,7 +47,8 @@ FluidServer server_of(const std::filesystem::path& case_file, const protocol::We
 
 int run(const CommandLine& command) {
   return protocol::run_partner<protocol::ToObservedFluid>(
-      "fluid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); });
+      "fluid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); },
+      [&command] { return hash_files_read(command.case_file); });
 }
 
 }  // namespace

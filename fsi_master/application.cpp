@@ -14,6 +14,7 @@
 #include "common/config/case_file.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/followed_points.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/input_watch.hpp"
 #include "common/config/output_folder.hpp"
@@ -94,13 +95,6 @@ std::string own_sections(MasterCase& master) {
   echo.group("coupling", master.coupling, {});
   echo.group("initial_state", master.initial_state, {});
   return echo.json();
-}
-
-void check_points(const Simulation& simulation, const CaseFile& file, double size) {
-  for (const FollowedNode& point : simulation.followed())
-    if (point.distance > 0.1 * size)
-      throw input_error("{}: the nearest node of the lumen is {:.4g} away (the vessel's diagonal is {:.4g})",
-                        file.where("output.points." + point.name), point.distance, size);
 }
 
 /// What a person should know before the run: in summary.json, and printed unless quiet.
@@ -228,13 +222,17 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const Inpu
   crew.usage = [&crew, processes] { return costs(crew, processes); };
   for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
   Simulation simulation(plan, crew, master.coupling.halvings);
-  check_points(simulation, master.file, codes.size());
+  check_followed(master.file, codes.interface().points);
   check_columns(master.flow, simulation.columns(), master.file);
-  simulation.begin();
   if (plan.resume) {
+    simulation.begin();
     mark_output(plan.output, master.file.path());
     remove_what_was_made_of_runs(plan.output);
     drop_damaged_rest(plan.output);
+  } else {
+    remove_old_results(plan.output);  // nothing speaks against new ones any more
+    mark_output(plan.output, master.file.path());
+    simulation.begin();
   }
   simulation.run();
   RunFacts facts{
@@ -269,10 +267,6 @@ void run_direct(const CommandLine& command, const CodesHere& here, protocol::Ses
   if (master.initial_state) check_is_not_own(*master.initial_state, master.file, plan.output);
   const InputWatch inputs(command.case_file);
   const MadeFrom from = made_from(command.case_file);
-  if (!plan.resume) {
-    remove_old_results(plan.output);
-    mark_output(plan.output, command.case_file);
-  }
   const bool observed = master.file.common().observer.is_on();
   std::vector<protocol::Program> programs = programs_of(master, observed);
   if (master.coupling.processes == "together") programs = together(std::move(programs), here);
@@ -300,7 +294,8 @@ int run(const CommandLine& command, const CodesHere& here) {
       "fsi_master", [&](protocol::Session& session) { run_direct(command, here, session); },
       [&](const protocol::Welcome& welcome, protocol::Session& session) {
         return serve_as_group(command, here, welcome, session);
-      });
+      },
+      [&] { return hash_files_read(command.case_file); });
 }
 
 /// What several checks find wrong: the lines of their messages, each once.

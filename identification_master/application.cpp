@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "common/base/process.hpp"
+#include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/run.hpp"
 #include "common/protocol/socket_channel.hpp"
@@ -52,10 +53,11 @@ void check(const CommandLine& command) {
 
 /// What it is asked for: runs by a process that listens for it, else an identification.
 int run(const CommandLine& command) {
-  return protocol::run_master("identification_master", [&command](protocol::Session& session) {
+  const auto life = [&command](protocol::Session& session) {
     const char* socket = std::getenv(protocol::run_service_socket);
     socket == nullptr ? run_identification(command, session) : serve_runs(command, socket, session);
-  });
+  };
+  return protocol::run_master("identification_master", life, [&command] { return hash_files_read(command.case_file); });
 }
 
 }  // namespace

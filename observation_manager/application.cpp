@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/input_files.hpp"
 #include "common/protocol/run.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
 #include "observation_manager/server.hpp"
@@ -33,7 +34,8 @@ ObservationServer lumen_server(const CommandLine& command) {
 
 int run(const CommandLine& command) {
   return protocol::run_partner<protocol::ToObservation>(
-      lumen_role, [&command](const protocol::Welcome&) { return lumen_server(command); });
+      lumen_role, [&command](const protocol::Welcome&) { return lumen_server(command); },
+      [&command] { return hash_files_read(command.case_file); });
 }
 
 /// Throws InputError for a column of an opening, probe or section that there is not.

@@ -3,6 +3,8 @@
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/echo.hpp"
+#include "common/config/followed_points.hpp"
+#include "common/config/input_files.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/run.hpp"
 #include "solid/case.hpp"
@@ -43,7 +45,8 @@ SolidServer server_of(const std::filesystem::path& case_file, const protocol::We
 
 int run(const CommandLine& command) {
   return protocol::run_partner<protocol::ToObservedSolid>(
-      "solid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); });
+      "solid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); },
+      [&command] { return hash_files_read(command.case_file); });
 }
 
 }  // namespace
@@ -73,6 +76,7 @@ Program solid_program() {
                 const WallMesh mesh = wall.wall();
                 check_against_mesh(wall.solid, mesh, wall.file);
                 check_motions(wall.solid, mesh, wall.file);
+                check_followed(wall.file, mesh.points.leftCols(mesh.interface_nodes));
               },
           .list_effects =
               [](const CommandLine& command) {

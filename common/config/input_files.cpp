@@ -211,6 +211,19 @@ std::set<fs::path> files_read(const fs::path& case_file) {
   return all;
 }
 
+std::uint64_t hash_files_read(const fs::path& case_file) {
+  try {
+    std::uint64_t hash = hash_bytes(nullptr, 0);
+    for (const fs::path& file : files_read(case_file)) {
+      const std::uint64_t content = hash_content(file);
+      hash = hash_bytes(&content, sizeof content, hash);
+    }
+    return hash;
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
 std::uint64_t hash_case(const std::string& effective_case, std::uint64_t seed) {
   const std::string text = essence(effective_case);
   return hash_bytes(text.data(), text.size(), seed);

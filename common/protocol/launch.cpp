@@ -104,16 +104,51 @@ void refuse_company(const std::string& role, int rank) {
   end_job(exit_run_failed);
 }
 
-/// Everybody's role by world rank.
-std::vector<std::string> gather_roles(const std::string& role) {
-  const int size = size_of(MPI_COMM_WORLD);
-  std::array<char, 64> mine{};
-  role.copy(mine.data(), mine.size() - 1);
-  std::vector<std::array<char, 64>> all(static_cast<std::size_t>(size));
-  check_mpi(MPI_Allgather(mine.data(), 64, MPI_CHAR, all.data(), 64, MPI_CHAR, MPI_COMM_WORLD), "MPI_Allgather");
+/// Who a process of an mpirun line is. Its bytes are what programs of earlier versions exchange, whose last are zeros.
+struct Present {
+  std::array<char, 56> role{};
+  std::uint64_t of_case = 0;
+};
+
+/// Of everybody, by world rank.
+std::vector<Present> gather_present(const std::string& role, const OfCase& of_case) {
+  std::vector<Present> all(static_cast<std::size_t>(size_of(MPI_COMM_WORLD)));
+  Present mine;
+  role.copy(mine.role.data(), mine.role.size() - 1);
+  if (of_case && !role.empty() && all.size() > 1) mine.of_case = of_case();
+  check_mpi(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD),
+            "MPI_Allgather");
+  return all;
+}
+
+std::vector<std::string> roles_of(const std::vector<Present>& present) {
   std::vector<std::string> roles;
-  for (const auto& one : all) roles.emplace_back(one.data());
+  for (const Present& one : present) roles.emplace_back(one.role.data());
   return roles;
+}
+
+/// Throws InputError if somebody has no master of his own, or another case than his master.
+void check_line(const std::vector<Present>& present) {
+  const std::vector<std::string> roles = roles_of(present);
+  for (std::size_t one = 0; one < roles.size(); ++one) {
+    const int master = master_of(roles, static_cast<int>(one));
+    if (master < 0) continue;
+    const std::uint64_t mine = present[one].of_case, theirs = present[static_cast<std::size_t>(master)].of_case;
+    if (mine != 0 && theirs != 0 && mine != theirs)
+      throw input_error("a {} of the mpirun line has another case than its {}: give all of them the same", roles[one],
+                        roles[static_cast<std::size_t>(master)]);
+  }
+}
+
+/// What everybody sees one says; mpirun ends the others no sooner than that is said.
+void check_line(const std::vector<Present>& present, int rank) {
+  try {
+    check_line(present);
+  } catch (const InputError&) {
+    if (rank == 0) throw;
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    end_job(exit_input_wrong);
+  }
 }
 
 /// Reads Arrival, answers Welcome.
@@ -176,7 +211,7 @@ std::string find_executable(const Program& program) {
   return path.string();
 }
 
-Session::Session(const std::string& role, int communicator) : parts_(std::make_unique<Parts>()) {
+Session::Session(const std::string& role, int communicator, const OfCase& of_case) : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
   parts.role = role;
   parts.owns_mpi = initialise_mpi(role);
@@ -189,7 +224,10 @@ Session::Session(const std::string& role, int communicator) : parts_(std::make_u
   if (spawned && communicator == no_communicator) refuse_company(role, parts.rank);
   parts.own = chosen(communicator, own_processes(spawned));
   parts.is_leader = rank_in(parts.own) == 0;
-  if (!spawned) parts.roles = gather_roles(parts.is_leader ? role : "");
+  if (spawned) return;
+  const std::vector<Present> present = gather_present(parts.is_leader ? role : "", of_case);
+  check_line(present, parts.rank);
+  parts.roles = roles_of(present);
 }
 
 Session::~Session() = default;

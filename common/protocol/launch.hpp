@@ -36,6 +36,10 @@ inline bool is_own(const std::string& executable) {
 /// The file to execute. Throws InputError if there is none or it may not be executed.
 std::string find_executable(const Program& program);
 
+/// A hash of the case that a program was given, and of all files that it names; 0: it does not know. Asked for where an
+/// mpirun line started the others, who may have been given another.
+using OfCase = std::function<std::uint64_t()>;
+
 /// Instead of a communicator: this process alone, or all processes that run this program.
 inline constexpr int no_communicator = -1, all_processes = -2;
 
@@ -43,8 +47,9 @@ inline constexpr int no_communicator = -1, all_processes = -2;
 class Session {
  public:
   /// `communicator`: Fortran handle (MPI_Comm_c2f) of the processes of one parallel code, or one of the above; only its
-  /// rank 0 takes the role. On an MPMD line this call is collective over MPI_COMM_WORLD.
-  explicit Session(const std::string& role, int communicator = no_communicator);
+  /// rank 0 takes the role. On an MPMD line this call is collective over MPI_COMM_WORLD. Throws InputError, in one of
+  /// its processes, if there are not as many of each as their masters need; the others end.
+  explicit Session(const std::string& role, int communicator = no_communicator, const OfCase& of_case = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -71,7 +76,7 @@ class Session {
   /// Spawns the programs, or takes those of the same roles from the mpirun line, and welcomes them; they read their
   /// case at the same time until each is asked for its hello. The session keeps the partners, in the programs' order.
   /// Waits at most TETHER_START_LIMIT seconds (60 if unset) for each to appear.
-  /// Throws InputError (no such executable, another role or version), PeerDied, PeerSilent.
+  /// Throws InputError (no such executable, another role, version or case), PeerDied, PeerSilent.
   std::span<Partner> launch(const std::vector<Program>& programs, const std::string& output);
 
   /// The first of some partners, each with a request under way, whose reply is there. Waits for it. Throws PeerDied,

@@ -38,10 +38,10 @@ int guarded(const std::string& role, const std::function<void()>& body) {
 
 }  // namespace
 
-int run_master(const std::string& role, const std::function<void(Session&)>& body) {
+int run_master(const std::string& role, const std::function<void(Session&)>& body, const OfCase& of_case) {
   std::unique_ptr<Session> session;
   const int code = guarded(role, [&] {
-    session = std::make_unique<Session>(role);
+    session = std::make_unique<Session>(role, no_communicator, of_case);
     body(*session);
   });
   return session ? session->end(code) : code;
@@ -50,12 +50,13 @@ int run_master(const std::string& role, const std::function<void(Session&)>& bod
 namespace detail {
 
 int run_either(const std::string& role, const std::function<void(Session&)>& as_master,
-               const std::function<void(const Session::Link&, Session&)>& as_partner) {
-  return run_master(role, [&](Session& session) {
+               const std::function<void(const Session::Link&, Session&)>& as_partner, const OfCase& of_case) {
+  const auto life = [&](Session& session) {
     if (as_master && !session.has_master()) return as_master(session);
     const Session::Link link = session.connect();
     as_partner(link, session);
-  });
+  };
+  return run_master(role, life, of_case);
 }
 
 void refuse(Channel& master) {

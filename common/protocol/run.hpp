@@ -12,18 +12,19 @@ namespace tether::protocol {
 
 /// A master's main: runs `body`, writes the one message of what went wrong to stderr ("fsi_master: ..."), ends
 /// everything. Returns the exit code: 0 done, 1 the run failed, 2 the input is wrong.
-int run_master(const std::string& role, const std::function<void(Session&)>& body);
+int run_master(const std::string& role, const std::function<void(Session&)>& body, const OfCase& of_case = {});
 
 namespace detail {
 int run_either(const std::string& role, const std::function<void(Session&)>& as_master,
-               const std::function<void(const Session::Link&, Session&)>& as_partner);
+               const std::function<void(const Session::Link&, Session&)>& as_partner, const OfCase& of_case);
 void refuse(Channel& master);
 }  // namespace detail
 
 /// The main of a program that is a partner if it has a master, and else a master: the one or the other of the above.
 template <class Requests, class Build>
-int run_either(const std::string& role, const std::function<void(Session&)>& as_master, Build build) {
-  return detail::run_either(role, as_master, [&build](const Session::Link& link, Session& session) {
+int run_either(const std::string& role, const std::function<void(Session&)>& as_master, Build build,
+               const OfCase& of_case = {}) {
+  const auto as_partner = [&build](const Session::Link& link, Session& session) {
     const auto built = [&] {
       if constexpr (std::is_invocable_v<Build, const Welcome&, Session&>)
         return build(link.welcome, session);
@@ -38,7 +39,8 @@ int run_either(const std::string& role, const std::function<void(Session&)>& as_
       return detail::refuse(*link.channel);
     }
     serve<Requests>(*link.channel, handler->hello(), *handler);
-  });
+  };
+  return detail::run_either(role, as_master, as_partner, of_case);
 }
 
 /// A partner that lives in the process of its master. `build(program, welcome)` does what `build` does below.
@@ -58,8 +60,8 @@ Here partner_here(Build build) {
 /// each message of `Requests` (serve.hpp). A partner that is a master itself takes `build(welcome, session)`. What
 /// `build` throws is reported by the master.
 template <class Requests, class Build>
-int run_partner(const std::string& role, Build build) {
-  return run_either<Requests>(role, nullptr, std::move(build));
+int run_partner(const std::string& role, Build build, const OfCase& of_case = {}) {
+  return run_either<Requests>(role, nullptr, std::move(build), of_case);
 }
 
 }  // namespace tether::protocol

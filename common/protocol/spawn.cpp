@@ -14,6 +14,7 @@
 #include "common/protocol/job.hpp"
 #include "common/protocol/nodes.hpp"
 #include "common/protocol/signals.hpp"
+#include "common/protocol/stillness.hpp"
 #include "common/protocol/told.hpp"
 #include "common/protocol/watch.hpp"
 
@@ -53,15 +54,38 @@ class PidFile {
 };
 
 /// MPI_Comm_spawn neither ends nor fails if the program never reaches MPI_Init: this ends the job instead.
-void check_spawning(double seconds, const PidFile& file, const std::string& program, const std::string& master_role) {
-  const std::int64_t pid = file.pid();
-  const bool ended = pid != 0 && !is_running(pid);
-  if (!ended && !interrupted() && seconds <= start_limit()) return;
-  file.remove();
-  if (ended) give_up(master_role, program + " ended before it reached MPI");
-  if (interrupted()) give_up(master_role, "interrupted before " + program + " reached MPI");
-  give_up(master_role, fmt::format("{} did not reach MPI within {} s", program, start_limit()));
-}
+class SpawnCheck {
+ public:
+  SpawnCheck(const PidFile& file, std::string program, std::string master_role)
+      : file_(file), program_(std::move(program)), master_role_(std::move(master_role)) {}
+
+  void operator()(double seconds) {
+    const std::int64_t pid = file_.pid();
+    if (pid != 0 && !is_running(pid)) fail(program_ + " ended before it reached MPI");
+    if (interrupted()) fail("interrupted before " + program_ + " reached MPI");
+    if (pid != 0) check_stopped({program_, host_name(), pid, "starting"});
+    if (seconds > start_limit() && stillness_.stopped() == 0)
+      fail(fmt::format("{} did not reach MPI within {} s", program_, start_limit()));
+  }
+
+ private:
+  void check_stopped(const Peer& peer) {
+    stillness_.look(peer);
+    if (stillness_.stopped() > stopped_limit()) fail(PeerStopped(peer, stopped_limit()).what());
+    if (stillness_.stopped() < tell_stopped_after || is_told_) return;
+    is_told_ = true;
+    fmt::print(stderr, "{}: {}\n", master_role_, stopped_text(peer));
+  }
+  [[noreturn]] void fail(const std::string& message) const {
+    file_.remove();
+    give_up(master_role_, message);
+  }
+
+  const PidFile& file_;
+  std::string program_, master_role_;
+  Stillness stillness_;
+  bool is_told_ = false;
+};
 
 /// Unless the user said otherwise: more processes than cores, none bound to one, no pages of mpirun's own about a
 /// process that died, and no segments of shared memory, which would stay behind it.
@@ -87,9 +111,9 @@ struct Start {
 };
 
 /// MPI_Init of an MPMD line waits for all its programs. Only the first of them tells that it is in vain. A spawned
-/// program whose master has died meanwhile goes silently.
+/// program whose master has died meanwhile, or is told to end, goes silently.
 void check_initialising(double seconds, const std::string& role, const Start& start) {
-  if (is_dead(start.master)) end_job(exit_run_failed);
+  if (is_dead(start.master) || (start.master.pid != 0 && interrupted())) end_job(exit_run_failed);
   if (start.is_first && interrupted())
     give_up(role, "interrupted while MPI started: a program of the mpirun line ended");
   if (start.is_first && seconds > start.limit)
@@ -162,7 +186,8 @@ Spawned spawn(const Program& program, const std::string& master_role) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  const Guard guard(0.1, [&](double seconds) { check_spawning(seconds, file, name, master_role); });
+  SpawnCheck check(file, name, master_role);
+  const Guard guard(0.1, [&check](double seconds) { check(seconds); });
   MPI_Info info = spawn_info(node);
   MPI_Comm children = MPI_COMM_NULL;
   const int code = MPI_Comm_spawn("/bin/sh", arguments.data(), program.processes, info, 0, MPI_COMM_SELF, &children,

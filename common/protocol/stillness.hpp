@@ -6,6 +6,9 @@
 
 namespace tether::protocol {
 
+/// [s] a person may have meant it.
+inline constexpr double tell_stopped_after = 2;
+
 /// For how long another process of this host has been stopped by a signal, or has used no processor, while this one was
 /// awake: where both were stopped, as when Slurm suspends a job, it does not count. Of another host's nothing is known.
 class Stillness {

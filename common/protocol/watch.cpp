@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto spin_time = std::chrono::microseconds(30);
 constexpr Clock::duration first_nap = std::chrono::microseconds(10), rung_nap = std::chrono::milliseconds(1);
 constexpr auto look_every = std::chrono::milliseconds(200);
-constexpr double follow_every = 0.1, follow_after = 0.5, tell_stopped_after = 2, tell_idle_after = 60;  // seconds
+constexpr double follow_every = 0.1, follow_after = 0.5, tell_idle_after = 60;  // seconds
 
 /// Beside what a run reports: it goes on.
 void say(const std::string& news) {

@@ -108,6 +108,9 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
   try {
     act(was_begun);
   } catch (const ToldFailure& failure) {
+    if (failure.exit_code == exit_input_wrong)
+      throw input_error("{}: is refused (see above){}", title,
+                        was_begun ? "; with --overwrite this step begins anew" : "");
     throw run_error("{}: {}; the same command goes on from here{}", title, failure.what(),
                     was_begun ? ", with --overwrite it begins this step anew" : "");
   }
