@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/effect.hpp"
 #include "fsi_master/convergence.hpp"
 #include "fsi_master/extrapolation.hpp"
 #include "fsi_master/newton_memory.hpp"
@@ -26,6 +27,20 @@ struct Steps {
     return sum / static_cast<double>(results.size() - from);
   }
 };
+
+/// Their squares are infinite, and so is what would be asked for.
+TEST(Convergence, NumbersBeyondMeasureAreNotConverged) {
+  for (const double number : {1e160, 1e290, infinite, undefined}) {
+    const StepStart start{0, 0, dt, VectorXd::Zero(6), VectorXd::Zero(6)};
+    const CouplingOptions options;
+    Convergence convergence(options, start);
+    EXPECT_FALSE(convergence.reached(VectorXd::Ones(6), VectorXd::Constant(6, number))) << number;
+    EXPECT_FALSE(convergence.may_continue());
+    const CouplingResult result = std::move(convergence).result({});
+    EXPECT_FALSE(result.converged);
+    EXPECT_NE(result.failure.find("not finite, or too large"), std::string::npos) << result.failure;
+  }
+}
 
 Steps run(const fake::Vessel& vessel, Method method, int steps, CouplingOptions options = {}) {
   fake::Fluid fluid(vessel);

@@ -174,6 +174,18 @@ TEST_F(Program, APointFarFromTheVesselIsAMistakeWithItsLine) {
       << end.errors;
 }
 
+/// What only the codes can tell, too.
+TEST_F(Program, ARefusedRunLeavesTheResultsBeforeIt) {
+  ASSERT_EQ(run("out", {"--quiet"}).exit_code, 0);
+  const std::string table = content("out/timeseries.csv"), summed_up = content("out/summary.json");
+  std::string text = content("case.yaml");
+  std::ofstream(folder / "case.yaml") << text.replace(text.find("[1, 0, 2]"), 9, "[10, 0, 20]");
+  ASSERT_EQ(run("out", {"--quiet"}).exit_code, 2);
+  EXPECT_EQ(content("out/timeseries.csv"), table);
+  EXPECT_EQ(content("out/summary.json"), summed_up);
+  EXPECT_TRUE(fs::exists(folder / "out/checkpoint"));
+}
+
 TEST_F(Program, ResumingAFinishedRunChangesNothing) {
   ASSERT_EQ(run("out", {"--quiet"}).exit_code, 0);
   const std::string table = content("out/timeseries.csv");

@@ -144,6 +144,19 @@ TEST_P(Stopped, APartnerIsToldOfAndEndsTheRunAfterAWhile) {
 
 INSTANTIATE_TEST_SUITE_P(Fault, Stopped, ::testing::Values(Start::alone, Start::mpirun, Start::mpmd));
 
+TEST(Death, APartnerThatIsStoppedWhileItStartsIsToldOf) {
+  for (const Start start : {Start::alone, Start::mpirun}) {
+    const auto job = run_job(command_for(start), {{"TETHER_FAKE", "solid.stop=start"}, {"TETHER_STOPPED_LIMIT", "4"}});
+    const std::string errors = without_details(job.errors);
+    EXPECT_NE(errors.find("fake_master: solid is stopped while starting: kill -CONT "), std::string::npos) << errors;
+    EXPECT_NE(errors.find("fake_master: solid was stopped while starting, and still is 4 s later"), std::string::npos)
+        << errors;
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
+    EXPECT_EQ(job.exit_code, 1);
+    EXPECT_TRUE(job.orphans.empty());
+  }
+}
+
 /// Nobody waits for a master but its partners: one of them speaks.
 TEST(Death, AStoppedMasterIsEndedByItsPartners) {
   const auto job =

@@ -127,21 +127,35 @@ TEST_F(Identify, FindsWhatTheDataWereMadeWith) {
   expect_same("one", "three");
 }
 
-/// Where a cluster forbids that programs start others: groups have the codes that the line does not hold.
-TEST_F(Identify, IsTheSameOnAnMpirunLine) {
-  const fs::path programs = fs::path(TETHER_PROGRAM).parent_path();
-  const auto part = [&](const char* program, const char* number) {
-    return std::vector<std::string>{"-n", number, programs / program, case_file};
+/// An identification of two groups, all programs of the line given by the user.
+ChildEnd on_a_line(const fs::path& case_file, const fs::path& of_observation, const fs::path& output, int steps) {
+  const auto part = [](const char* program, const char* number, const fs::path& given) {
+    return std::vector<std::string>{"-n", number, fs::path(TETHER_PROGRAM).parent_path() / program, given};
   };
   std::vector<std::string> words{"mpirun", "-q",    "--oversubscribe",     "--bind-to",
                                  "none",   "--mca", "mpi_yield_when_idle", "1"};
-  for (const auto& more : {part("identification_master", "1"),
-                           {"--output", folder / "line", "--steps", std::to_string(steps), "--quiet", ":"},
-                           part("fsi_master", "2"),
+  for (const auto& more : {part("identification_master", "1", case_file),
+                           {"--output", output, "--steps", std::to_string(steps), "--quiet", ":"},
+                           part("fsi_master", "2", case_file),
                            {":"},
-                           part("observation_manager", "2")})
+                           part("observation_manager", "2", of_observation)})
     words.insert(words.end(), more.begin(), more.end());
-  const ChildEnd end = capture({words, {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}}});
+  return capture({words, {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}}});
+}
+
+TEST_F(Identify, OfAnMpirunLineAllHaveOneCase) {
+  std::ofstream(folder / "other.yaml") << "base: " << case_file.string() << "\nfluid: {density: 1.2}\n";
+  const ChildEnd end = on_a_line(case_file, folder / "other.yaml", folder / "mixed", steps);
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("a solid_observation of the mpirun line has another case than its fsi_master"),
+            std::string::npos)
+      << end.errors;
+  EXPECT_FALSE(fs::exists(folder / "mixed"));
+}
+
+/// Where a cluster forbids that programs start others: groups have the codes that the line does not hold.
+TEST_F(Identify, IsTheSameOnAnMpirunLine) {
+  const ChildEnd end = on_a_line(case_file, case_file, folder / "line", steps);
   ASSERT_EQ(end.exit_code, 0) << end.errors;
   EXPECT_EQ(content_of(folder / "line/estimate.csv"), content_of(folder / "one/estimate.csv"));
 }
