@@ -10,7 +10,7 @@
 namespace tether {
 namespace {
 
-constexpr double mb = 1e6;
+constexpr double kb = 1024, mb = 1e6;
 
 struct Need {
   __rlimit_resource of;
@@ -22,7 +22,9 @@ struct Need {
 };
 constexpr std::array needs{Need{RLIMIT_NOFILE, 40, "may be open at once", 1, "files", "-n"},
                            Need{RLIMIT_AS, 400 * mb, "may be taken by a program", mb, "MB of memory", "-v"},
-                           Need{RLIMIT_FSIZE, 4096 * 1024, "may be in a file", mb, "MB", "-f"}};
+                           Need{RLIMIT_FSIZE, 4096 * kb, "may be in a file", mb, "MB", "-f"},
+                           // with 208 kB mpirun ends by signal 11, with 256 an explanation, with 288 none of them
+                           Need{RLIMIT_STACK, 512 * kb, "may be taken by a program's stack", kb, "kB", "-s"}};
 
 void check(const Need& need) {
   rlimit limit{};

@@ -35,6 +35,8 @@ TEST(Circumstances, TellWhichLimitLeavesTooLittle) {
   EXPECT_EQ(refusal_under(RLIMIT_NOFILE, 39), "only 39 files may be open at once (ulimit -n): at least 40 are needed");
   EXPECT_EQ(refusal_under(RLIMIT_NOFILE, 40), "");
   EXPECT_EQ(refusal_under(RLIMIT_FSIZE, 1'000'000), "only 1 MB may be in a file (ulimit -f): at least 4.19 are needed");
+  EXPECT_EQ(refusal_under(RLIMIT_STACK, 64 << 10),
+            "only 64 kB may be taken by a program's stack (ulimit -s): at least 512 are needed");
 }
 
 TEST(Circumstances, TellThatTheDiskOfTmpdirIsTooFull) {
