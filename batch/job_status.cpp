@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
 #include "common/io/record_file.hpp"
 
@@ -25,10 +25,20 @@ bool is_about_going_on(const std::string& line) {
   return std::any_of(beginnings.begin(), beginnings.end(), [&](const char* text) { return line.starts_with(text); });
 }
 
+/// What a job's script has written into a file; nothing if it has not come to that.
+std::optional<std::string> word_in(const fs::path& file) {
+  constexpr std::uintmax_t longest = 4000;  // bytes
+  if (!fs::exists(file)) return std::nullopt;
+  std::ifstream text = input_stream(file, std::ios::in, longest);
+  std::string word;
+  if (!(text >> word)) return std::nullopt;
+  return word;
+}
+
 /// The last line of a log, which may be long, that tells what happens.
-std::string last_said_in(const fs::path& file) {
+std::string last_line_of(const fs::path& file) {
   constexpr std::streamoff enough = 4000;  // bytes
-  std::ifstream log(file, std::ios::binary);
+  std::ifstream log = input_stream(file, std::ios::binary);
   log.seekg(0, std::ios::end);
   log.seekg(std::max<std::streamoff>(0, log.tellg() - enough));
   std::string last;
@@ -37,11 +47,14 @@ std::string last_said_in(const fs::path& file) {
   return last;
 }
 
-std::optional<int> exit_code_in(const fs::path& file) {
-  int code = 0;
-  std::ifstream text(file);
-  if (!(text >> code)) return std::nullopt;
-  return code;
+/// The other cases are told also where a log cannot be read.
+std::string last_said_in(const fs::path& file) {
+  if (!fs::exists(file)) return "";
+  try {
+    return last_line_of(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 
 std::string joined(const std::string& first, const std::string& second) {
@@ -53,8 +66,8 @@ CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Tas
   if (task != nullptr && runs(*task))
     return {one.name, CaseState::running, joined(fmt::format("{} on {}", task->time, task->nodes), said)};
   if (task != nullptr && !has_ended(*task)) return {one.name, CaseState::waiting, task->reason};
-  if (const auto code = exit_code_in(files / "ended" / one.name))
-    return {one.name, *code == 0 ? CaseState::done : CaseState::failed, *code == 0 ? "" : said};
+  if (const auto code = word_in(files / "ended" / one.name))
+    return {one.name, *code == "0" ? CaseState::done : CaseState::failed, *code == "0" ? "" : said};
   if (!answers) return {one.name, CaseState::unknown, said};
   return {one.name, CaseState::gone, joined(task == nullptr ? "" : task->state, said)};
 }
@@ -79,7 +92,7 @@ Job read_job(const fs::path& folder) {
   auto job = read_record<Job>(record);
   check_record(job, record.string());
   const fs::path number = folder / job_files / "number";  // by the script, whoever submitted it
-  std::ifstream(number) >> job.number;
+  if (auto given = word_in(number)) job.number = std::move(*given);
   check_record(job, number.string());
   return job;
 }

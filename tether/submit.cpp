@@ -13,6 +13,7 @@
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "common/base/temporary_folder.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
@@ -203,7 +204,7 @@ void show_status(const Job& job, const fs::path&, const std::vector<CaseStatus>&
 
 void show_results(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {
   const JobResults results = results_of(job, folder, states);
-  write_text(folder / results_table, results.csv());
+  write_whole(folder / results_table, results.csv());
   std::cout << results.text() << "In " << (folder / results_table).string() << "\n";
 }
 

@@ -1,5 +1,6 @@
 // Jobs without a scheduler: which cases, what is asked for, the script, what is said of them. With one: slurm_test.py.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -257,6 +258,25 @@ TEST_F(Jobs, TellWhatBecameOfEachCase) {
   Job unsubmitted = five;
   unsubmitted.number.clear();
   EXPECT_EQ(status_of(unsubmitted, folder_, std::nullopt).front().state, CaseState::unsubmitted);
+}
+
+/// To open a pipe waits without end, and a device has none.
+TEST_F(Jobs, AreToldWhateverStandsInThePlaceOfTheirFiles) {
+  const Job two = job(JobVerb::simulate, 2);
+  write("job/ended/case_0", "1\n");
+  write_record(folder_ / "job/job.json", two);
+  const auto refused = [&] { return refusal([&] { status_of(read_job(folder_), folder_, std::nullopt); }); };
+  fs::create_symlink("/dev/zero", folder_ / "job/number");
+  EXPECT_EQ(refused(), "job/number: is not a file");
+  fs::remove(folder_ / "job/number");
+  write("job/number", std::string(5'000'000, '1'));
+  EXPECT_TRUE(refused().starts_with("job/number: has 5 MB: larger than ")) << refused();
+  write("job/number", "12\n");
+  ASSERT_EQ(mkfifo((folder_ / "job/case_0.log").c_str(), 0600), 0);
+  const std::string log = (folder_ / "job/case_0.log").string();
+  EXPECT_EQ(status_of(two, folder_, std::nullopt)[0].note, log + ": is not a file");
+  ASSERT_EQ(mkfifo((folder_ / "job/ended/case_1").c_str(), 0600), 0);
+  EXPECT_EQ(refused(), "job/ended/case_1: is not a file");
 }
 
 TEST_F(Jobs, HaveOneTableOfTheirResults) {
