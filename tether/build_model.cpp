@@ -82,7 +82,7 @@ VesselModel model_of(const BuiltSurface& built, const VolumeCase& asked, const U
 
 Made<SurfaceSummary> build_model(const CommandLine& command) {
   const StudyCase study = read_study(command.case_file);
-  const fs::path folder = claim_for_made(command, "build-model", study.name);
+  const fs::path folder = claim_for_made(command, {"build-model", study.name});
   const fs::path places = folder / "places.vtp";
   for (const char* old : {"places.vtp", "surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"})
     fs::remove(folder / old);

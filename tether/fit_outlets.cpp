@@ -14,8 +14,8 @@ Made<FittedOutlets> fit_outlets(const CommandLine& command) {
   const OutletsCase asked = read_outlets_case(command.case_file);
   std::vector<fs::path> also;
   if (!asked.case_file.empty()) also.push_back(asked.case_file);
-  const fs::path folder = claim_for_made(command, "fit-outlets", asked.name, also);
-  for (const char* old : {"outlets.json", "outlets.csv", "case.yaml", "plots/outlets.png"}) fs::remove(folder / old);
+  const fs::path folder = claim_for_made(command, {"fit-outlets", asked.name, also, "outlets.json"});
+  for (const char* old : {"case.yaml", "outlets.json", "outlets.csv", "plots/outlets.png"}) fs::remove(folder / old);
   OutletsFit fit = [&] {
     try {
       return fit_outlets(asked, folder);

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 Made<TrackedRing> track_ring(const CommandLine& command) {
   const RingTrackCase asked = read_ring_case(command.case_file);
   check_tables(asked);
-  const fs::path folder = claim_for_made(command, "track-ring", asked.name);
+  const fs::path folder = claim_for_made(command, {"track-ring", asked.name});
   for (const char* old : {"ring.json", "poses.csv", "plots/ring.png"}) fs::remove(folder / old);
   TrackedRing ring = track_ring(asked);
   write_record(folder / "ring.json", ring);

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <regex>
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* twin_verb = "twin";
 constexpr const char* source_name = "twin";
 
 /// A case with a section `twin`.
@@ -52,20 +54,25 @@ struct Truth {
   CsvTable series;
 };
 
-/// Throws InputError for a folder that holds anything but a twin.
-fs::path claim_folder(const CommandLine& command, const CaseWithTwin& given) {
+/// Held; what is in it is as it was.
+fs::path hold_folder_of(const CommandLine& command, const CaseWithTwin& given) {
   const fs::path folder =
-      command.output.empty() ? fs::path("out") / (given.file.common().name + "_twin") : command.output;
-  if (fs::exists(folder) && !command.overwrite && !fs::is_empty(folder) && !fs::exists(folder / "sealed"))
-    throw input_error("{}: holds files that are not a twin's; choose another folder with --output, or give --overwrite",
-                      folder.string());
-  for (const char* made : {"data", "case.yaml"})
-    for (const fs::path& read : {command.case_file, given.twin.truth}) check_keeps_inputs(folder / made, read);
-  hold_output(folder);
-  fs::remove_all(folder / "data");
-  fs::create_directories(folder / "data");
-  fs::create_directories(folder / "sealed");
+      hold_for_made(command, {twin_verb, given.file.common().name + "_twin", {given.twin.truth}, sealed_answer({})});
+  for (const char* made : {"data", "sealed"})
+    if (fs::exists(folder / made) && !fs::is_directory(folder / made))
+      throw input_error("{}: is not a folder", (folder / made).string());
   return folder;
+}
+
+/// Not what else stands in its folders.
+void remove_twin(const fs::path& folder) {
+  for (const fs::path& old : {folder / "case.yaml", sealed_answer(folder), folder / "data/lumen.csv"}) fs::remove(old);
+  fs::create_directories(folder / "data");
+  const std::regex frame("lumen_[0-9]+\\.vtp");
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(folder / "data"))
+    if (std::regex_match(entry.path().filename().string(), frame)) frames.push_back(entry.path());
+  for (const fs::path& old : frames) fs::remove(old);
 }
 
 void write_frames(const fs::path& folder, const std::vector<TwinFrame>& frames) {
@@ -126,30 +133,45 @@ void write_case(const fs::path& folder, const CaseWithTwin& given, const TwinFra
   write_overlay(folder / "case.yaml", overlay);
 }
 
-void check(const CaseWithTwin& given, const Truth& truth) {
-  const std::string &ours = given.file.units().name(), &its = truth.own.file.units().name();
+void check(const CaseWithTwin& given, const CaseFile& truth) {
+  const std::string &ours = given.file.units().name(), &its = truth.units().name();
   if (ours != its)
     throw input_error("{}: the truth's units are {}, the case's {}: they must be the same",
                       given.file.where("twin.truth"), its, ours);
   if (given.twin.periodic && !given.twin.beat)
     throw input_error("{}: must be given with periodic", given.file.where("twin.beat"));
+  for (const auto& [name, trace] : given.twin.traces)
+    if (name == "lumen")
+      throw input_error("{}: data/lumen.csv lists the surfaces: another name is needed",
+                        given.file.where("twin.traces.lumen"));
 }
 
-TwinFrames write_data(const fs::path& folder, const CaseWithTwin& given, const Truth& truth) {
+struct TwinData {
+  TwinFrames frames;
+  std::vector<TwinTrace> traces;  ///< one for each of the case
+};
+
+TwinData make_data(const CaseWithTwin& given, const Truth& truth) {
   const TrueLumen lumen = truth.lumen();
   const double first = times_of_frames(given.twin, lumen).front();
   check_scales(given.twin, given.file.units(), lumen, first,
                [&](const std::string& field) { return given.file.where(field); });
-  TwinFrames frames = make_frames(given.twin, given.file.units(), lumen, given.file.where("twin"));
-  write_frames(folder / "data", frames.frames);
+  TwinData data{make_frames(given.twin, given.file.units(), lumen, given.file.where("twin")), {}};
   std::uint64_t seed = static_cast<std::uint64_t>(given.twin.seed) * 16 + 8;
   for (const auto& [name, trace] : given.twin.traces) {
     TwinTrace made =
         make_trace(trace, truth.series.numbers("time"), truth.series.numbers(trace.observable), first, seed++);
     given.twin.faults.spoil(name, made.times, made.values);
-    write_trace(folder / "data" / (name + ".csv"), made, truth.series.unit(trace.observable));
+    data.traces.push_back(std::move(made));
   }
-  return frames;
+  return data;
+}
+
+void write_data(const fs::path& folder, const TwinData& data, const CaseWithTwin& given, const Truth& truth) {
+  write_frames(folder, data.frames.frames);
+  auto made = data.traces.begin();
+  for (const auto& [name, trace] : given.twin.traces)
+    write_trace(folder / (name + ".csv"), *made++, truth.series.unit(trace.observable));
 }
 
 std::string where_frames_are(const fs::path& folder, const TwinFrames& made, const UnitSystem& units) {
@@ -165,19 +187,23 @@ std::string where_frames_are(const fs::path& folder, const TwinFrames& made, con
 Made<std::filesystem::path> make_twin(const CommandLine& command) {
   check_case(command);
   const CaseWithTwin given(command.case_file);
-  const fs::path folder = claim_folder(command, given);
   CommandLine run = command;
   run.case_file = given.twin.truth;
+  const CaseFile truth_file(run.case_file);
+  check(given, truth_file);
+  const fs::path folder = hold_folder_of(command, given);
   run.output = folder / "sealed" / "run";
-  provide_run(run, CaseFile(run.case_file), run.output);
+  provide_run(run, truth_file, run.output);
   const Truth truth(run.case_file, run.output);
-  check(given, truth);
-  const TwinFrames made = write_data(folder, given, truth);
-  write_case(folder, given, made);
+  const TwinData made = make_data(given, truth);
+  mark_made(folder, twin_verb, command.case_file);
+  remove_twin(folder);
+  write_data(folder / "data", made, given, truth);
   Answer answer = answer_of(given.twin);
-  answer.image_error = made.image_error;
+  answer.image_error = made.frames.image_error;
   seal(sealed_answer(folder), answer);
-  return {folder / "case.yaml", where_frames_are(folder, made, given.file.units())};
+  write_case(folder, given, made.frames);
+  return {folder / "case.yaml", where_frames_are(folder, made.frames, given.file.units())};
 }
 
 void check_twin(const CommandLine& command) {

@@ -104,10 +104,14 @@ void check_made_by(const fs::path& folder, const std::string& verb, const std::s
   throw input_error("{}: holds files that are not what tether {} made; {}", folder.string(), verb, way_out);
 }
 
-/// Makes, holds and marks the folder of what a verb makes of these files; `keeps_inputs` throws if one that is read
-/// would be replaced.
-fs::path claim_marked(const fs::path& folder, bool overwrite, const std::string& verb,
-                      const std::vector<fs::path>& files, const std::function<void()>& keeps_inputs) {
+void write_mark(const fs::path& folder, const std::string& mark) {
+  write_whole(folder / made_by, mark + "\n");
+}
+
+/// Makes and holds the folder of what a verb makes of these files, and marks it if it is empty; `keeps_inputs` throws
+/// if one that is read would be replaced.
+void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb, const std::vector<fs::path>& files,
+                 const std::function<void()>& keeps_inputs) {
   const std::string mark = mark_of(verb, files);
   const auto check = [&] {
     keeps_inputs();
@@ -116,8 +120,15 @@ fs::path claim_marked(const fs::path& folder, bool overwrite, const std::string&
   check();
   hold_output(folder);
   check();  // another may have been there until now
-  write_whole(folder / made_by, mark + "\n");
-  return folder;
+  if (is_empty_but_for_lock(folder)) write_mark(folder, mark);
+}
+
+/// A case has a common name: one of the person's own is not replaced.
+void check_case_is_made(const fs::path& folder, const MadeOfFile& made) {
+  const fs::path file = folder / "case.yaml";
+  if (!made.before_case.empty() && fs::exists(file) && !fs::exists(folder / made.before_case))
+    throw input_error("{}: is not what tether {} made, and would be replaced; choose another folder with --output",
+                      file.string(), made.verb);
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -190,20 +201,33 @@ void check_keeps_inputs(const fs::path& place, const fs::path& file) {
   check_none_is_in(place, read);
 }
 
-fs::path claim_for_made(const CommandLine& command, const std::string& verb, const std::string& name,
-                        const std::vector<fs::path>& also) {
-  const fs::path folder = command.output.empty() ? fs::path("out") / name : command.output;
-  return claim_marked(folder, command.overwrite, verb, {command.case_file}, [&] {
+fs::path hold_for_made(const CommandLine& command, const MadeOfFile& made) {
+  const fs::path folder = command.output.empty() ? fs::path("out") / made.name : command.output;
+  hold_marked(folder, command.overwrite, made.verb, {command.case_file}, [&] {
     check_keeps_inputs(folder, command.case_file);
-    for (const fs::path& file : also) check_keeps_inputs(folder, file);
+    for (const fs::path& file : made.also) check_keeps_inputs(folder, file);
+    if (command.overwrite) check_case_is_made(folder, made);
   });
+  return folder;
+}
+
+void mark_made(const fs::path& folder, const std::string& verb, const fs::path& file) {
+  write_mark(folder, mark_of(verb, {file}));
+}
+
+fs::path claim_for_made(const CommandLine& command, const MadeOfFile& made) {
+  const fs::path folder = hold_for_made(command, made);
+  mark_made(folder, made.verb, command.case_file);
+  return folder;
 }
 
 fs::path claim_for_made(const fs::path& folder, bool overwrite, const std::string& verb,
                         const std::vector<fs::path>& files) {
   std::vector<fs::path> read;
   for (const fs::path& file : files) gather_file(file, read);
-  return claim_marked(folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); });
+  hold_marked(folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); });
+  write_mark(folder, mark_of(verb, files));
+  return folder;
 }
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {

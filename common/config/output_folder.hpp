@@ -31,14 +31,24 @@ std::filesystem::path claim_output(const CommandLine& command, const CaseFile& f
 /// The file in a folder of what a verb made of a file that is no case: the verb, and that file.
 inline constexpr const char* made_by = ".made_by";
 
-/// The folder for what a verb that makes no run makes of its file: --output, or out/NAME. It is made if need be, held,
-/// and marked. Throws InputError before anything in it is touched, if it holds anything but what the same verb made of
-/// the same file, unless --overwrite; and always if a file stands in it that is read: the verb's, those of `also`, or
-/// one that they name.
-std::filesystem::path claim_for_made(const CommandLine& command, const std::string& verb, const std::string& name,
-                                     const std::vector<std::filesystem::path>& also = {});
+/// What a verb that makes no run makes of its file.
+struct MadeOfFile {
+  std::string verb, name;                        ///< the folder's, without --output
+  std::vector<std::filesystem::path> also = {};  ///< read beside the verb's own file
+  std::filesystem::path before_case = {};        ///< stands in the folder before `case.yaml` does; empty: none is made
+};
 
-/// The same for what a verb makes of files none of which is a case, in this order.
+/// The folder for it: --output, or out/NAME. It is made if need be, held, and marked. Throws InputError before anything
+/// in it is touched, if it holds anything but what the same verb made of the same file, unless --overwrite; with it,
+/// too, if a file stands in it that is read (the verb's, those of `also`, or one that they name), or a `case.yaml`
+/// without what the verb makes before its own.
+std::filesystem::path claim_for_made(const CommandLine& command, const MadeOfFile& made);
+
+/// The same, for what may still be refused: a folder that is not empty is as it was, and mark_made is to follow.
+std::filesystem::path hold_for_made(const CommandLine& command, const MadeOfFile& made);
+void mark_made(const std::filesystem::path& folder, const std::string& verb, const std::filesystem::path& file);
+
+/// The same as claim_for_made for what a verb makes of files none of which is a case, in this order.
 std::filesystem::path claim_for_made(const std::filesystem::path& folder, bool overwrite, const std::string& verb,
                                      const std::vector<std::filesystem::path>& files);
 

@@ -166,7 +166,7 @@ class MadeFolder : public OutputFolder {
     command.case_file = test_folder() / file;
     command.output = test_folder() / folder;
     command.overwrite = overwrite;
-    return input_error_of([&] { claim_for_made(command, verb, "arch"); });
+    return input_error_of([&] { claim_for_made(command, {verb, "arch"}); });
   }
   std::filesystem::path study_;
 };

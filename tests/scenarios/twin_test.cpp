@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "common/base/child_process.hpp"
@@ -132,6 +133,76 @@ TEST_F(Twin, HasImagesNoiseTracesAndAnAnswer) {
   fs::remove(results() / "diagnosis.json");  // no file of ours: it says what a score reads, and no more
 }
 
+/// What the files of a folder hold.
+std::map<fs::path, std::string> content_below(const fs::path& folder) {
+  std::map<fs::path, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != ".lock") all[entry.path()] = content_of(entry.path());
+  return all;
+}
+
+TEST_F(Twin, LeavesItsFolderAsItWasWhereItRefuses) {
+  const fs::path twin = made("same", std::string(exact) + nothing).parent_path();
+  fs::create_directories(twin / "data/notes");
+  std::ofstream(twin / "data/notes/mine.csv") << "precious";
+  const auto before = content_below(twin);
+  const auto refused = [&](const std::string& name, const std::string& section, const char* option = "--quiet") {
+    const fs::path file = folder.file(name + ".yaml", "base: model.yaml\nname: " + name + "\ntwin:\n" + section);
+    const ChildEnd end = tether({"twin", file.string(), "--output", twin.string(), option});
+    EXPECT_EQ(end.exit_code, 2) << section << end.errors;
+    EXPECT_TRUE(content_below(twin) == before) << section << end.errors;
+    return end.errors;
+  };
+  const std::string same = std::string("  truth: same.yaml\n  frames: 4\n") + exact + nothing;
+  EXPECT_NE(refused("other", same).find("holds what tether twin made of " + (folder / "twin.yaml").string()),
+            std::string::npos);
+  EXPECT_NE(refused("other", same + "  first: 100\n", "--overwrite").find("frame 0 shows the time 100"),
+            std::string::npos);
+  EXPECT_NE(refused("twin", std::string("  truth: held.yaml\n") + nothing).find("holds the results of the case 'same'"),
+            std::string::npos);
+  folder.file("same.yaml", "base: model.yaml\nname: same\nfluid: {density: -1}\n");
+  EXPECT_NE(refused("twin", same).find("density"), std::string::npos);
+
+  folder.file("same.yaml", "base: model.yaml\nname: same\n");
+  folder.file("other.yaml",
+              "base: model.yaml\nname: other\ntwin:\n  truth: same.yaml\n  frames: 2\n" + std::string(exact) + nothing);
+  const ChildEnd replaced =
+      tether({"twin", (folder / "other.yaml").string(), "--output", twin.string(), "--overwrite"});
+  EXPECT_EQ(replaced.exit_code, 0) << replaced.errors;
+  EXPECT_FALSE(fs::exists(twin / "data/lumen_02.vtp"));
+  EXPECT_EQ(content_of(twin / "data/notes/mine.csv"), "precious");
+}
+
+TEST_F(Twin, ReplacesNothingThatItDidNotMake) {
+  const fs::path file =
+      folder.file("twin.yaml", std::string("base: model.yaml\nname: twin\ntwin:\n  truth: same.yaml\n  frames: 2\n") +
+                                   exact + nothing);
+  for (const char* name : {"sealed", "data"}) fs::create_directories(folder / "mine" / name);
+  std::ofstream(folder / "mine/data/precious.csv") << "precious";
+  std::ofstream(folder / "mine/case.yaml") << "mine: 1";
+  const auto mine = content_below(folder / "mine");
+  const auto error_of = [&](const std::string& verb, const fs::path& of, const fs::path& output, const char* option) {
+    const ChildEnd end = tether({verb, of.string(), "--output", output.string(), option});
+    EXPECT_EQ(end.exit_code, 2) << end.errors;
+    return end.errors;
+  };
+  EXPECT_NE(error_of("twin", file, folder / "mine", "--quiet").find("are not what tether twin made"),
+            std::string::npos);
+  EXPECT_EQ(error_of("twin", file, folder / "mine", "--overwrite"),
+            (folder / "mine/case.yaml").string() +
+                ": is not what tether twin made, and would be replaced; choose another folder with --output\n");
+  EXPECT_NE(error_of("twin", file, folder.path(), "--overwrite").find("twin.yaml: is read, and"), std::string::npos);
+  EXPECT_TRUE(content_below(folder / "mine") == mine);
+
+  fs::remove(folder / "mine/case.yaml");
+  const ChildEnd end = tether({"twin", file.string(), "--output", (folder / "mine").string(), "--overwrite"});
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(content_of(folder / "mine/data/precious.csv"), "precious");
+  const fs::path outlets = fs::path(TETHER_SOURCE) / "configs/descending_aorta/outlets.yaml";
+  EXPECT_NE(error_of("fit-outlets", outlets, folder / "mine", "--overwrite").find("case.yaml: is not what tether fit"),
+            std::string::npos);
+}
+
 TEST_F(Twin, TellsWhatIsWrong) {
   const auto error_of = [&](const std::string& section) {
     const fs::path file = folder.file("wrong.yaml", "base: model.yaml\nname: wrong\n" + section);
@@ -144,6 +215,9 @@ TEST_F(Twin, TellsWhatIsWrong) {
   EXPECT_EQ(error_of("twin: {truth: none.yaml, hidden: {verdict: nothing_missing}}\n"),
             file + ":3: twin.truth: none.yaml: no such file or folder: " + (folder / "none.yaml").string() +
                 " (case file of the run that the data are made from)\n");
+  EXPECT_EQ(error_of("twin: {truth: same.yaml, hidden: {verdict: nothing_missing}, traces: {lumen: {observable: p, "
+                     "quantity: pressure, interval: 4 ms, noise: {deviation: 2 mmHg}}}}\n"),
+            file + ":3: twin.traces.lumen: data/lumen.csv lists the surfaces: another name is needed\n");
   const ChildEnd validated =
       tether({"validate", folder.file("wrong.yaml", "base: model.yaml\nname: w\ntwin: {sed: 3}\n").string()});
   EXPECT_NE(validated.errors.find("twin.sed: unknown field; did you mean 'seed'?"), std::string::npos)
@@ -151,7 +225,7 @@ TEST_F(Twin, TellsWhatIsWrong) {
   fs::create_directories(folder / "wrong");
   std::ofstream(folder / "wrong" / "thesis.txt") << "precious";
   EXPECT_NE(error_of("twin: {truth: same.yaml, hidden: {verdict: nothing_missing}}\n")
-                .find("holds files that are not a twin's"),
+                .find("holds files that are not what tether twin made; choose another folder"),
             std::string::npos);
   EXPECT_NE(tether({"score", (folder / "model.yaml").string()}).errors.find("not the folder of a twin"),
             std::string::npos);
