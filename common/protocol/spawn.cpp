@@ -56,14 +56,17 @@ class PidFile {
 /// MPI_Comm_spawn neither ends nor fails if the program never reaches MPI_Init: this ends the job instead.
 class SpawnCheck {
  public:
-  SpawnCheck(const PidFile& file, std::string program, std::string master_role)
-      : file_(file), program_(std::move(program)), master_role_(std::move(master_role)) {}
+  SpawnCheck(const PidFile& file, std::string role, const std::string& executable, std::string master_role)
+      : file_(file),
+        role_(role.empty() ? executable : std::move(role)),
+        program_(role_ == executable ? executable : fmt::format("{} ({})", role_, executable)),
+        master_role_(std::move(master_role)) {}
 
   void operator()(double seconds) {
     const std::int64_t pid = file_.pid();
     if (pid != 0 && !is_running(pid)) fail(program_ + " ended before it reached MPI");
     if (interrupted()) fail("interrupted before " + program_ + " reached MPI");
-    if (pid != 0) check_stopped({program_, host_name(), pid, "starting"});
+    if (pid != 0) check_stopped({role_, host_name(), pid, "starting"});
     if (seconds > start_limit() && stillness_.stopped() == 0)
       fail(fmt::format("{} did not reach MPI within {} s", program_, start_limit()));
   }
@@ -82,7 +85,7 @@ class SpawnCheck {
   }
 
   const PidFile& file_;
-  std::string program_, master_role_;
+  std::string role_, program_, master_role_;
   Stillness stillness_;
   bool is_told_ = false;
 };
@@ -175,7 +178,6 @@ bool initialise_mpi(const std::string& role) {
 
 Spawned spawn(const Program& program, const std::string& master_role) {
   const std::string executable = find_executable(program);
-  const std::string name = program.role.empty() ? executable : fmt::format("{} ({})", program.role, executable);
   const std::string node = program.node.empty() ? own_node() : program.node;
   const PidFile file;
   std::vector<std::string> words{"-c", starter, file.path()};
@@ -186,7 +188,7 @@ Spawned spawn(const Program& program, const std::string& master_role) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  SpawnCheck check(file, name, master_role);
+  SpawnCheck check(file, program.role, executable, master_role);
   const Guard guard(0.1, [&check](double seconds) { check(seconds); });
   MPI_Info info = spawn_info(node);
   MPI_Comm children = MPI_COMM_NULL;
