@@ -1,7 +1,11 @@
 #include "tether/front_end.hpp"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 
@@ -142,10 +146,17 @@ std::string version() {
   return fmt::format("tether {}{}", TETHER_VERSION, commit.empty() ? "" : " (" + commit + ")");
 }
 
-/// The exit code, if all that was told could be written.
+/// As behind `| head`: whoever reads has seen enough.
+bool has_no_reader(int descriptor) {
+  pollfd asked{descriptor, 0, 0};
+  return poll(&asked, 1, 0) == 1 && (asked.revents & POLLERR) != 0;
+}
+
+/// The exit code, if all that somebody wants to read could be written.
 int told_to_the_end(int exit_code) {
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  if (has_no_reader(STDOUT_FILENO)) return exit_code;
   std::cerr << "tether: what it tells cannot be written: is the disk full?" << std::endl;
   return exit_code == exit_done ? exit_run_failed : exit_code;
 }
@@ -176,6 +187,7 @@ int answered(int argc, char** argv) {
 int front_end(int argc, char** argv) {
   prepare_process();  // before a file is opened
   end_when_interrupted();
+  std::signal(SIGPIPE, SIG_IGN);  // no run ends because nobody reads any more how it goes
   const EndRequests requests;
   return told_to_the_end(answered(argc, argv));
 }

@@ -20,8 +20,9 @@ UsePAM no
 PermitRootLogin yes
 PasswordAuthentication no
 MaxStartups 100
-SetEnv TMPDIR={folder}/{name}/tmp HOME={folder}/{name}
+SetEnv TMPDIR={folder}/{name}/tmp HOME={folder}/{name} {sanitizers}
 """
+SANITIZERS = ("ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS", "LD_PRELOAD")  # as the preset dev has them
 SSH = """Host {names}
   User root
   IdentityFile {folder}/key
@@ -48,6 +49,10 @@ def run(*words, **more):
     return subprocess.run(list(map(str, words)), check=True, capture_output=True, text=True, **more)
 
 
+def sanitizers():
+    return " ".join(f"{name}={os.environ[name]}" for name in SANITIZERS if name in os.environ)
+
+
 def can_be_made():
     """Whether this machine lets this user make hosts: each kind of namespace, mounts in it, and a bridge outside."""
     inside = ["unshare", "--net", "--uts", "--ipc", "--pid", "--mount", "--fork", "--mount-proc", "sh", "-c",
@@ -65,7 +70,7 @@ class Host:
         folder = group.folder / self.name
         shutil.rmtree(folder, ignore_errors=True)  # temporary files do not survive a new start
         (folder / "tmp").mkdir(parents=True)
-        (folder / "sshd_config").write_text(SSHD.format(address=self.address, folder=group.folder, name=self.name))
+        (folder / "sshd_config").write_text(SSHD.format(address=self.address, folder=group.folder, name=self.name, sanitizers=sanitizers()))
         script = HOST.format(name=self.name, folder=group.folder, address=self.address)
         words = ["unshare", "--net", "--uts", "--ipc", "--pid", "--mount", "--fork", "--kill-child", "--mount-proc", "sh", "-c", script]
         self.process = subprocess.Popen(words, stdin=subprocess.DEVNULL, start_new_session=True)

@@ -391,6 +391,15 @@ TEST_F(FrontEnd, FailsWhereWhatItTellsIsLost) {
   }
 }
 
+/// Nor an error where nobody reads it: `| head`.
+TEST_F(FrontEnd, DoesItsWorkWhereNobodyReadsAnyMore) {
+  const ChildEnd end = capture(
+      {{"/bin/sh", "-c", "cd " + folder_.string() + " && { sleep 0.3; ./tether schema; echo $? >code; } | true"}, {}});
+  EXPECT_EQ(end.errors, "");
+  std::ifstream code(folder_ / "code");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(code), {}), "0\n");
+}
+
 TEST_F(FrontEnd, NamesAFolderOfTemporaryFilesThatIsNone) {
   const ChildEnd end = capture(
       {{"/bin/sh", "-c", "cd " + folder_.string() + " && TMPDIR=/nonexistent ./tether simulate case.yaml"}, {}});
