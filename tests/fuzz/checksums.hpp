@@ -12,16 +12,6 @@ inline void put(std::string& bytes, std::size_t at, std::uint64_t number) {
   std::memcpy(bytes.data() + at, &number, sizeof number);
 }
 
-/// A file of a checkpoint, of step 0 and fingerprint 0 (checked_file.cpp).
-inline std::string sealed(std::string bytes) {
-  constexpr std::size_t fingerprint = 16, step = 24, size = 32, checksum = 40, header = 48;
-  if (bytes.size() < header) return bytes;
-  put(bytes, fingerprint, 0), put(bytes, step, 0);
-  put(bytes, size, bytes.size() - header);
-  put(bytes, checksum, hash_bytes(bytes.data() + header, bytes.size() - header));
-  return bytes;
-}
-
 /// A series of vectors at points (point_series.hpp).
 inline std::string with_checksums(std::string bytes) {
   std::size_t at = bytes.find('\n') + 1;
