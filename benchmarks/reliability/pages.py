@@ -4,6 +4,7 @@ import json
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs/reliability.md"
 SIGNALS = ("KILL", "TERM", "INT", "STOP")
 MOST_LINES = 4
 LONG_NAMES = ("identification_master", "observation_manager")  # /proc/N/comm has fifteen letters
@@ -79,10 +80,22 @@ def table(known, kind, headings, columns):
     return lines
 
 
+def rows_before(title):
+    """The lines of a section of the page as it stands, for figures that were not measured anew."""
+    text = PAGE.read_text() if PAGE.exists() else ""
+    return text.partition(f"## {title}\n")[2].partition("\n## ")[0].splitlines()
+
+
+def as_before(title):
+    """A section whose figures were not measured anew."""
+    lines = rows_before(title)
+    return [f"## {title}", *lines, *([] if lines[-1] == "" else [""])] if lines else []
+
+
 def of_chaos(folder):
     """What benchmarks/reliability/chaos found."""
     if not (folder / "chaos.json").exists():
-        return []
+        return as_before("Killed again and again")
     found = json.loads((folder / "chaos.json").read_text())
     other = sum("differs" in one for one in found["wrong"])
     left = collections.Counter(name for one in found["wrong"] for name in one.get("orphans", []))
@@ -97,7 +110,7 @@ def of_chaos(folder):
 def of_haul(folder):
     """What benchmarks/reliability/haul found."""
     if not (folder / "haul.json").exists():
-        return []
+        return as_before("A long identification")
     found = json.loads((folder / "haul.json").read_text())
     lines = ["## A long identification", "", f"`benchmarks/reliability/haul --hours {found['hours']}`: {found['steps']} steps, sums over the processes of a program, slopes over the last nine tenths.", "",
              "| program | memory [MB] | growth [kB/h] | descriptors | growth [1/h] | processes |", "|---|---|---|---|---|---|"]
@@ -120,20 +133,18 @@ def of_leaks(found):
 
 
 def of_fuzz():
-    """What tests/fuzz/run found, and how many findings of before are kept as tests."""
-    file, kept = ROOT / "build-fuzz/fuzz.json", ROOT / "tests/fuzz/findings"
-    if not file.exists():
-        return []
-    found = json.loads(file.read_text())
-    lines = ["## Files and messages that a fuzzer makes", "",
+    """What tests/fuzz/run found, and how many findings of before are kept as tests. Readers that it did not run keep their rows."""
+    file, kept, title = ROOT / "build-fuzz/fuzz.json", ROOT / "tests/fuzz/findings", "Files and messages that a fuzzer makes"
+    rows = {line.split("|")[1].strip(): line for line in rows_before(title) if line.startswith("| ") and not line.startswith("| reader")}
+    for reader, one in (json.loads(file.read_text()) if file.exists() else {}).items():
+        of_before = len(list((kept / reader).iterdir())) if (kept / reader).exists() else 0
+        rows[reader] = f"| {reader} | {one['executions']:,} | {one['seconds'] / 60:.1f} | {one['edges']:,} | {'**1**' if one['found'] else 'none'} | {of_before or ''} |"
+    lines = [f"## {title}", "",
              "`tests/fuzz/run`: each reader under libFuzzer with the address and undefined-behaviour sanitizers, for ten minutes or a million executions, whichever is first; "
              "a file is read or refused within 10 s and 1 GB. *Kept*: earlier findings, mended and read by `fuzz_tests` "
              "(which: [decision 117](decisions/0117-fuzzers.md)).", "",
              "| reader | executions | minutes | edges | findings | kept |", "|---|---|---|---|---|---|"]
-    for reader, one in found.items():
-        of_before = len(list((kept / reader).iterdir())) if (kept / reader).exists() else 0
-        lines.append(f"| {reader} | {one['executions']:,} | {one['seconds'] / 60:.1f} | {one['edges']:,} | {'**1**' if one['found'] else 'none'} | {of_before or ''} |")
-    return [*lines, ""]
+    return [*lines, *(rows[reader] for reader in sorted(rows)), ""]
 
 
 def write_page(known, folder):
@@ -158,6 +169,6 @@ def write_page(known, folder):
             "An identification with a model on each of two hosts, which are namespaces of one machine with an sshd each (`tests/hosts`): processes, network, shared memory and temporary files of their own. "
             "*Lost*: without power; *cut off*: without a network. Open MPI is told by `tether` that a host of which nothing is heard for 30 s is gone. After that the same command goes on, on one machine.", "",
             *table(known, "hosts", "job | what happens", ("verb", "fault")), "", *of_chaos(folder), *of_haul(folder), *of_fuzz()]
-    (ROOT / "docs/reliability.md").write_text("\n".join(text))
+    PAGE.write_text("\n".join(text))
     for key, what in wrong.items():
         print("not green:", key, "; ".join(what))
