@@ -57,6 +57,12 @@ function(tether_library name)
   endif()
 endfunction()
 
+# Under the sanitizers what draws thousands of samples takes ten times as long.
+set(TETHER_PATIENCE 1)
+if(CMAKE_BUILD_TYPE STREQUAL Debug)
+  set(TETHER_PATIENCE 10)
+endif()
+
 # tether_test(NAME LABEL unit|contract|convergence|scenario SOURCES ... LIBRARIES ...): one CTest entry. All entries of a folder share one
 # GoogleTest program, FOLDER_tests, whose sources are compiled together; an entry runs the tests that stand in its own sources.
 # DEFINITIONS and NEEDS (targets that must be built) are the program's.
@@ -81,9 +87,7 @@ function(tether_test name)
   if(NOT arg_TIMEOUT)  # for what hangs: no busy machine needs as long
     set(arg_TIMEOUT 1800)
   endif()
-  if(CMAKE_BUILD_TYPE STREQUAL Debug)  # under the sanitizers, where what draws thousands of samples takes ten times as long
-    math(EXPR arg_TIMEOUT "10 * ${arg_TIMEOUT}")
-  endif()
+  math(EXPR arg_TIMEOUT "${TETHER_PATIENCE} * ${arg_TIMEOUT}")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "OMP_NUM_THREADS=1;OPENBLAS_NUM_THREADS=1")
 endfunction()
