@@ -56,9 +56,9 @@ class PidFile {
 /// MPI_Comm_spawn neither ends nor fails if the program never reaches MPI_Init: this ends the job instead.
 class SpawnCheck {
  public:
-  SpawnCheck(const PidFile& file, std::string role, const std::string& executable, std::string master_role)
+  SpawnCheck(const PidFile& file, const std::string& role, const std::string& executable, std::string master_role)
       : file_(file),
-        role_(role.empty() ? executable : std::move(role)),
+        role_(role.empty() ? executable : role),
         program_(role_ == executable ? executable : fmt::format("{} ({})", role_, executable)),
         master_role_(std::move(master_role)) {}
 
