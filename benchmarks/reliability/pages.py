@@ -112,7 +112,7 @@ def of_haul(folder):
     if not (folder / "haul.json").exists():
         return as_before("A long identification")
     found = json.loads((folder / "haul.json").read_text())
-    lines = ["## A long identification", "", f"`benchmarks/reliability/haul --hours {found['hours']}`: {found['steps']} steps, sums over the processes of a program, slopes over the last nine tenths.", "",
+    lines = ["## A long identification", "", f"`benchmarks/reliability/haul{' --leaks' if found['leaks'] else ''} --hours {found['hours']}`: {found['steps']} steps{' of programs with the address sanitizer, whose memory it is' if found['leaks'] else ''}, sums over the processes of a program, slopes over the last nine tenths.", "",
              "| program | memory [MB] | growth [kB/h] | descriptors | growth [1/h] | processes |", "|---|---|---|---|---|---|"]
     for short, one in found["programs"].items():
         name = next((program for program in LONG_NAMES if program.startswith(short)), short)
@@ -124,7 +124,7 @@ def of_haul(folder):
 def of_leaks(found):
     if not found:
         return []
-    lines = ["Built with the address sanitizer, and asked at the end what nobody can reach any more:", "",
+    lines = ["Asked at the end what nobody can reach any more:", "",
              "| program | leaked [bytes] | by Open MPI and VTK [bytes] |", "|---|---|---|"]
     for one in found:
         name = next((program for program in LONG_NAMES if program.startswith(one["program"])), one["program"])
