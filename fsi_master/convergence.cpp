@@ -55,7 +55,8 @@ bool Convergence::reached(const VectorXd& V, const VectorXd& residual) {
   result_.residuals.push_back(scale > 0 ? norm / scale : norm);
   result_.worst_node = largest_node(residual);
   if (!std::isfinite(norm))  // of numbers beyond 1e154 too
-    result_.failure = "a partner answered with numbers that are not finite, or too large to be squared";
+    result_.failure = fmt::format("a partner answered with numbers that are {}",
+                                  residual.allFinite() ? "too large to be squared" : "not finite");
   result_.converged = result_.failure.empty() && norm <= target(V, residual);  // (C.3)
   return result_.converged;
 }

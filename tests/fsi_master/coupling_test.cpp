@@ -38,7 +38,8 @@ TEST(Convergence, NumbersBeyondMeasureAreNotConverged) {
     EXPECT_FALSE(convergence.may_continue());
     const CouplingResult result = std::move(convergence).result({});
     EXPECT_FALSE(result.converged);
-    EXPECT_NE(result.failure.find("not finite, or too large"), std::string::npos) << result.failure;
+    EXPECT_NE(result.failure.find(std::isfinite(number) ? "too large" : "not finite"), std::string::npos)
+        << result.failure;
   }
 }
 
