@@ -7,6 +7,7 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/base/name.hpp"
+#include "common/config/named_path.hpp"
 #include "common/config/overlay.hpp"
 #include "common/config/yaml_tree.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 JobCase job_case(const std::string& name, const fs::path& file) {
-  return {name, fs::absolute(file).lexically_normal().string()};
+  return {name, fs::absolute(named_path({}, file)).string()};
 }
 
 /// NAME/case.yaml is the case of NAME, any other file that of its own name.

@@ -25,6 +25,7 @@ struct RunFacts {
   InterfaceRecord interface;
   std::optional<Periodicity> periodicity;
   std::optional<RestState> rest;
+  std::string table;  ///< a hash of what timeseries.csv holds
 };
 
 /// What was run, how it went and what it cost, in the case's units and in mmHg and mm.

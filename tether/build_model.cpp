@@ -47,6 +47,13 @@ void write_tree(const fs::path& folder, const CentrelineTree& tree) {
   if (!table.flush()) throw run_error("{}: cannot be written to", folder.string());
 }
 
+void write_surface(const fs::path& folder, const BuiltSurface& built) {
+  for (const char* old : {"surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"}) fs::remove(folder / old);
+  write_vtp(folder / "surface.vtp", built.surface.points, built.surface.triangles, built.surface.label);
+  write_tree(folder, built.tree);
+  write_record(folder / "surface.json", built.summary);
+}
+
 void draw(const fs::path& folder, const std::string& name) {
   std::vector<std::string> options{"--field", "ModelFaceID", "--title", "0: wall, others: openings"};
   if (fs::exists(folder / "centreline.vtp"))
@@ -82,10 +89,10 @@ VesselModel model_of(const BuiltSurface& built, const VolumeCase& asked, const U
 
 Made<SurfaceSummary> build_model(const CommandLine& command) {
   const StudyCase study = read_study(command.case_file);
-  const fs::path folder = claim_for_made(command, {"build-model", study.name});
+  const MadeOfFile made{"build-model", study.name, {}, {"model/case.yaml", "model/flow.csv"}, "model/quality.json"};
+  const fs::path folder = claim_for_made(command, made);
   const fs::path places = folder / "places.vtp";
-  for (const char* old : {"places.vtp", "surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"})
-    fs::remove(folder / old);
+  fs::remove(places);
   const auto say = [&](const std::string& what) {
     if (!command.quiet) std::cout << what << std::endl;
   };
@@ -97,18 +104,22 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
     BuiltSurface built = build_surface(study, keep, [&](const ImageVolume& image, const RawSurface& lumen) {
       draw_slices(folder / "1_slices.png", image, lumen);
     });
-    write_vtp(folder / "surface.vtp", built.surface.points, built.surface.triangles, built.surface.label);
-    write_tree(folder, built.tree);
-    write_record(folder / "surface.json", built.summary);
+    const UnitSystem units = UnitSystem::cgs();
+    std::optional<VesselModel> model;
+    keep("5_ready", {built.surface.points, built.surface.triangles, built.surface.label});
+    if (study.model) {
+      say("The surface is ready: tetrahedra, wall and regions");
+      model = model_of(built, *study.model, units, command.case_file, places);
+    }
+    // nothing speaks against new results any more
+    write_surface(folder, built);
     for (const char* picture : {"1_read", "2_repaired", "3_opened", "4_closed", "surface"}) draw(folder, picture);
     std::string told =
         text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
-    if (study.model) {
-      const UnitSystem units = UnitSystem::cgs();
-      say("The surface is ready: tetrahedra, wall and regions");
-      const VesselModel model = model_of(built, *study.model, units, command.case_file, places);
-      write_model(folder / "model", study.name + "_model", model, built.tree, *study.model, units);
-      told += model_text(model.quality) +
+    if (model) {
+      write_model(folder / "model", study.name + "_model", *model, built.tree, *study.model, units);
+      note_made(folder, made.to_go_on_with);
+      told += model_text(model->quality) +
               fmt::format("In {0}: meshes, quality.json, case.yaml: tether simulate {0}/case.yaml\n",
                           (folder / "model").string());
     }

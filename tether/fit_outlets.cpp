@@ -14,8 +14,8 @@ Made<FittedOutlets> fit_outlets(const CommandLine& command) {
   const OutletsCase asked = read_outlets_case(command.case_file);
   std::vector<fs::path> also;
   if (!asked.case_file.empty()) also.push_back(asked.case_file);
-  const fs::path folder = claim_for_made(command, {"fit-outlets", asked.name, also, "outlets.json"});
-  for (const char* old : {"case.yaml", "outlets.json", "outlets.csv", "plots/outlets.png"}) fs::remove(folder / old);
+  const MadeOfFile made{"fit-outlets", asked.name, also, {"case.yaml"}, "outlets.json"};
+  const fs::path folder = hold_for_made(command, made);
   OutletsFit fit = [&] {
     try {
       return fit_outlets(asked, folder);
@@ -23,12 +23,15 @@ Made<FittedOutlets> fit_outlets(const CommandLine& command) {
       throw input_error("{}: {}", command.case_file.string(), error.what());
     }
   }();
+  mark_made(folder, made.verb, command.case_file);
+  for (const char* old : {"case.yaml", "outlets.json", "outlets.csv", "plots/outlets.png"}) fs::remove(folder / old);
   write_record(folder / "outlets.json", fit.result);
   write_beat(folder / "outlets.csv", fit);
   std::string told = text_of(fit.result) + fmt::format("In {}: outlets.json, outlets.csv", folder.string());
   if (draw_outlets(folder, fit)) told += ", plots/outlets.png";
   if (fit.overlay) {
     write_overlay(folder / "case.yaml", *fit.overlay);
+    note_made(folder, made.to_go_on_with);
     told += fmt::format(", case.yaml: tether simulate {}", (folder / "case.yaml").string());
   }
   return {std::move(fit.result), told + "\n"};

@@ -12,9 +12,11 @@ namespace fs = std::filesystem;
 Made<TrackedRing> track_ring(const CommandLine& command) {
   const RingTrackCase asked = read_ring_case(command.case_file);
   check_tables(asked);
-  const fs::path folder = claim_for_made(command, {"track-ring", asked.name});
-  for (const char* old : {"ring.json", "poses.csv", "plots/ring.png"}) fs::remove(folder / old);
+  const MadeOfFile made{"track-ring", asked.name};
+  const fs::path folder = hold_for_made(command, made);
   TrackedRing ring = track_ring(asked);
+  mark_made(folder, made.verb, command.case_file);
+  for (const char* old : {"ring.json", "poses.csv", "plots/ring.png"}) fs::remove(folder / old);
   write_record(folder / "ring.json", ring);
   write_poses(folder / "poses.csv", ring);
   std::string told = text_of(ring) + fmt::format("In {}: ring.json, poses.csv", folder.string());

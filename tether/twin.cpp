@@ -3,6 +3,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/describe.hpp"
 #include "common/config/output_folder.hpp"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* twin_verb = "twin";
 constexpr const char* source_name = "twin";
+constexpr const char* case_name = "case.yaml";
 
 /// A case with a section `twin`.
 struct CaseWithTwin {
@@ -56,8 +58,8 @@ struct Truth {
 
 /// Held; what is in it is as it was.
 fs::path hold_folder_of(const CommandLine& command, const CaseWithTwin& given) {
-  const fs::path folder =
-      hold_for_made(command, {twin_verb, given.file.common().name + "_twin", {given.twin.truth}, sealed_answer({})});
+  const fs::path folder = hold_for_made(
+      command, {twin_verb, given.file.common().name + "_twin", {given.twin.truth}, {case_name}, sealed_answer({})});
   for (const char* made : {"data", "sealed"})
     if (fs::exists(folder / made) && !fs::is_directory(folder / made))
       throw input_error("{}: is not a folder", (folder / made).string());
@@ -66,7 +68,7 @@ fs::path hold_folder_of(const CommandLine& command, const CaseWithTwin& given) {
 
 /// Not what else stands in its folders.
 void remove_twin(const fs::path& folder) {
-  for (const fs::path& old : {folder / "case.yaml", sealed_answer(folder), folder / "data/lumen.csv"}) fs::remove(old);
+  for (const fs::path& old : {folder / case_name, sealed_answer(folder), folder / "data/lumen.csv"}) fs::remove(old);
   fs::create_directories(folder / "data");
   const std::regex frame("lumen_[0-9]+\\.vtp");
   std::vector<fs::path> frames;
@@ -74,6 +76,37 @@ void remove_twin(const fs::path& folder) {
     if (std::regex_match(entry.path().filename().string(), frame)) frames.push_back(entry.path());
   for (const fs::path& old : frames) fs::remove(old);
 }
+
+/// What a twin consists of, written beside the one that is there: that one stays if this one cannot be made.
+class NewTwin {
+ public:
+  explicit NewTwin(const fs::path& folder) : folder_(folder) {
+    remove();
+    fs::create_directories(data());
+  }
+  ~NewTwin() { remove(); }
+  NewTwin(const NewTwin&) = delete;
+  NewTwin& operator=(const NewTwin&) = delete;
+
+  fs::path data() const { return folder_ / ".new_twin"; }
+  fs::path answer() const { return folder_ / ".new_twin.json"; }
+  fs::path case_file() const { return folder_ / ".new_twin.yaml"; }
+  /// The case last: where it is, the twin is whole.
+  void put_in_place() const {
+    for (const auto& entry : fs::directory_iterator(data()))
+      ::tether::put_in_place(entry.path(), folder_ / "data" / entry.path().filename());
+    ::tether::put_in_place(answer(), sealed_answer(folder_));
+    ::tether::put_in_place(case_file(), folder_ / case_name);
+  }
+
+ private:
+  void remove() const {
+    std::error_code none;
+    for (const fs::path& part : {data(), answer(), case_file()}) fs::remove_all(part, none);
+  }
+
+  fs::path folder_;
+};
 
 void write_frames(const fs::path& folder, const std::vector<TwinFrame>& frames) {
   std::ofstream list(folder / "lumen.csv");
@@ -115,7 +148,7 @@ std::string source_of(const std::string& name, const TwinTraceCase& trace) {
 }
 
 /// The case without its section `twin`, with the twin's data in the place of its own measurements.
-void write_case(const fs::path& folder, const CaseWithTwin& given, const TwinFrames& frames) {
+void write_case(const fs::path& file, const CaseWithTwin& given, const TwinFrames& frames) {
   const CommonCase& common = given.file.common();
   Overlay overlay{given.file.path(), common.name + "_blind", common.title + ", against data of a twin", {{"twin", ""}}};
   const auto set = [&](const std::string& kind, const std::string& name, const std::string& text) {
@@ -130,7 +163,7 @@ void write_case(const fs::path& folder, const CaseWithTwin& given, const TwinFra
       if (&section->kind() != &kinds::traces || !is_made(name)) set(section->kind().name, name, "");
   set("surfaces", source_name, source_of(given, frames));
   for (const auto& [name, trace] : given.twin.traces) set("traces", name, source_of(name, trace));
-  write_overlay(folder / "case.yaml", overlay);
+  write_overlay(file, overlay);
 }
 
 void check(const CaseWithTwin& given, const CaseFile& truth) {
@@ -174,6 +207,19 @@ void write_data(const fs::path& folder, const TwinData& data, const CaseWithTwin
     write_trace(folder / (name + ".csv"), *made++, truth.series.unit(trace.observable));
 }
 
+void write(const NewTwin& twin, const TwinData& made, const CaseWithTwin& given, const Truth& truth) {
+  try {
+    write_data(twin.data(), made, given, truth);
+    Answer answer = answer_of(given.twin);
+    answer.image_error = made.frames.image_error;
+    seal(twin.answer(), answer);
+    write_case(twin.case_file(), given, made.frames);
+  } catch (const RunError& error) {
+    throw run_error("{}\nthe truth's run is kept, and a twin that was there is as it was: the same command goes on",
+                    error.what());
+  }
+}
+
 std::string where_frames_are(const fs::path& folder, const TwinFrames& made, const UnitSystem& units) {
   const fs::path file = folder / "case.yaml";
   return fmt::format(
@@ -196,13 +242,12 @@ Made<std::filesystem::path> make_twin(const CommandLine& command) {
   provide_run(run, truth_file, run.output);
   const Truth truth(run.case_file, run.output);
   const TwinData made = make_data(given, truth);
+  const NewTwin beside(folder);
+  write(beside, made, given, truth);
   mark_made(folder, twin_verb, command.case_file);
   remove_twin(folder);
-  write_data(folder / "data", made, given, truth);
-  Answer answer = answer_of(given.twin);
-  answer.image_error = made.frames.image_error;
-  seal(sealed_answer(folder), answer);
-  write_case(folder, given, made.frames);
+  beside.put_in_place();
+  note_made(folder, {case_name});
   return {folder / "case.yaml", where_frames_are(folder, made.frames, given.file.units())};
 }
 

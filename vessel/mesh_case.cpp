@@ -149,8 +149,14 @@ void FilesCase::declare(Fields& f) {
   check_wall(f, !wall.empty(), grown_wall.has_value());
 }
 
+/// Files behind a way that leads out of the folder would not count for what results depend on.
+void check_is_in_folder(Fields& f, const char* field, const std::string& face) {
+  f.check(face.find('/') == std::string::npos, field, "must be the name of a file in mesh-surfaces, without a '/'");
+}
+
 void FolderFaceCase::declare(Fields& f) {
   f.text("face", face, "name of a file in mesh-surfaces, without .vtp", Need::required);
+  check_is_in_folder(f, "face", face);
 }
 
 void MeshCompleteCase::declare(Fields& f) {
@@ -165,6 +171,8 @@ void MeshCompleteCase::declare(Fields& f) {
   f.group("grown_wall", grown_wall, grown_wall_meaning);
   f.number("scale", scale, dimension::none, range::positive,
            "multiplies all coordinates: 0.1 for files in mm and a case in cm");
+  check_is_in_folder(f, "interface", interface);
+  check_is_in_folder(f, "wall_interface", wall_interface);
   f.check(wall.empty() || !wall_interface.empty(), "wall_interface", "must be given with wall");
   f.check(!grown_wall || !needs_centreline(*grown_wall), "grown_wall",
           "a thickness by branch or radius needs source: files, with a centreline");

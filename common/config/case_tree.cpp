@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/config/named_path.hpp"
 
 namespace tether {
 namespace {
@@ -63,7 +64,7 @@ fs::path base_of(const YamlNode& tree) {
   if (!base) return {};
   if (base->kind != YamlNode::Kind::scalar || base->text.empty())
     throw input_error("{}: base: must be the path of a case file", base->place.text());
-  const fs::path path = (base->place.file->path.parent_path() / base->text).lexically_normal();
+  const fs::path path = named_path(base->place.file->path.parent_path(), base->text);
   if (!fs::is_regular_file(path))
     throw input_error("{}: base: {}: {}", base->place.text(), path.string(),
                       fs::is_directory(path) ? "is a folder: must be a case file"
@@ -90,9 +91,8 @@ std::vector<YamlNode> chain_of(const fs::path& file) {
 void move_paths(YamlNode& node, const fs::path& folder) {
   if (node.kind == YamlNode::Kind::scalar && node.place.file->depth > 0 && !node.text.empty()) {
     std::error_code none;
-    const fs::path named = node.place.file->path.parent_path() / node.text;
-    if (fs::exists(named, none))
-      node.text = fs::absolute(named).lexically_normal().lexically_proximate(folder).string();
+    const fs::path named = named_path(node.place.file->path.parent_path(), node.text);
+    if (fs::exists(named, none)) node.text = name_for(named, folder);
   }
   for (auto& item : node.items) move_paths(item, folder);
   for (auto& entry : node.entries) move_paths(entry.value, folder);

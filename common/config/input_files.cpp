@@ -13,6 +13,7 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/named_path.hpp"
 #include "common/config/output_folder.hpp"
 
 namespace tether {
@@ -105,19 +106,46 @@ std::uint64_t content_for(const fs::path& path, const std::string& field, const 
   return holds_case ? hash_around_case(path, begin_of_hash, is_mesh ? folders_deep : 0) : hash_content(path);
 }
 
-void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<InputFile>& found) {
+/// What a value of a case names.
+struct NamedInput {
+  std::string field, name;
+  fs::path path;
+};
+
+void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<NamedInput>& found) {
   std::error_code none;
   if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::exists(folder / node.text, none))
-    found.push_back({field, node.text, content_for(folder / node.text, field, folder)});
+    found.push_back({field, node.text, named_path(folder, node.text)});
   for (const YamlNode& item : node.items) gather(item, field, folder, found);
   for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+bool is_mesh(const fs::path& file) {
+  constexpr std::array<std::string_view, 7> kinds{".vtu", ".vtp", ".vtk", ".stl", ".ply", ".obj", ".msh"};
+  return std::find(kinds.begin(), kinds.end(), lower_case(file.extension().string())) != kinds.end();
+}
+
+fs::path folder_of(const fs::path& case_file) {
+  return fs::absolute(case_file).parent_path();
+}
+
+std::vector<NamedInput> inputs_of(const fs::path& case_file) {
+  const YamlNode tree = as_one_file(read_case_tree(case_file));
+  std::vector<NamedInput> found;
+  for (const auto& entry : tree.entries)
+    if (entry.value.kind != YamlNode::Kind::scalar) gather(entry.value, entry.key, folder_of(case_file), found);
+  return found;
 }
 
 /// Beside a mesh may stand what is being written: results, a log.
 void add_meshes_in(const fs::path& folder, int deep, std::set<fs::path>& files) {
   for (const fs::path& path : inside(folder)) {
-    const fs::path kind = path.extension();
-    if (fs::is_regular_file(path) && (kind == ".vtu" || kind == ".vtp")) files.insert(path);
+    if (fs::is_regular_file(path) && is_mesh(path)) files.insert(path);
     if (fs::is_directory(path) && deep > 0 && !fs::exists(path / case_as_run)) add_meshes_in(path, deep - 1, files);
   }
 }
@@ -149,8 +177,7 @@ std::string essence(const std::string& effective_case) {
 
 /// Whatever text between two of some marks is the name of a file counts. A name may hold the other marks.
 std::set<fs::path> files_named_in(const fs::path& list) {
-  std::string kind = list.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string kind = lower_case(list.extension().string());
   if (kind != ".csv" && kind != ".pvd") return {};
   std::set<fs::path> found;
   const auto add_if_file = [&](const std::string& name) {
@@ -182,12 +209,10 @@ std::uint64_t hash_content(const fs::path& path) {
 }
 
 std::vector<InputFile> input_files(const fs::path& case_file) {
-  const YamlNode tree = as_one_file(read_case_tree(case_file));
-  std::vector<InputFile> found;
-  for (const auto& entry : tree.entries)
-    if (entry.value.kind != YamlNode::Kind::scalar)
-      gather(entry.value, entry.key, fs::absolute(case_file).parent_path(), found);
-  return found;
+  std::vector<InputFile> all;
+  for (const auto& [field, name, path] : inputs_of(case_file))
+    all.push_back({field, name, content_for(path, field, folder_of(case_file))});
+  return all;
 }
 
 std::vector<std::string> data_hashes(const fs::path& case_file) {
@@ -200,13 +225,20 @@ std::vector<std::string> data_hashes(const fs::path& case_file) {
 std::set<fs::path> files_read(const fs::path& case_file) {
   std::set<fs::path> all;
   for (const fs::path& file : files_of_case(case_file)) all.insert(fs::absolute(file));
-  const fs::path folder = fs::absolute(case_file).parent_path();
-  for (const InputFile& input : input_files(case_file)) {
-    const fs::path path = folder / input.name;
+  for (const auto& [field, name, path] : inputs_of(case_file)) {
     if (fs::is_directory(path) && !fs::exists(path / case_as_run)) add_meshes_in(path, folders_deep, all);
     if (!fs::is_regular_file(path)) continue;
     all.insert(path);
     all.merge(files_named_in(path));
+  }
+  return all;
+}
+
+std::set<fs::path> folders_read(const fs::path& case_file) {
+  std::set<fs::path> all;
+  for (const auto& [field, name, path] : inputs_of(case_file)) {
+    const std::string section = field.substr(0, field.find('.'));
+    if (fs::is_directory(path) && (section == "mesh" || section == "observations")) all.insert(path);
   }
   return all;
 }

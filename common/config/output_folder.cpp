@@ -1,5 +1,7 @@
 #include "common/config/output_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <functional>
@@ -46,21 +48,6 @@ void refuse_pipes_and_links(const fs::path& folder) {
   }
 }
 
-/// A file, and those that it names.
-void gather_file(const fs::path& file, std::vector<fs::path>& found) {
-  found.push_back(file);
-  for (const fs::path& named : files_named_in(file)) found.push_back(named);
-}
-
-void gather_files(const YamlNode& node, const fs::path& folder, std::vector<fs::path>& found) {
-  std::error_code none;
-  const fs::path path = folder / node.text;
-  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::is_regular_file(path, none))
-    gather_file(path, found);
-  for (const YamlNode& item : node.items) gather_files(item, folder, found);
-  for (const YamlNode::Entry& entry : node.entries) gather_files(entry.value, folder, found);
-}
-
 bool is_in(const fs::path& path, const fs::path& place) {
   const fs::path from_it = fs::weakly_canonical(path).lexically_relative(fs::weakly_canonical(fs::absolute(place)));
   return !from_it.empty() && *from_it.begin() != "..";
@@ -75,7 +62,7 @@ std::string first_line_of(const fs::path& mark) {
   return begin.substr(0, begin.find('\n'));
 }
 
-void check_none_is_in(const fs::path& place, const std::vector<fs::path>& read) {
+void check_none_is_in(const fs::path& place, const std::set<fs::path>& read) {
   for (const fs::path& one : read)
     if (is_in(one, place))
       throw input_error(
@@ -109,13 +96,14 @@ void write_mark(const fs::path& folder, const std::string& mark) {
 }
 
 /// Makes and holds the folder of what a verb makes of these files, and marks it if it is empty; `keeps_inputs` throws
-/// if one that is read would be replaced.
+/// if one that is read would be replaced, `keeps_work` if a person's own would.
 void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb, const std::vector<fs::path>& files,
-                 const std::function<void()>& keeps_inputs) {
+                 const std::function<void()>& keeps_inputs, const std::function<void()>& keeps_work) {
   const std::string mark = mark_of(verb, files);
   const auto check = [&] {
     keeps_inputs();
     if (!overwrite) check_made_by(folder, verb, mark);
+    keeps_work();
   };
   check();
   hold_output(folder);
@@ -123,12 +111,32 @@ void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb
   if (is_empty_but_for_lock(folder)) write_mark(folder, mark);
 }
 
-/// A case has a common name: one of the person's own is not replaced.
-void check_case_is_made(const fs::path& folder, const MadeOfFile& made) {
-  const fs::path file = folder / "case.yaml";
-  if (!made.before_case.empty() && fs::exists(file) && !fs::exists(folder / made.before_case))
-    throw input_error("{}: is not what tether {} made, and would be replaced; choose another folder with --output",
-                      file.string(), made.verb);
+/// A line of a mark behind its first: a file that was made for a person to go on with, and what it held then.
+std::string note_of(const fs::path& folder, const fs::path& file) {
+  return fmt::format("{:016x} {}", hash_content(folder / file), file.string());
+}
+
+bool is_as_noted(const fs::path& folder, const std::string& verb, const fs::path& file) {
+  if (!first_line_of(folder / made_by).starts_with(verb + " ")) return false;
+  const std::string note = note_of(folder, file);
+  std::ifstream mark(folder / made_by);
+  for (std::string line; std::getline(mark, line);)
+    if (line == note) return true;
+  return false;
+}
+
+/// A case has a common name: one of the person's own is not replaced, nor what the person made of one.
+void check_is_nobodys(const fs::path& folder, const MadeOfFile& made, bool overwrite) {
+  for (const fs::path& file : made.to_go_on_with) {
+    if (!fs::exists(folder / file) || is_as_noted(folder, made.verb, file)) continue;
+    if (!fs::exists(folder / made.before_these))
+      throw input_error("{}: is not what tether {} made, and would be replaced; choose another folder with --output",
+                        (folder / file).string(), made.verb);
+    if (!overwrite)
+      throw input_error(
+          "{}: is not as tether {} made it, and would be replaced; keep it elsewhere, or give --overwrite",
+          (folder / file).string(), made.verb);
+  }
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -186,6 +194,7 @@ void hold_output(const fs::path& folder) {
 fs::path claim_output(const CommandLine& command, const CaseFile& file) {
   const fs::path folder = output_of(command, file);
   const auto check = [&] {
+    check_keeps_inputs(folder, file.path());
     if (!command.overwrite) check_owner(folder, file.common().name, file.path(), command.resume);
   };
   check();
@@ -195,24 +204,32 @@ fs::path claim_output(const CommandLine& command, const CaseFile& file) {
 }
 
 void check_keeps_inputs(const fs::path& place, const fs::path& file) {
-  std::vector<fs::path> read;
-  for (const fs::path& one : files_of_case(file)) read.push_back(one);
-  gather_files(as_one_file(read_case_tree(file)), fs::absolute(file).parent_path(), read);
+  std::set<fs::path> read = files_read(file);
+  read.merge(folders_read(file));
   check_none_is_in(place, read);
 }
 
 fs::path hold_for_made(const CommandLine& command, const MadeOfFile& made) {
   const fs::path folder = command.output.empty() ? fs::path("out") / made.name : command.output;
-  hold_marked(folder, command.overwrite, made.verb, {command.case_file}, [&] {
+  const auto keeps_inputs = [&] {
     check_keeps_inputs(folder, command.case_file);
     for (const fs::path& file : made.also) check_keeps_inputs(folder, file);
-    if (command.overwrite) check_case_is_made(folder, made);
-  });
+  };
+  hold_marked(folder, command.overwrite, made.verb, {command.case_file}, keeps_inputs,
+              [&] { check_is_nobodys(folder, made, command.overwrite); });
   return folder;
 }
 
 void mark_made(const fs::path& folder, const std::string& verb, const fs::path& file) {
-  write_mark(folder, mark_of(verb, {file}));
+  const std::string mark = mark_of(verb, {file});
+  if (first_line_of(folder / made_by) != mark) write_mark(folder, mark);
+}
+
+void note_made(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
+  std::string mark = first_line_of(folder / made_by);
+  for (const fs::path& file : to_go_on_with)
+    if (fs::exists(folder / file)) mark += "\n" + note_of(folder, file);
+  write_mark(folder, mark);
 }
 
 fs::path claim_for_made(const CommandLine& command, const MadeOfFile& made) {
@@ -223,9 +240,10 @@ fs::path claim_for_made(const CommandLine& command, const MadeOfFile& made) {
 
 fs::path claim_for_made(const fs::path& folder, bool overwrite, const std::string& verb,
                         const std::vector<fs::path>& files) {
-  std::vector<fs::path> read;
-  for (const fs::path& file : files) gather_file(file, read);
-  hold_marked(folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); });
+  std::set<fs::path> read(files.begin(), files.end());
+  for (const fs::path& file : files) read.merge(files_named_in(file));
+  hold_marked(
+      folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); }, [] {});
   write_mark(folder, mark_of(verb, files));
   return folder;
 }

@@ -24,8 +24,9 @@ std::filesystem::path output_of(const CommandLine& command, const CaseFile& file
 void hold_output(const std::filesystem::path& folder);
 
 /// The folder for a run's results: --output, or out/NAME. It is made if need be, and held. Throws InputError also if
-/// there are another case's results in it, or files that are no results, unless --overwrite. With --resume another case
-/// file may go on, one that lasts longer: whether it is the same run is for the checkpoint to say.
+/// there are another case's results in it, or files that are no results, unless --overwrite; with it, too, if the case
+/// reads a file in it (check_keeps_inputs). With --resume another case file may go on, one that lasts longer: whether
+/// it is the same run is for the checkpoint to say.
 std::filesystem::path claim_output(const CommandLine& command, const CaseFile& file);
 
 /// The file in a folder of what a verb made of a file that is no case: the verb, and that file.
@@ -33,26 +34,31 @@ inline constexpr const char* made_by = ".made_by";
 
 /// What a verb that makes no run makes of its file.
 struct MadeOfFile {
-  std::string verb, name;                        ///< the folder's, without --output
-  std::vector<std::filesystem::path> also = {};  ///< read beside the verb's own file
-  std::filesystem::path before_case = {};        ///< stands in the folder before `case.yaml` does; empty: none is made
+  std::string verb, name;                                 ///< the folder's, without --output
+  std::vector<std::filesystem::path> also = {};           ///< read beside the verb's own file
+  std::vector<std::filesystem::path> to_go_on_with = {};  ///< files for the person to change: "case.yaml"
+  std::filesystem::path before_these = {};                ///< stands in the folder before they do
 };
 
 /// The folder for it: --output, or out/NAME. It is made if need be, held, and marked. Throws InputError before anything
-/// in it is touched, if it holds anything but what the same verb made of the same file, unless --overwrite; with it,
-/// too, if a file stands in it that is read (the verb's, those of `also`, or one that they name), or a `case.yaml`
-/// without what the verb makes before its own.
+/// in it is touched, if it holds anything but what the same verb made of the same file, or of that a file to go on with
+/// that was changed since, unless --overwrite; with it, too, if a file stands in it that is read (the verb's, those of
+/// `also`, or one that they name), or one of the name of a file to go on with, without what the verb makes before.
 std::filesystem::path claim_for_made(const CommandLine& command, const MadeOfFile& made);
 
 /// The same, for what may still be refused: a folder that is not empty is as it was, and mark_made is to follow.
 std::filesystem::path hold_for_made(const CommandLine& command, const MadeOfFile& made);
 void mark_made(const std::filesystem::path& folder, const std::string& verb, const std::filesystem::path& file);
 
+/// Notes what the files to go on with hold, when they are made.
+void note_made(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& to_go_on_with);
+
 /// The same as claim_for_made for what a verb makes of files none of which is a case, in this order.
 std::filesystem::path claim_for_made(const std::filesystem::path& folder, bool overwrite, const std::string& verb,
                                      const std::vector<std::filesystem::path>& files);
 
-/// Throws InputError if the file, or one that it names, is `place` or stands in it: it would be removed.
+/// Throws InputError if the file, or a file or folder that it is read from (files_read, folders_read), is `place` or
+/// stands in it: it would be removed.
 void check_keeps_inputs(const std::filesystem::path& place, const std::filesystem::path& file);
 
 /// Marks a folder as this case's, as the case and its files now are. To be called when no results of an earlier state

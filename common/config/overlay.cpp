@@ -7,6 +7,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/write_error.hpp"
+#include "common/config/named_path.hpp"
 #include "common/config/yaml_tree.hpp"
 
 namespace tether {
@@ -62,10 +63,6 @@ void collect(const YamlNode& map, const std::string& path, std::vector<Overlay::
   }
 }
 
-std::string relative_to(const fs::path& folder, const fs::path& path) {
-  return fs::absolute(path).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal()).string();
-}
-
 }  // namespace
 
 std::string number_text(double value) {
@@ -75,7 +72,7 @@ std::string number_text(double value) {
 void write_overlay(const fs::path& file, const Overlay& overlay) {
   YamlNode tree;
   tree.kind = YamlNode::Kind::map;
-  entry_of(tree, "base") = scalar(relative_to(fs::absolute(file).parent_path(), overlay.base));
+  entry_of(tree, "base") = scalar(name_for(overlay.base, fs::absolute(file).parent_path()));
   entry_of(tree, "name") = scalar(overlay.name);
   if (!overlay.title.empty()) entry_of(tree, "title") = scalar(overlay.title);
   for (const auto& value : overlay.values) set(tree, value);

@@ -10,6 +10,7 @@
 #include "common/base/error.hpp"
 #include "common/base/given_number.hpp"
 #include "common/base/name.hpp"
+#include "common/config/named_path.hpp"
 #include "common/config/rules.hpp"
 
 namespace tether {
@@ -194,14 +195,14 @@ void Reader::program(Text name, std::string& value, Text meaning) {
   text(name, value, meaning, Need::optional);
   const YamlNode* node = find({name, meaning, "", false});
   if (node && value.find('/') != std::string::npos)
-    value = std::filesystem::absolute(node->place.file->path.parent_path() / value).lexically_normal().string();
+    value = std::filesystem::absolute(named_path(node->place.file->path.parent_path(), value)).string();
 }
 
 void Reader::path(Text name, std::filesystem::path& value, Text meaning, Need need) {
   const Field field{name, meaning, "", need == Need::required && value.empty()};
   const YamlNode* node = scalar(field);
   if (!node) return;
-  value = (node->place.file->path.parent_path() / node->text).lexically_normal();
+  value = named_path(node->place.file->path.parent_path(), node->text);
   if (!std::filesystem::exists(value))
     wrong(field, node->place, node->text, fmt::format("no such file or folder: {}", value.string()));
   else if (!std::filesystem::is_regular_file(value) && !std::filesystem::is_directory(value))

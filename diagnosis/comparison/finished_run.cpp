@@ -83,6 +83,11 @@ RunSummary summary_in(const fs::path& output) {
   return read_record<RunSummary>(output / "summary.json");
 }
 
+void check_is_as_written(const fs::path& table, const std::string& content) {
+  if (fmt::format("{:016x}", hash_content(table)) != content)
+    throw input_error("{}: was changed after the run: it is not what the run wrote", table.string());
+}
+
 }  // namespace
 
 std::optional<std::string> why_not_run(const fs::path& output, const CaseFile& file, int steps) {
@@ -119,6 +124,7 @@ FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion
   motion.check_has(steps);
   if (velocity) velocity->check_has(steps);
   check_has_rows(output / "timeseries.csv", steps);
+  check_is_as_written(output / "timeseries.csv", summary.table);
   if (summary.observer) observer_gain = summary.observer->gain;
 }
 

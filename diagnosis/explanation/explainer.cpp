@@ -7,6 +7,7 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/named_path.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/comparison/finished_run.hpp"
 #include "diagnosis/evidence/stored_run.hpp"
@@ -81,7 +82,7 @@ class Explainer {
     const CommonCase& common = given.file.common();
     path_.case_name = common.name;
     path_.title = common.title;
-    path_.case_file = fs::absolute(given.file.path()).lexically_proximate(output_).string();
+    path_.case_file = name_for(given.file.path(), output_);
     path_.millimetres = given.file.units().to_mm(1);
     path_.unexplained = given.diagnosis.unexplained;
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/base/error.hpp"
+#include "common/config/named_path.hpp"
 #include "common/config/rules.hpp"
 #include "fluid/windkessels/fit_elements.hpp"
 #include "fluid/windkessels/outlets_base.hpp"
@@ -223,7 +224,7 @@ Overlay overlay_of(const OutletsCase& asked, const OutletsBase& base, const Aske
     const std::string inlet = "fluid.inlets." + base.inlets.front() + ".flow.";
     if (asked.flow) {
       set(inlet + "constant", "");
-      set(inlet + "file", '"' + fs::absolute(flow.curve.file).lexically_proximate(fs::absolute(folder)).string() + '"');
+      set(inlet + "file", '"' + name_for(flow.curve.file, folder) + '"');
       set(inlet + "time", flow.curve.time);
       set(inlet + "value", flow.curve.value);
       set(inlet + "time_unit", flow.curve.time_unit);

@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include "common/config/overlay.hpp"
 #include "tests/config/case_text.hpp"
 
 namespace tether {
@@ -119,6 +120,43 @@ TEST_F(InputFiles, OfTheCasesOwnFolderAreThoseBesideIt) {
   EXPECT_EQ(content(), before);
   write_file("frame_1.vtp", "surface");
   EXPECT_NE(content(), before);
+}
+
+/// A case in a linked folder means by ../ what the system finds, as who reads it and whoever calls it from elsewhere.
+TEST_F(InputFiles, BehindALinkAreThoseThatAreRead) {
+  for (const char* name : {"store/ada", "patients"}) fs::create_directories(test_folder() / name);
+  fs::create_directory_symlink("../store/ada", test_folder() / "patients/ada");
+  write_file("store/flow.csv", "t, q\n0, 1\n");
+  write_file("patients/flow.csv", "t, q\n0, 2\n");
+  write_file("store/ada/case.yaml", valid_head + "fluid: {file: ../flow.csv}\nmesh: {fluid: gone/../case.yaml}\n");
+  struct Section {
+    std::filesystem::path file;
+    void declare(Fields& f) { f.path("file", file, "a curve", Need::required); }
+  };
+  for (const char* folder : {"patients/ada", "store/ada"}) {
+    const fs::path called = test_folder() / folder / "case.yaml";
+    Section section;
+    CaseFile file(called);
+    file.read("fluid", section);
+    EXPECT_TRUE(fs::equivalent(section.file, test_folder() / "store/flow.csv")) << section.file;
+    const std::vector<InputFile> found = input_files(called);
+    ASSERT_EQ(found.size(), 1U) << "a way through a folder that is not there leads nowhere";
+    EXPECT_EQ(found[0].content, hash_content(section.file));
+    EXPECT_TRUE(files_read(called).contains(section.file)) << section.file;
+  }
+}
+
+/// A case that is written elsewhere, with one that it builds on, names the same files.
+TEST_F(InputFiles, OfACaseThatBuildsOnOneBehindALinkAreTheSame) {
+  for (const char* name : {"store/ada", "scratch/out"}) fs::create_directories(test_folder() / name);
+  fs::create_directory_symlink("store/ada", test_folder() / "ada");
+  fs::create_directory_symlink("scratch/out", test_folder() / "out");
+  write_file("store/flow.csv", "t, q\n");
+  write_file("store/ada/case.yaml", "name: tube\nfluid: {file: ../flow.csv}\n");
+  write_overlay(test_folder() / "out/model.yaml", {test_folder() / "ada/case.yaml", "model", "", {}});
+  const std::vector<InputFile> found = input_files(test_folder() / "out/model.yaml");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].content, hash_content(test_folder() / "store/flow.csv"));
 }
 
 /// What names a run: moved files are the same, changed ones are not.

@@ -152,6 +152,28 @@ TEST_F(OutputFolder, IsRefusedBeforeTheRunWhereItsPlotsCannotBeAFolder) {
   for (const bool overwrite : {false, true}) EXPECT_EQ(claim("tube", overwrite), "results/plots: is not a folder");
 }
 
+/// A run would remove a file that it reads, and the same command would then give another answer.
+TEST_F(OutputFolder, IsNotWhereACaseReadsFrom) {
+  EXPECT_EQ(claim("tube"), "no error");
+  write_file("results/timeseries.csv", "time, flow\n");
+  const std::string head = "name: tube\nunits: cgs\ntime: {step: 0.1, end: 1}\n";
+  const auto refused = [&](const std::string& text) {
+    const auto path = write_file("case.yaml", head + text);
+    CommandLine command;
+    command.output = test_folder() / "results";
+    for (command.overwrite = false;; command.overwrite = true) {
+      const std::string said = input_error_of([&] { claim_output(command, CaseFile(path)); });
+      if (command.overwrite || said == "no error") return said;
+    }
+  };
+  const std::string end =
+      ": is read, and what is written into results would replace it; choose another folder with "
+      "--output";
+  EXPECT_EQ(refused("fluid: {file: results/timeseries.csv}\n"), "results/timeseries.csv" + end);
+  EXPECT_EQ(refused("observations: {surfaces: {ct: {folder: results, pattern: 'a*'}}}\n"), "results" + end);
+  EXPECT_EQ(refused("diagnosis: {candidates: [results]}\n"), "no error") << "a word";
+}
+
 /// For what a verb makes that is no run.
 class MadeFolder : public OutputFolder {
  protected:
@@ -166,7 +188,7 @@ class MadeFolder : public OutputFolder {
     command.case_file = test_folder() / file;
     command.output = test_folder() / folder;
     command.overwrite = overwrite;
-    return input_error_of([&] { claim_for_made(command, {verb, "arch"}); });
+    return input_error_of([&] { claim_for_made(command, {verb, "arch", {}, {"case.yaml"}, "quality.json"}); });
   }
   std::filesystem::path study_;
 };
@@ -198,7 +220,7 @@ TEST_F(MadeFolder, IsNotTakenFromOtherFiles) {
 /// Not with --overwrite either: what is made of a file cannot stand in its place.
 TEST_F(MadeFolder, IsNotWhereTheFilesAreThatAreRead) {
   EXPECT_EQ(claim(".", true),
-            "study.yaml: is read, and what is written into . would replace it; choose another folder with --output");
+            "ct.stl: is read, and what is written into . would replace it; choose another folder with --output");
   EXPECT_EQ(claim("made"), "no error");
   write_file("made/surface.vtp", "");
   write_file("study.yaml", "name: arch\nsurface: {file: made/surface.vtp}\n");
@@ -206,6 +228,40 @@ TEST_F(MadeFolder, IsNotWhereTheFilesAreThatAreRead) {
     EXPECT_EQ(claim("made", overwrite),
               "made/surface.vtp: is read, and what is written into made would replace it; choose another folder with "
               "--output");
+}
+
+/// A case that a verb made is a beginning: what a person made of it is not replaced.
+TEST_F(MadeFolder, KeepsAFileToGoOnWithThatWasChanged) {
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("made/case.yaml", "mine");
+  for (const bool overwrite : {false, true})
+    EXPECT_EQ(claim("made", overwrite),
+              "made/case.yaml: is not what tether build-model made, and would be replaced; choose another folder with "
+              "--output")
+        << "what is made before it is not there";
+  write_file("made/quality.json", "{}");
+  write_file("made/case.yaml", "as made");
+  note_made(test_folder() / "made", {"case.yaml"});
+  EXPECT_EQ(claim("made"), "no error");
+  EXPECT_EQ(claim("made"), "no error") << "the note is still there";
+  write_file("made/case.yaml", "as a person wants it");
+  EXPECT_EQ(claim("made"),
+            "made/case.yaml: is not as tether build-model made it, and would be replaced; keep it elsewhere, or give "
+            "--overwrite");
+  EXPECT_EQ(claim("made", true), "no error");
+  std::filesystem::remove(test_folder() / "made/quality.json");
+  write_file("made/case.yaml", "as made");
+  EXPECT_TRUE(claim("made", true, "fit-outlets").starts_with("made/case.yaml: is not what tether fit-outlets made, "))
+      << "but what another verb made";
+}
+
+/// A folder of surfaces is read as a file is.
+TEST_F(MadeFolder, IsNotWhereAFolderIsThatIsRead) {
+  std::filesystem::create_directories(test_folder() / "scans/data");
+  write_file("scans/data/lumen_01.ply", "of a patient");
+  write_file("study.yaml", "name: arch\nobservations: {surfaces: {ct: {folder: scans/data}}}\n");
+  EXPECT_NE(claim("scans", true).find("is read, and what is written into scans would replace it"), std::string::npos);
+  EXPECT_EQ(claim("scans/made"), "no error");
 }
 
 /// Of files that are no cases: binary ones are not read as such.

@@ -80,5 +80,38 @@ INSTANTIATE_TEST_SUITE_P(
                                  "summary.json: cannot be written: Permission denied"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+/// A twin that is there stays whole until the next one is.
+TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
+  const TemporaryFolder folder;
+  folder.file("model.yaml", fmt::format("base: {}/configs/tube/case.yaml\nname: model\n"
+                                        "time: {{step: 4e-3, end: 0.04}}\nmesh: {{swept: {{around: 12, along: 8}}}}\n",
+                                        TETHER_SOURCE));
+  folder.file("same.yaml", "base: model.yaml\nname: same\n");
+  const auto twin = [&](int frames, const std::string& fault) {
+    const fs::path file =
+        folder.file("twin.yaml", fmt::format("base: model.yaml\nname: twin\ntwin: {{truth: same.yaml, "
+                                             "frames: {}, image: {{voxel: [0, 0, 0]}}, hidden: "
+                                             "{{verdict: nothing_missing}}}}\n",
+                                             frames));
+    return capture({{TETHER_PROGRAM, "twin", file.string(), "--output", (folder / "out").string(), "--quiet"},
+                    {{"LD_PRELOAD", preloaded(TETHER_FAULTS)},
+                     {"TETHER_FAULT_ROOT", (folder / "out").string()},
+                     {"TETHER_FAULT", fault}}});
+  };
+  ASSERT_EQ(twin(2, "none:write:none:1:ENOSPC").exit_code, 0);
+  const auto held = [&](const char* name) { return content_of(folder / "out" / name); };
+  const std::string before = held("case.yaml") + held("data/lumen.csv") + held("data/lumen_00.vtp");
+  for (const char* fault : {"tether:write:lumen_02.vtp:1:ENOSPC", "tether:open:.new_twin.yaml:1:EACCES"}) {
+    const ChildEnd end = twin(4, fault);
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_NE(end.errors.find("a twin that was there is as it was: the same command goes on"), std::string::npos)
+        << end.errors;
+    EXPECT_EQ(held("case.yaml") + held("data/lumen.csv") + held("data/lumen_00.vtp"), before);
+    EXPECT_FALSE(fs::exists(folder / "out/.new_twin"));
+  }
+  EXPECT_EQ(twin(4, "none:write:none:1:ENOSPC").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "out/data/lumen_03.vtp"));
+}
+
 }  // namespace
 }  // namespace tether

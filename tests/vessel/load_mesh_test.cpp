@@ -244,6 +244,8 @@ TEST(MeshCase, SimVascularFolders) {
   EXPECT_EQ(tube.wall.prisms.size(), 1920u);
   expect_part(message_of([&] { load_mesh(read_case(folder, text("outflow")), UnitSystem::cgs(), WallElement::prism); }),
               "outflow.vtp: does not exist; faces there: ");
+  expect_part(message_of([&] { read_case(folder, text("../outlet")); }),
+              "mesh.mesh_complete.outlets.out.face: ../outlet: must be the name of a file in mesh-surfaces");
 }
 
 TEST(MeshCase, MistakesAreNamedWithTheirLine) {

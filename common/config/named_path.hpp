@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tether {
+
+/// What a file in `folder` means by this name, as the system finds it: a `..` behind a link leads out of what the link
+/// leads to. Whoever reads a file of a case, counts what it holds or keeps it asks here, so that all mean the same one.
+std::filesystem::path named_path(const std::filesystem::path& folder, const std::filesystem::path& name);
+
+/// The name by which a file in `folder` means this one, through no link but the file itself.
+std::string name_for(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+}  // namespace tether
