@@ -64,6 +64,11 @@ void add_first_order(const fs::path& case_file, PlannedRuns& planned) {
   for (const RefinedCase& refined : write_refined(candidates, given)) planned.finer.push_back(measured(refined.file));
 }
 
+void check_diagnosed(const fs::path& case_file) {
+  check_diagnosis(case_file);
+  DiagnosedCase{case_file};
+}
+
 /// A diagnosis' runs of each number are some dozens, those that confirm come in rounds of few.
 constexpr int worth_in_a_diagnosis = 8;
 
@@ -78,11 +83,15 @@ void check_case_for(JobVerb verb, const fs::path& case_file) {
   CommandLine command;
   command.case_file = case_file;
   command.quiet = true;
-  validate(command);
-  if (verb == JobVerb::identify) check_identification(command);
-  if (verb == JobVerb::diagnose || verb == JobVerb::explain) DiagnosedCase{case_file};
-  if (verb == JobVerb::compare && !CaseFile(case_file).has("observations"))
+  check_case(command);
+  if (verb == JobVerb::simulate) return;
+  check_observations(command);
+  const CaseFile file(case_file);
+  if (verb == JobVerb::compare && !file.has("observations"))
     throw input_error("{}: observations: names nothing that was measured", case_file.string());
+  if (verb == JobVerb::diagnose || verb == JobVerb::explain) check_diagnosed(case_file);
+  if (verb == JobVerb::identify || (verb == JobVerb::explain && file.has("identification")))
+    check_identification(command);
 }
 
 PlannedRuns planned_of(JobVerb verb, const fs::path& case_file, int processes) {

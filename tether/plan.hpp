@@ -8,7 +8,8 @@
 
 namespace tether {
 
-/// Throws InputError for what is wrong with a case, or not there, for this verb.
+/// Throws InputError for what is wrong with a case, or not there, for this verb; what other verbs read is not asked
+/// for.
 void check_case_for(JobVerb verb, const std::filesystem::path& case_file);
 
 /// How many models of a case are worth running at once.

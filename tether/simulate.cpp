@@ -80,13 +80,17 @@ void check_case(const CommandLine& command) {
   show_programs(command.case_file);
 }
 
+void check_observations(const CommandLine& command) {
+  check_with("observation_manager", command);
+}
+
 void check_identification(const CommandLine& command) {
   check_with("identification_master", command);
 }
 
 int validate(const CommandLine& command) {
   check_case(command);
-  check_with("observation_manager", command);
+  check_observations(command);
   if (CaseFile(command.case_file).has("identification")) check_identification(command);
   check_twin(command);
   check_diagnosis(command.case_file);

@@ -103,8 +103,12 @@ Made<Explanation> explain(const CommandLine& command);
 /// Checks the case with every program that reads it. Throws InputError with all that they find.
 void check_case(const CommandLine& command);
 
+/// Checks the measurements, if the case names any. Throws InputError.
+void check_observations(const CommandLine& command);
+
 /// Checks what only an identification reads: its section, and the noise of the data. Throws InputError.
 void check_identification(const CommandLine& command);
+/// Checks all that a case says, for every verb.
 int validate(const CommandLine& command);
 
 /// Writes OUTPUT/mesh/fluid.vtu, wall.vtu and their faces, and tells sizes and quality.

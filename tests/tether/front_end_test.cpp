@@ -327,6 +327,25 @@ TEST_F(FrontEnd, ValidatesWhatAVerbWants) {
   }
 }
 
+/// To be simulated, and only later identified.
+TEST_F(FrontEnd, AsksOfACaseOnlyWhatTheVerbReads) {
+  std::ofstream(folder_ / "case.yaml", std::ios::app)
+      << "identification: {observe: sometimes}\ntwin: {}\ndiagnosis: {candidates: 3}\n";
+  for (const char* program_of_measurements : {"identification_master", "observation_manager"})
+    program(program_of_measurements, "echo 'case.yaml:1: observations: names no measurements' >&2; exit 2");
+  program("fsi_master", "for word; do [ \"$before\" = --output ] && output=$word; before=$word; done\n" +
+                            std::regex_replace(finished_run, std::regex("results"), "$$output"));
+  const ChildEnd plan = tether("simulate case.yaml --plan");
+  EXPECT_EQ(plan.exit_code, 0) << plan.errors;
+  const ChildEnd job = tether("submit simulate case.yaml --output job --time 20 --memory 1G --dry-run");
+  EXPECT_EQ(job.exit_code, 0) << job.errors;
+  for (const char* verb : {"compare", "identify", "diagnose", "explain"}) {
+    const ChildEnd refused = tether(std::string(verb) + " case.yaml --plan");
+    EXPECT_EQ(refused.exit_code, 2) << verb;
+    EXPECT_EQ(refused.errors, "case.yaml:1: observations: names no measurements\n") << verb;
+  }
+}
+
 TEST_F(FrontEnd, KeepsAnotherCasesResults) {
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0);
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "the same case may run again";
