@@ -127,9 +127,11 @@ std::vector<std::string> roles_of(const std::vector<Present>& present) {
   return roles;
 }
 
-/// Throws InputError if somebody has no master of his own, or another case than his master.
+/// Throws InputError if there is more than one run, or if somebody has no master of his own, or another case than his
+/// master.
 void check_line(const std::vector<Present>& present) {
   const std::vector<std::string> roles = roles_of(present);
+  check_one_leads(roles);
   for (std::size_t one = 0; one < roles.size(); ++one) {
     const int master = master_of(roles, static_cast<int>(one));
     if (master < 0) continue;

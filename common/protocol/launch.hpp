@@ -48,7 +48,7 @@ class Session {
  public:
   /// `communicator`: Fortran handle (MPI_Comm_c2f) of the processes of one parallel code, or one of the above; only its
   /// rank 0 takes the role. On an MPMD line this call is collective over MPI_COMM_WORLD. Throws InputError, in one of
-  /// its processes, if there are not as many of each as their masters need; the others end.
+  /// its processes, if there are not as many of each as their masters need, or masters of two runs; the others end.
   explicit Session(const std::string& role, int communicator = no_communicator, const OfCase& of_case = {});
   ~Session();
   Session(const Session&) = delete;

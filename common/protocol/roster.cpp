@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "common/base/error.hpp"
 
@@ -34,6 +35,22 @@ int master_of(const std::vector<std::string>& roles, int rank) {
                       roles[static_cast<std::size_t>(masters[0])]);
   const auto place = std::find(alike.begin(), alike.end(), rank) - alike.begin();
   return masters[static_cast<std::size_t>(place) / (alike.size() / masters.size())];
+}
+
+void check_one_leads(const std::vector<std::string>& roles) {
+  for (const int level : {0, 1}) {
+    std::vector<std::string> leaders;
+    std::copy_if(roles.begin(), roles.end(), std::back_inserter(leaders),
+                 [level](const std::string& role) { return level_of(role) == level; });
+    if (leaders.empty()) continue;
+    const std::size_t count = leaders.size();
+    if (count == 1) return;
+    std::sort(leaders.begin(), leaders.end());
+    leaders.erase(std::unique(leaders.begin(), leaders.end()), leaders.end());
+    throw input_error(
+        "the mpirun line has {} masters that none leads ({}), each of which would make a run: give it one", count,
+        fmt::join(leaders, ", "));
+  }
 }
 
 std::vector<int> partners_of(const std::vector<std::string>& roles, int rank) {

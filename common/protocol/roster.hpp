@@ -14,6 +14,9 @@ namespace tether::protocol {
 /// rank order: the k-th fluid belongs to the k-th fsi_master. Throws InputError if m does not divide n.
 int master_of(const std::vector<std::string>& roles, int rank);
 
+/// Throws InputError if several processes lead and none leads them: each would make a run of its own.
+void check_one_leads(const std::vector<std::string>& roles);
+
 /// The world ranks that `rank` leads, in rank order. Throws InputError.
 std::vector<int> partners_of(const std::vector<std::string>& roles, int rank);
 

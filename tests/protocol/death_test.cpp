@@ -220,6 +220,26 @@ TEST(Launch, A_missing_or_unusable_program_is_an_input_error) {
   EXPECT_EQ(unusable.errors, "fake_master: program of the fluid: /etc/passwd cannot be executed\n");
 }
 
+/// Each would have partners enough, and claim the same folder of results.
+TEST(Launch, Masters_of_two_runs_on_one_line_are_an_input_error) {
+  const std::vector<std::string> master{"-n", "2", test_program("fake_master"), "x", "x", "3"};
+  const std::vector<std::string> codes{":", "-n", "2", test_program("fake_fluid"),
+                                       ":", "-n", "2", test_program("fake_solid")};
+  for (const bool with_codes : {true, false}) {
+    auto words = mpirun();
+    words.insert(words.end(), master.begin(), master.end());
+    if (with_codes) words.insert(words.end(), codes.begin(), codes.end());
+    const auto job = run_job(words);
+    EXPECT_EQ(job.exit_code, 2);
+    EXPECT_EQ(without_lines_of_open_mpi(job.errors),
+              "fake_master: the mpirun line has 2 masters that none leads (fake_master), each of which would make a "
+              "run: give it one\n");
+    EXPECT_EQ(job.output, "");
+    EXPECT_TRUE(job.orphans.empty());
+    EXPECT_FALSE(job.had_to_be_ended);
+  }
+}
+
 TEST(Launch, A_program_of_another_role_is_an_input_error) {
   const auto job = run_job({test_program("fake_master"), "fake_solid", "fake_solid", "3"});
   EXPECT_EQ(job.exit_code, 2);

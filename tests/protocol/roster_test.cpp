@@ -36,5 +36,23 @@ TEST(Roster, Uneven_groups_are_refused) {
   EXPECT_THROW(partners_of(roles, 0), InputError);
 }
 
+TEST(Roster, One_leads) {
+  for (const Roles& led :
+       {Roles{"fsi_master", "fluid", "fluid", "solid"}, Roles{"fluid", "", "my_master"},
+        Roles{"fsi_master", "identification_master", "fsi_master"}, Roles{"fluid", "fluid"}, Roles{}})
+    EXPECT_NO_THROW(check_one_leads(led));
+  EXPECT_THROW(check_one_leads({"fsi_master", "fsi_master"}), InputError);
+  EXPECT_THROW(check_one_leads({"identification_master", "fsi_master", "fsi_master", "identification_master"}),
+               InputError);
+  try {
+    check_one_leads({"fsi_master", "fluid", "my_master", "fsi_master"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "the mpirun line has 3 masters that none leads (fsi_master, my_master), each of which would make a "
+                 "run: give it one");
+  }
+}
+
 }  // namespace
 }  // namespace tether::protocol
