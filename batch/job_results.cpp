@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/base/error.hpp"
 #include "common/base/name.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/results/comparison.hpp"
@@ -77,8 +78,12 @@ Row row_of(const Explanation& explanation) {
 
 template <class Record>
 Row read(const fs::path& file) {
-  if (!fs::exists(file)) return {};
-  return row_of(read_record<Record>(file));
+  if (std::error_code none; fs::status(file, none).type() == fs::file_type::not_found) return {};
+  try {
+    return row_of(read_record<Record>(file));
+  } catch (const InputError& error) {  // the others are told
+    return {{"not read", error.what()}};
+  }
 }
 
 Row row_of(JobVerb verb, const fs::path& results) {

@@ -18,8 +18,8 @@ struct JobResults {
   std::string text() const;  ///< for a person, in columns
 };
 
-/// From the records that the cases left in the job's folder; what one that is not done left is not this job's. Throws
-/// InputError for one that is damaged.
+/// From the records that the cases left in the job's folder; what one that is not done left is not this job's. Why
+/// one cannot be read stands in its own line.
 JobResults results_of(const Job& job, const std::filesystem::path& folder, const std::vector<CaseStatus>& states);
 
 }  // namespace tether

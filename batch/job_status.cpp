@@ -28,7 +28,7 @@ bool is_about_going_on(const std::string& line) {
 /// What a job's script has written into a file; nothing if it has not come to that.
 std::optional<std::string> word_in(const fs::path& file) {
   constexpr std::uintmax_t longest = 4000;  // bytes
-  if (!fs::exists(file)) return std::nullopt;
+  if (std::error_code none; fs::status(file, none).type() == fs::file_type::not_found) return std::nullopt;
   std::ifstream text = input_stream(file, std::ios::in, longest);
   std::string word;
   if (!(text >> word)) return std::nullopt;
@@ -49,7 +49,7 @@ std::string last_line_of(const fs::path& file) {
 
 /// The other cases are told also where a log cannot be read.
 std::string last_said_in(const fs::path& file) {
-  if (!fs::exists(file)) return "";
+  if (std::error_code none; fs::status(file, none).type() == fs::file_type::not_found) return "";
   try {
     return last_line_of(file);
   } catch (const InputError& error) {
@@ -66,8 +66,12 @@ CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Tas
   if (task != nullptr && runs(*task))
     return {one.name, CaseState::running, joined(fmt::format("{} on {}", task->time, task->nodes), said)};
   if (task != nullptr && !has_ended(*task)) return {one.name, CaseState::waiting, task->reason};
-  if (const auto code = word_in(files / "ended" / one.name))
-    return {one.name, *code == "0" ? CaseState::done : CaseState::failed, *code == "0" ? "" : said};
+  try {
+    if (const auto code = word_in(files / "ended" / one.name))
+      return {one.name, *code == "0" ? CaseState::done : CaseState::failed, *code == "0" ? "" : said};
+  } catch (const InputError& error) {  // the others are told
+    return {one.name, CaseState::unknown, error.what()};
+  }
   if (!answers) return {one.name, CaseState::unknown, said};
   return {one.name, CaseState::gone, joined(task == nullptr ? "" : task->state, said)};
 }

@@ -20,7 +20,8 @@ inline constexpr auto words_of<CaseState> = std::to_array<WordOf<CaseState>>({
     {CaseState::done, "done", "its results are there"},
     {CaseState::failed, "failed", "its log says why"},
     {CaseState::gone, "gone", "it left the scheduler before its end: cancelled, or its node was lost"},
-    {CaseState::unknown, "unknown", "it has not ended, and the scheduler does not answer"},
+    {CaseState::unknown, "unknown",
+     "it has not ended, and the scheduler does not answer, or how it ended cannot be read"},
 });
 
 struct CaseStatus {

@@ -14,6 +14,7 @@
 #include "common/base/shell_quoted.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
+#include "fsi_master/results/run_summary.hpp"
 #include "identification_master/results/estimate.hpp"
 
 namespace tether {
@@ -276,7 +277,20 @@ TEST_F(Jobs, AreToldWhateverStandsInThePlaceOfTheirFiles) {
   const std::string log = (folder_ / "job/case_0.log").string();
   EXPECT_EQ(status_of(two, folder_, std::nullopt)[0].note, log + ": is not a file");
   ASSERT_EQ(mkfifo((folder_ / "job/ended/case_1").c_str(), 0600), 0);
-  EXPECT_EQ(refused(), "job/ended/case_1: is not a file");
+  const auto unreadable = [&] {
+    const std::vector<CaseStatus> all = status_of(read_job(folder_), folder_, std::nullopt);
+    EXPECT_EQ(all[0].state, CaseState::failed) << "what another case left is no matter of this one";
+    EXPECT_EQ(all[1].state, CaseState::unknown);
+    return all[1].note;
+  };
+  const fs::path ended = folder_ / "job/ended/case_1";
+  EXPECT_EQ(unreadable(), ended.string() + ": is not a file");
+  fs::remove(ended);
+  fs::create_directory(ended);
+  EXPECT_EQ(unreadable(), ended.string() + ": is not a file");
+  fs::remove(ended);
+  fs::create_symlink(ended, ended);
+  EXPECT_EQ(unreadable(), ended.string() + ": no such file") << "a link to itself";
 }
 
 TEST_F(Jobs, HaveOneTableOfTheirResults) {
@@ -301,6 +315,31 @@ TEST_F(Jobs, HaveOneTableOfTheirResults) {
       "case,state,\"spine, upper \"\"half\"\" [Pa/m]\",\"spine, upper \"\"half\"\", lower [Pa/m]\",\"spine, upper "
       "\"\"half\"\", upper [Pa/m]\"\ncase_0,done,200000,100000,400000\ncase_1,running,,,\n"
       "case_2,done,300000,100000,400000\n");
+}
+
+TEST_F(Jobs, HaveATableOfTheirResultsAlsoWhereOneCannotBeRead) {
+  const Job four = job(JobVerb::simulate, 4);
+  RunSummary run;
+  run.steps = 5;
+  std::vector<CaseStatus> states;
+  for (const JobCase& one : four.cases) {
+    fs::create_directories(folder_ / one.name);
+    write_record(folder_ / one.name / "summary.json", run);
+    states.push_back({one.name, CaseState::done, ""});
+  }
+  write("case_0/summary.json", "{\"steps\":");
+  const fs::path place = folder_ / "case_1/summary.json", own = folder_ / "case_2/summary.json";
+  fs::remove(place);
+  fs::create_directory(place);
+  fs::remove(own);
+  fs::create_symlink(own, own);
+  const JobResults results = results_of(four, folder_, states);
+  ASSERT_EQ(results.columns[2], "not read");
+  EXPECT_TRUE(results.cells[0][2].starts_with((folder_ / "case_0/summary.json").string() + ": ")) << results.csv();
+  EXPECT_EQ(results.cells[1][2], place.string() + ": is not a file");
+  EXPECT_EQ(results.cells[2][2], own.string() + ": no such file");
+  EXPECT_EQ(results.columns[3], "steps");
+  EXPECT_EQ(results.cells[3][2] + results.cells[3][3], "5");
 }
 
 TEST_F(Jobs, AreReadBackAsTheyWereWritten) {
