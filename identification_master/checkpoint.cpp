@@ -137,7 +137,11 @@ std::pair<std::uint64_t, IdentificationCheckpoint> read_file(const fs::path& pat
   }
 }
 
-using Found = std::pair<std::uint64_t, IdentificationCheckpoint>;  ///< with the fingerprint of its case
+struct Found {
+  fs::path file;
+  std::uint64_t of_case = 0;
+  IdentificationCheckpoint checkpoint;
+};
 
 /// The newest that is whole and that `take_up` does not refuse.
 Found newest_whole_in(const fs::path& folder, const std::function<void(const Found&)>& take_up) {
@@ -145,9 +149,10 @@ Found newest_whole_in(const fs::path& folder, const std::function<void(const Fou
   for (const fs::path& file : {fresh_in(folder), newest_in(folder), before_in(folder)}) {
     if (!fs::exists(file)) continue;
     try {
-      Found found = read_file(file);
+      auto [of_case, checkpoint] = read_file(file);
+      Found found{file, of_case, std::move(checkpoint)};
       take_up(found);
-      found.second.refused = damage;
+      found.checkpoint.refused = damage;
       return found;
     } catch (const InputError& error) {
       if (file != fresh_in(folder) && damage.empty()) damage = error.what();
@@ -174,6 +179,12 @@ void put_fresh_in_place(const fs::path& folder) {
 
 }  // namespace
 
+/// A run in the same folder that was killed may have left them where it lent them to.
+void remove_identification_checkpoints(const fs::path& output) {
+  for (const char* folder : {"checkpoint", "checkpoint.new", "checkpoint.previous"})
+    for (const auto& file : {fresh_in, newest_in, before_in}) fs::remove(file(output / folder));
+}
+
 void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationCheckpoint& checkpoint) {
   const auto& [state, at_hand, cost, table, refused] = checkpoint;
   protocol::Writer writer;
@@ -193,7 +204,7 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
 }
 
 std::size_t groups_of_checkpoint(const fs::path& output) {
-  return newest_whole_in(output / "checkpoint", [](const Found&) {}).second.at_hand.size();
+  return newest_whole_in(output / "checkpoint", [](const Found&) {}).checkpoint.at_hand.size();
 }
 
 /// Of which case it is comes before what lies beside it.
@@ -201,13 +212,13 @@ IdentificationCheckpoint read_identification_checkpoint(
     const fs::path& output, std::uint64_t fingerprint,
     const std::function<void(const IdentificationCheckpoint&)>& take_up) {
   const fs::path folder = output / "checkpoint";
-  auto [of_case, checkpoint] = newest_whole_in(folder, [&](const Found& found) {
-    if (found.first == fingerprint) take_up(found.second);
+  Found newest = newest_whole_in(folder, [&](const Found& found) {
+    if (found.of_case == fingerprint) take_up(found.checkpoint);
   });
-  if (of_case != fingerprint)
+  if (newest.of_case != fingerprint)
     throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
-                      newest_in(folder).string());
-  return checkpoint;
+                      newest.file.string());
+  return std::move(newest.checkpoint);
 }
 
 }  // namespace tether

@@ -26,6 +26,9 @@ struct IdentificationCheckpoint {
 void write_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint,
                       const IdentificationCheckpoint& checkpoint);
 
+/// All that an earlier identification saved: the next checkpoint would take what is left for the one before it.
+void remove_identification_checkpoints(const std::filesystem::path& output);
+
 /// On how many groups the steps before the newest whole one were made: what solves have taught each group is not the
 /// same on others, so that results differ within the coupling's tolerance. Throws InputError: none, both damaged.
 std::size_t groups_of_checkpoint(const std::filesystem::path& output);

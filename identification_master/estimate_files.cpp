@@ -8,6 +8,7 @@
 #include "common/base/transform.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/io/record_file.hpp"
+#include "identification_master/checkpoint.hpp"
 #include "identification_master/identifiability.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/sensitivity_tables.hpp"
@@ -103,10 +104,10 @@ EstimateCost cost_of(const IdentificationFacts& facts, Eigen::Index parameters) 
 }  // namespace
 
 void remove_old_estimates(const std::filesystem::path& output) {
-  for (const char* name :
-       {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png", SensitivityTables::by_region,
-        SensitivityTables::by_datum, "checkpoint/identification.bin", "checkpoint/identification.previous"})
+  for (const char* name : {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png",
+                           SensitivityTables::by_region, SensitivityTables::by_datum})
     std::filesystem::remove(output / name);
+  remove_identification_checkpoints(output);
 }
 
 ValueEstimate estimate_of(const IdentifiedParameter& parameter, double mean, double deviation) {

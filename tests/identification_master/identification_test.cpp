@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "identification_master/checkpoint.hpp"
+#include "identification_master/estimate_files.hpp"
 #include "identification_master/identifiability.hpp"
 #include "tests/identification_master/measured_tube.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -388,6 +389,28 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestsTableIsDamaged) {
   EXPECT_EQ(refusing(1).table, 1u);
   EXPECT_EQ(refusing(1).refused, "estimate.csv: has 3 rows, the checkpoint 9");
   EXPECT_THROW(refusing(0), InputError);
+}
+
+/// Killed just before a checkpoint was put in its place, and begun anew with another case.
+TEST(IdentificationCheckpoint, OfAnEarlierIdentificationNoneIsLeft) {
+  const TemporaryFolder folder;
+  Observations data;
+  data.traces.push_back(front_trace({0.2, 0.4}));
+  const IdentificationState state = state_after(data, false);
+  const auto message = [&] { return message_of([&] { taken_up(folder.path(), 8); }); };
+  for (int checkpoint = 0; checkpoint < 3; ++checkpoint) write_checkpoint(folder.path(), 7, {state, {}, {}});
+  const std::filesystem::path saved = folder / "checkpoint", of_run = folder / "checkpoint.new";
+  const auto name = [](const char* what) { return std::string("identification.") + what; };
+  EXPECT_TRUE(message().starts_with((saved / name("bin")).string() + ": is a checkpoint of another case"));
+  std::filesystem::rename(saved / name("bin"), saved / name("new"));
+  EXPECT_TRUE(message().starts_with((saved / name("new")).string() + ": is a checkpoint of another case"))
+      << "names the file that it is";
+  std::filesystem::copy(saved, of_run);  // where a run lends them to
+  remove_old_estimates(folder.path());
+  EXPECT_TRUE(std::filesystem::is_empty(saved) && std::filesystem::is_empty(of_run));
+  EXPECT_NE(message().find("holds no checkpoint of an identification"), std::string::npos) << message();
+  write_checkpoint(folder.path(), 8, {state, {}, {}});
+  EXPECT_FALSE(std::filesystem::exists(saved / name("previous")));
 }
 
 TEST(Observations, TheirContentNamesWhatWasMeasured) {
