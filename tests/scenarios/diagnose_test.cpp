@@ -34,7 +34,7 @@ twin:
   truth: {}.yaml
   frames: 8
   image: {{voxel: [0, 0, 0]}}
-  noise: {{deviation: 0.03 mm, correlation_length: 5 mm}}
+  noise: {{deviation: {} mm, correlation_length: 5 mm}}
   held_out: [3, 6]
   hidden: {}
 )";
@@ -42,11 +42,14 @@ twin:
 class Diagnose : public ::testing::Test {
  protected:
   /// The model's case, which a twin's builds on.
-  fs::path written(const std::string& candidates, const std::string& truth, const std::string& hidden) const {
-    return folder.file("model.yaml", fmt::format(model, TETHER_SOURCE, candidates, truth == "same", truth, hidden));
+  fs::path written(const std::string& candidates, const std::string& truth, const std::string& hidden,
+                   double noise = 0.03) const {
+    return folder.file("model.yaml",
+                       fmt::format(model, TETHER_SOURCE, candidates, truth == "same", truth, noise, hidden));
   }
-  void make_twin(const std::string& truth, const std::string& hidden) const {
-    const fs::path file = written("tissue_mass", truth, hidden);
+  void make_twin(const std::string& truth, const std::string& hidden, const std::string& candidates = "tissue_mass",
+                 double noise = 0.03) const {
+    const fs::path file = written(candidates, truth, hidden, noise);
     folder.file("same.yaml", "base: model.yaml\nname: same\ntwin: ~\n");
     folder.file("held.yaml",
                 "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n");
@@ -71,7 +74,8 @@ class Diagnose : public ::testing::Test {
 };
 
 TEST_F(Diagnose, FindsTheHiddenSupport) {
-  const Json found = diagnosed("held", "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}");
+  const std::string spring = "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}";
+  const Json found = diagnosed("held", spring);
   EXPECT_EQ(found["verdict"], "missing") << said;
   const Json first = found["effects"][0];
   EXPECT_EQ(first["name"], "visco_elastic") << said;
@@ -98,7 +102,7 @@ TEST_F(Diagnose, FindsTheHiddenSupport) {
   EXPECT_EQ(kept["verdict"], "missing");
   EXPECT_EQ(kept["cost"]["runs_made"], 0) << "all runs are there";
 
-  written("tissue_mass, contact", "held", "{effects: {visco_elastic: {where: spine}}}");
+  make_twin("held", spring, "tissue_mass, contact", 0.1);
   const Json alike = again();  // until 0.12 s the wall moves outward only, where a contact is a spring
   EXPECT_EQ(alike["verdict"], "ambiguous") << said;
   std::vector<std::string> group;
@@ -116,7 +120,8 @@ int planned_first_order(const std::string& plan) {
 }
 
 TEST_F(Diagnose, TellsBeforeItBeginsWhatItWouldTake) {
-  const Json found = diagnosed("held", "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}");
+  const std::string spring = "{effects: {visco_elastic: {where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}";
+  const Json found = diagnosed("held", spring);
   const ChildEnd plan = tether({"diagnose", (folder / "twin/case.yaml").string(), "--plan", "--processes", "3",
                                 "--output", (folder / "planned").string()});
   ASSERT_EQ(plan.exit_code, 0) << plan.errors;
