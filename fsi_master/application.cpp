@@ -265,7 +265,6 @@ void run_direct(const CommandLine& command, const CodesHere& here, protocol::Ses
   MasterCase master(command.case_file);
   RunPlan plan = plan_of(master, command);
   plan.output = fs::absolute(claim_output(command, master.file));
-  if (master.initial_state) check_is_not_own(*master.initial_state, master.file, plan.output);
   const InputWatch inputs(command.case_file);
   const MadeFrom from = made_from(command.case_file);
   const bool observed = master.file.common().observer.is_on();

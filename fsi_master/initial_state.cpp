@@ -97,10 +97,4 @@ void check_initial_state(const InitialStateCase& given, const CaseFile& file) {
   saved_state(given, file);
 }
 
-void check_is_not_own(const InitialStateCase& given, const CaseFile& file, const fs::path& output) {
-  std::error_code none;
-  require(!fs::equivalent(given.from, output, none), file,
-          "is the output folder of this run itself: give another by --output, or go on by --resume");
-}
-
 }  // namespace tether

@@ -32,7 +32,5 @@ InitialState initial_state_of(const InitialStateCase& given, const CaseFile& fil
 
 /// What can be said without a mesh. Throws InputError.
 void check_initial_state(const InitialStateCase& given, const CaseFile& file);
-/// A run would remove what it is to begin with. Throws InputError.
-void check_is_not_own(const InitialStateCase& given, const CaseFile& file, const std::filesystem::path& output);
 
 }  // namespace tether

@@ -72,7 +72,9 @@ void run_gnuplot(const std::filesystem::path& output, const std::string& name, c
   to << fmt::format("# Run in the output folder: gnuplot plots/{}\n", name) << script;
   to.close();
   if (!to) throw write_error(file);
-  const ChildEnd end = capture({{"sh", "-c", "cd -- \"$0\" && exec gnuplot \"plots/$1\"", output.string(), name}, {}});
+  for (const std::string& picture : outputs_of(script)) std::filesystem::remove(output / picture);
+  // not by a shell's cd, which goes by the text of a path, and through CDPATH elsewhere
+  const ChildEnd end = capture({{"env", "--chdir=" + output.string(), "gnuplot", "plots/" + name}, {}});
   const std::string said = last_line(end.errors);
   if (end.exit_code != 0)
     throw run_error("{}: gnuplot {}{}{}", file.string(), how_it_ended(end.exit_code), said.empty() ? "" : ": ", said);

@@ -126,14 +126,13 @@ std::string case_text(const fs::path& file) {
     text << std::ifstream(file).rdbuf();
     return text.str();
   }
-  for (std::size_t i = 1; i < files.size(); ++i)
-    text << "# Merged with " << fs::absolute(files[i]).lexically_normal().string() << "\n";
+  for (std::size_t i = 1; i < files.size(); ++i) text << "# Merged with " << place_of(files[i]).string() << "\n";
   text << yaml_text(as_one_file(read_case_tree(file)));
   return text.str();
 }
 
 YamlNode as_one_file(YamlNode tree) {
-  const fs::path folder = fs::absolute(tree.place.file->path).lexically_normal().parent_path();
+  const fs::path folder = fs::absolute(tree.place.file->path).parent_path();
   for (auto& entry : tree.entries)
     if (entry.value.kind != YamlNode::Kind::scalar) move_paths(entry.value, folder);
   return tree;

@@ -238,7 +238,8 @@ std::set<fs::path> folders_read(const fs::path& case_file) {
   std::set<fs::path> all;
   for (const auto& [field, name, path] : inputs_of(case_file)) {
     const std::string section = field.substr(0, field.find('.'));
-    if (fs::is_directory(path) && (section == "mesh" || section == "observations")) all.insert(path);
+    if (fs::is_directory(path) && (section == initial_state || section == "mesh" || section == "observations"))
+      all.insert(path);
   }
   return all;
 }

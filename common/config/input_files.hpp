@@ -38,7 +38,7 @@ std::vector<std::string> data_hashes(const std::filesystem::path& case_file);
 /// and series among them name; of a folder the meshes in it and in its folders, but not those of results.
 std::set<std::filesystem::path> files_read(const std::filesystem::path& case_file);
 
-/// The folders that it reads a mesh or surfaces from.
+/// The folders that it reads a mesh, surfaces or an earlier run's state from.
 std::set<std::filesystem::path> folders_read(const std::filesystem::path& case_file);
 
 /// A hash of what all of the files hold; 0 if the case cannot be read.

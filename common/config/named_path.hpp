@@ -9,6 +9,9 @@ namespace tether {
 /// leads to. Whoever reads a file of a case, counts what it holds or keeps it asks here, so that all mean the same one.
 std::filesystem::path named_path(const std::filesystem::path& folder, const std::filesystem::path& name);
 
+/// Where a file is, as a whole path through no link but the file itself.
+std::filesystem::path place_of(const std::filesystem::path& file);
+
 /// The name by which a file in `folder` means this one, through no link but the file itself.
 std::string name_for(const std::filesystem::path& file, const std::filesystem::path& folder);
 

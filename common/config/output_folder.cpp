@@ -13,6 +13,7 @@
 #include "common/base/write_error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/input_files.hpp"
+#include "common/config/named_path.hpp"
 
 namespace tether {
 namespace {
@@ -73,8 +74,7 @@ void check_none_is_in(const fs::path& place, const std::set<fs::path>& read) {
 /// What a mark says: "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and /home/ada/two.stl".
 std::string mark_of(const std::string& verb, const std::vector<fs::path>& files) {
   std::string mark = verb;
-  for (const fs::path& file : files)
-    mark += (mark == verb ? " " : " and ") + fs::absolute(file).lexically_normal().string();
+  for (const fs::path& file : files) mark += (mark == verb ? " " : " and ") + place_of(file).string();
   return mark;
 }
 
@@ -153,7 +153,10 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
   const YamlNode marker = read_yaml(folder / case_as_run);
   const YamlNode* owner = marker.find("name");
   const std::optional<fs::path> whose = owner_of(folder);
-  if (owner && owner->text == name && whose == fs::absolute(case_file).lexically_normal()) return;
+  std::error_code none;
+  if (owner && owner->text == name && whose &&
+      (*whose == place_of(case_file) || fs::equivalent(*whose, case_file, none)))
+    return;
   if (owner && owner->text == name)
     throw input_error("{}: holds the results of another case file of the name '{}'{}; {}", folder.string(), name,
                       whose ? " (" + whose->string() + ")" : "", way_out);
@@ -251,7 +254,7 @@ fs::path claim_for_made(const fs::path& folder, bool overwrite, const std::strin
 void mark_output(const fs::path& folder, const fs::path& case_file) {
   write_whole(
       folder / case_as_run,
-      std::string(case_file_key) + fs::absolute(case_file).lexically_normal().string() +
+      std::string(case_file_key) + place_of(case_file).string() +
           "\n# A copy of it as it was when the run started, with what it builds on; paths are relative to it.\n" +
           case_text(case_file));
 }

@@ -146,6 +146,20 @@ TEST_F(InputFiles, BehindALinkAreThoseThatAreRead) {
   }
 }
 
+/// A case that builds on another and is called by a way through a link: what the other names counts.
+TEST_F(InputFiles, OfACaseCalledThroughALinkAreThoseThatItBuildsOnNames) {
+  for (const char* name : {"store/a/ada", "patients", "base"}) fs::create_directories(test_folder() / name);
+  fs::create_directory_symlink("../store/a/ada", test_folder() / "patients/ada");
+  write_file("base/flow.csv", "t, q\n");
+  write_file("base/case.yaml", "name: tube\nfluid: {file: flow.csv}\n");
+  write_file("store/a/x.yaml", "base: ../../base/case.yaml\nname: x\n");
+  for (const char* way : {"store/a/x.yaml", "patients/ada/../x.yaml"}) {
+    const std::vector<InputFile> found = input_files(test_folder() / way);
+    ASSERT_EQ(found.size(), 1U) << way;
+    EXPECT_EQ(found[0].content, hash_content(test_folder() / "base/flow.csv"));
+  }
+}
+
 /// A case that is written elsewhere, with one that it builds on, names the same files.
 TEST_F(InputFiles, OfACaseThatBuildsOnOneBehindALinkAreTheSame) {
   for (const char* name : {"store/ada", "scratch/out"}) fs::create_directories(test_folder() / name);

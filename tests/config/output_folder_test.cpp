@@ -44,6 +44,17 @@ TEST_F(OutputFolder, IsRefusedToAnotherFileOfTheSameName) {
   EXPECT_EQ(claim("tube", true, "copy.yaml"), "no error");
 }
 
+/// A case is the same by whatever way it is called, and none by a way that only looks like another's.
+TEST_F(OutputFolder, IsOfACaseByWhateverWayItIsCalled) {
+  std::filesystem::create_directories(test_folder() / "store/ada");
+  std::filesystem::create_directories(test_folder() / "patients");
+  std::filesystem::create_directory_symlink("../store/ada", test_folder() / "patients/ada");
+  EXPECT_EQ(claim("tube", false, "store/x.yaml"), "no error");
+  EXPECT_EQ(claim("tube", false, "patients/ada/../x.yaml"), "no error");
+  EXPECT_TRUE(claim("tube", false, "patients/x.yaml")
+                  .starts_with("results: holds the results of another case file of the name 'tube' ("));
+}
+
 /// A longer case in another file goes on with the run; whether it is the same one, its checkpoint says.
 TEST_F(OutputFolder, MayBeResumedByAnotherFile) {
   EXPECT_EQ(claim("tube"), "no error");
@@ -171,6 +182,7 @@ TEST_F(OutputFolder, IsNotWhereACaseReadsFrom) {
       "--output";
   EXPECT_EQ(refused("fluid: {file: results/timeseries.csv}\n"), "results/timeseries.csv" + end);
   EXPECT_EQ(refused("observations: {surfaces: {ct: {folder: results, pattern: 'a*'}}}\n"), "results" + end);
+  EXPECT_EQ(refused("initial_state: {from: results}\n"), "results" + end);
   EXPECT_EQ(refused("diagnosis: {candidates: [results]}\n"), "no error") << "a word";
 }
 

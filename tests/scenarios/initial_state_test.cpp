@@ -87,7 +87,7 @@ TEST_F(InitialStateOfARun, IsRefusedWhereItDoesNotBelong) {
                  "holds no checkpoint");
   const ChildEnd own = simulate(case_with("own", ""), "begun", 1);
   EXPECT_EQ(own.exit_code, 2);
-  EXPECT_NE(own.errors.find("is the output folder of this run itself"), std::string::npos) << own.errors;
+  EXPECT_NE(own.errors.find("begun: is read, and what is written into"), std::string::npos) << own.errors;
   EXPECT_TRUE(fs::exists(folder / "begun/checkpoint/master.bin")) << "and is left as it was";
 }
 
