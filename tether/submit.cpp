@@ -1,11 +1,13 @@
 #include "tether/submit.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <iostream>
 
 #include "batch/job_cases.hpp"
+#include "batch/job_folder.hpp"
 #include "batch/job_plan.hpp"
 #include "batch/job_results.hpp"
 #include "batch/job_script.hpp"
@@ -90,10 +92,13 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!(out << text).flush()) throw write_error(file);
 }
 
-/// Absolute, and without what does not name anything at its end.
+/// Absolute, as the system finds it: a `..` behind a link leads out of what the link leads to. Without what does not
+/// name anything at its end.
 fs::path whole(const fs::path& path) {
-  const fs::path normal = fs::absolute(path).lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
+  const fs::path named = fs::absolute(path);
+  const bool leads_up = std::find(named.begin(), named.end(), "..") != named.end();
+  const fs::path found = leads_up ? fs::weakly_canonical(named) : named.lexically_normal();
+  return found.has_filename() ? found : found.parent_path();
 }
 
 fs::path job_folder(const Typed& typed) {
@@ -102,30 +107,6 @@ fs::path job_folder(const Typed& typed) {
   const bool is_named_by_folder = given.filename() == "case.yaml" || fs::is_directory(given);
   const fs::path named = given.filename() == "case.yaml" ? given.parent_path() : given;
   return fs::absolute(fs::path("out") / ((is_named_by_folder ? named.filename() : named.stem()).string() + "_job"));
-}
-
-/// Throws InputError if there is a job in the folder that is not to be replaced, or cannot be.
-void check_replaced(const fs::path& folder, bool overwrite) {
-  if (!fs::exists(folder / job_files / "job.json")) return;
-  const Job job = read_job(folder);
-  if (job.number.empty()) return;
-  if (!overwrite)
-    throw input_error(
-        "{0}: holds a job; tether status {0} tells of it, --output makes another, --overwrite replaces it",
-        folder.string());
-  const auto tasks = slurm::tasks_of(job.number);
-  if (!tasks) throw input_error("{}: whether its job {} still runs Slurm does not say", folder.string(), job.number);
-  if (!std::all_of(tasks->begin(), tasks->end(), slurm::has_ended))
-    throw input_error("{}: its job {} still waits or runs: scancel {} ends it", folder.string(), job.number,
-                      job.number);
-}
-
-/// Makes job/ in the folder anew.
-void claim_job(const fs::path& folder) {
-  hold_output(folder);
-  fs::remove_all(folder / job_files);
-  fs::remove(folder / results_table);
-  fs::create_directories(folder / job_files / "ended");
 }
 
 /// What is wrong is told before it waits for its turn, of all cases at once.
@@ -144,37 +125,57 @@ std::vector<JobCase> cases_of(const Typed& typed, const fs::path& made) {
   return typed.table.empty() ? job_cases(typed.given) : job_cases_of_table(typed.given, typed.table, made);
 }
 
-/// Before anything in the folder is touched: a job that is there stays as it is, and a new one is not begun.
-void check_cases_of(const Typed& typed, JobVerb verb) {
-  if (typed.table.empty()) return check_cases(job_cases(typed.given), verb);
-  const ScratchFolder tried("tether_cases");
-  check_cases(cases_of(typed, tried.path() / "cases"), verb);
+void check_keeps_read(const Typed& typed, const fs::path& folder, const std::vector<JobCase>& cases) {
+  std::vector<fs::path> read{typed.given};
+  if (!typed.table.empty()) read.push_back(typed.table);
+  check_keeps_read(folder, cases, read);
 }
 
+/// What the job asks for where the user did not say. The runs that were measured for it, if any were.
+std::optional<PlannedRuns> plan(const Typed& typed, Job& job) {
+  JobResources& r = job.resources;
+  const JobCase& first = job.cases.front();
+  r.processes = typed.processes > 0 ? typed.processes : models_at_once(job.verb, first.case_file);
+  r.tasks_per_node = typed.tasks_per_node > 0 ? typed.tasks_per_node : (r.processes + r.nodes - 1) / r.nodes;
+  if (!r.memory.empty() && !r.time.empty()) return std::nullopt;
+  try {
+    PlannedRuns planned = planned_of(job.verb, first.case_file, r.processes);
+    job.measured = planned.model;
+    fill_from(planned, r);
+    return planned;
+  } catch (const RunError& error) {
+    if (first.row.empty()) throw;
+    throw run_error("{}: {}", first.row, error.what());
+  }
+}
+
+/// All that can be refused is refused before anything in the folder is touched: a job that is there stays as it is.
 int act(const Typed& typed) {
-  const fs::path folder = job_folder(typed);
+  const fs::path folder = job_folder(typed), files = folder / job_files;
   check_resources(typed.resources);
   check_replaced(folder, typed.overwrite);
-  const JobVerb verb = *from_word<JobVerb>(typed.verb);
-  check_cases_of(typed, verb);
-  claim_job(folder);
-  Job job{verb, "", sibling("tether").string(), cases_of(typed, folder / job_files / "cases"), {}, typed.resources};
-  JobResources& r = job.resources;
-  std::optional<PlannedRuns> planned;
-  r.processes = typed.processes > 0 ? typed.processes : models_at_once(job.verb, job.cases.front().case_file);
-  r.tasks_per_node = typed.tasks_per_node > 0 ? typed.tasks_per_node : (r.processes + r.nodes - 1) / r.nodes;
-  if (r.memory.empty() || r.time.empty()) {
-    planned = planned_of(job.verb, job.cases.front().case_file, r.processes);
-    job.measured = planned->model;
-    fill_from(*planned, r);
+  const ScratchFolder tried("tether_cases");
+  Job job{*from_word<JobVerb>(typed.verb),         "", sibling("tether").string(),
+          cases_of(typed, tried.path() / "cases"), {}, typed.resources};
+  check_cases(job.cases, job.verb);
+  check_keeps_read(typed, folder, job.cases);
+  const std::optional<PlannedRuns> planned = plan(typed, job);
+  if (!typed.table.empty())
+    for (JobCase& one : job.cases) one.case_file = files / "cases" / fs::path(one.case_file).filename();
+  const std::string text = job_script(job, folder);
+  hold_output(folder);
+  check_replaced(folder, typed.overwrite);  // another may have been there until now
+  begin_job(folder, job);
+  cases_of(typed, files / "cases");
+  const fs::path script = files / "script.sh";
+  write_text(script, text);
+  if (!typed.dry_run) {
+    job.number = slurm::submit(script);
+    write_record(files / "job.json", job);
   }
-  const fs::path script = folder / job_files / "script.sh";
-  write_text(script, job_script(job, folder));
-  if (!typed.dry_run) job.number = slurm::submit(script);
-  write_record(folder / job_files / "job.json", job);
   std::cout << plan_text(job, planned);
   if (typed.dry_run)
-    std::cout << fmt::format("In {}, not submitted:\n\n{}", script.string(), job_script(job, folder));
+    std::cout << fmt::format("In {}, not submitted:\n\n{}", script.string(), text);
   else
     std::cout << fmt::format("Job {}, results in {}: tether status {}\n", job.number, folder.string(), folder.string());
   return exit_done;

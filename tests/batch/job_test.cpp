@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "batch/job_cases.hpp"
+#include "batch/job_folder.hpp"
 #include "batch/job_plan.hpp"
 #include "batch/job_results.hpp"
 #include "batch/job_script.hpp"
@@ -365,6 +366,55 @@ TEST_F(Jobs, AreNotReadWithNamesThatNoneHas) {
   changed = job(JobVerb::simulate, 2);
   changed.number = "12\n13";
   EXPECT_EQ(refused().substr(0, 26), "job/job.json: number: '12?");
+}
+
+TEST_F(Jobs, ReplaceNothingThatIsNotAJob) {
+  write("a/results.csv", "mine");
+  write("b/job/application.txt", "CV");
+  write("c/job/job.json", "{\"of\": \"another program\"}");
+  for (const char* folder : {"a", "b", "c"})
+    for (const bool overwrite : {false, true}) {
+      const std::string refused = refusal([&] { check_replaced(folder_ / folder, overwrite); });
+      EXPECT_NE(refused.find("tether submit"), std::string::npos) << folder << ": " << refused;
+      EXPECT_NE(refused.find("--output"), std::string::npos) << folder << ": " << refused;
+    }
+  fs::create_directories(folder_ / "d/job");
+  EXPECT_NO_THROW(check_replaced(folder_ / "d", false)) << "an empty folder";
+}
+
+TEST_F(Jobs, AreReplacedWhole) {
+  write("results.csv", "old"), write("job/ended/old", "0"), write("job/old.log", ""), write("job/number", "9");
+  Job unsubmitted = job(JobVerb::simulate, 1);
+  unsubmitted.number.clear();
+  write_record(folder_ / "job/job.json", unsubmitted);
+  fs::remove(folder_ / "job/number");
+  check_replaced(folder_, false);
+  begin_job(folder_, unsubmitted);
+  for (const char* old : {"results.csv", "job/ended/old", "job/old.log"})
+    EXPECT_FALSE(fs::exists(folder_ / old)) << old;
+  EXPECT_TRUE(fs::is_directory(folder_ / "job/ended"));
+  EXPECT_EQ(read_job(folder_).cases.size(), 1U);
+}
+
+TEST_F(Jobs, AreReplacedWhereTheirRecordIsDamagedIfThatIsWanted) {
+  write("job/job.json", "{\"verb\": "), write("job/script.sh", ""), write("job/ended/a", "0");
+  const std::string refused = refusal([&] { check_replaced(folder_, false); });
+  EXPECT_NE(refused.find("--overwrite replaces it"), std::string::npos) << refused;
+  EXPECT_NO_THROW(check_replaced(folder_, true));
+}
+
+TEST_F(Jobs, ReplaceNothingThatTheyRead) {
+  const fs::path in_job = write("job/cases/a.yaml", "name: a\n"), table = write("results.csv", "name\na\n");
+  const fs::path beside = write("b.yaml", "name: b\nbase: job/cases/a.yaml\n");
+  const fs::path own = write("c/case.yaml", "name: c\n"), free = write("d.yaml", "name: d\n");
+  const auto refused = [&](const std::string& name, const fs::path& file, const fs::path& read) {
+    return refusal([&] { check_keeps_read(folder_, {{name, file.string()}}, {read}); });
+  };
+  EXPECT_NE(refused("a", in_job, free).find("a.yaml: is read"), std::string::npos) << refused("a", in_job, free);
+  EXPECT_NE(refused("b", beside, free).find("a.yaml: is read"), std::string::npos) << refused("b", beside, free);
+  EXPECT_NE(refused("c", own, free).find("case.yaml: is read"), std::string::npos) << refused("c", own, free);
+  EXPECT_NE(refused("d", free, table).find("results.csv: is read"), std::string::npos) << refused("d", free, table);
+  EXPECT_EQ(refused("d", free, free), "no error");
 }
 
 }  // namespace

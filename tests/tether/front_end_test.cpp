@@ -346,6 +346,23 @@ TEST_F(FrontEnd, AsksOfACaseOnlyWhatTheVerbReads) {
   }
 }
 
+TEST_F(FrontEnd, SubmitsIntoNoFolderOfOtherFiles) {
+  const std::string submit = "submit simulate case.yaml --time 20 --memory 1G --dry-run --output ";
+  std::ofstream(folder_ / "results.csv") << "mine";
+  EXPECT_EQ(tether(submit + ".").exit_code, 2);
+  EXPECT_EQ(content("results.csv"), "mine");
+  std::ofstream(folder_ / "cases.csv") << "name, time.end [s]\na, 0.2\n";
+  EXPECT_EQ(tether(submit + "made --table cases.csv").exit_code, 0);
+  EXPECT_EQ(tether(submit + "made --overwrite").exit_code, 0) << "of what is ours";
+  EXPECT_FALSE(fs::exists(folder_ / "made/job/cases"));
+  fs::create_directories(folder_ / "far/deep");
+  fs::create_directory_symlink("far/deep", folder_ / "link");
+  const ChildEnd behind = tether(submit + "link/../linked");
+  EXPECT_EQ(behind.exit_code, 0) << behind.errors;
+  EXPECT_TRUE(fs::exists(folder_ / "far/linked/job/job.json")) << "where the system finds it";
+  EXPECT_EQ(tether("status link/../linked").exit_code, 0);
+}
+
 TEST_F(FrontEnd, KeepsAnotherCasesResults) {
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0);
   EXPECT_EQ(tether("simulate case.yaml --output results").exit_code, 0) << "the same case may run again";
