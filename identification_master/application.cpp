@@ -8,7 +8,6 @@
 #include "common/protocol/run.hpp"
 #include "common/protocol/socket_channel.hpp"
 #include "identification_master/checkpoint.hpp"
-#include "identification_master/estimate_files.hpp"
 #include "identification_master/groups.hpp"
 #include "identification_master/identification_job.hpp"
 #include "identification_master/serve_runs.hpp"
@@ -32,10 +31,6 @@ std::size_t groups_for(const IdentifiedCase& given, int wanted, const protocol::
 void run_identification(const CommandLine& command, protocol::Session& session) {
   IdentifiedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  if (!command.resume) {
-    remove_old_estimates(output);
-    mark_output(output, command.case_file);
-  }
   const InputWatch inputs(command.case_file);
   const std::vector<Partner*> groups = launch_groups(groups_for(given, wanted_groups(given, command, output), session),
                                                      command.case_file, output, session);

@@ -158,6 +158,8 @@ class Job {
       saved_ = filter_.state().step;
       mark_output(output_, command_.case_file);
     } else {
+      remove_old_estimates(output_);  // nothing speaks against new ones any more
+      mark_output(output_, command_.case_file);
       table_.start(filter_.last());
     }
     if (!plan_.corrects) begin_sensitivities();

@@ -2,12 +2,14 @@
 
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
+#include "common/base/session_folder.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/evidence/coarse_runs.hpp"
 #include "diagnosis/evidence/growing_runs.hpp"
 #include "diagnosis/evidence/living_runs.hpp"
+#include "diagnosis/evidence/sensitivities.hpp"
 #include "diagnosis/search/diagnosis_text.hpp"
 #include "diagnosis/search/misfit_drawing.hpp"
 #include "diagnosis/search/suggested_case.hpp"
@@ -54,6 +56,11 @@ class CandidateModels {
   const CommandLine& command_;
   fs::path output_;
 };
+
+/// Throws InputError if the programs refuse the case, or know no number that its diagnosis names.
+void check_numbers(const DiagnosedCase& given, const ModelRuns& runs) {
+  varied_numbers(runs.parameters(), given.diagnosis, given.file);
+}
 
 /// Null where the case does not want a coarser model, or that does not come to its end.
 std::unique_ptr<GrowingRuns> coarse_runs(const DiagnosedCase& given, const CandidateModels& models,
@@ -119,8 +126,10 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   const CandidateModels models(given, command, output);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
-  runs.parameters();     // a case that is refused is refused before anything else runs
-  given.inputs.check();  // the groups have read it
+  check_numbers(given, runs);             // a case that is refused is refused before anything else runs
+  given.inputs.check();                   // the groups have read it
+  fs::remove(output / "diagnosis.json");  // nothing speaks against a new one any more
+  mark_output(output, command.case_file);
   std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
   RefinedModels refined(given, models, effects, coarse != nullptr);
   const auto extend = [&](const std::vector<PlacedEffect>& more) {
@@ -142,12 +151,16 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
 
 }  // namespace
 
+void check_numbers(const DiagnosedCase& given, const CommandLine& command) {
+  const SessionFolder scratch("tether_numbers");
+  const CandidateModels models(given, command, scratch.path());
+  check_numbers(given, *models.runs(catalogue_of(given.file, given.diagnosis), 0));
+}
+
 Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSettings& settings) {
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  fs::remove(output / "diagnosis.json");
-  mark_output(output, command.case_file);
   std::vector<std::string> pictures;
   Diagnosis diagnosis = diagnosed(given, command, output, settings, pictures);
   std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
 #include "common/config/input_files.hpp"
@@ -66,6 +69,15 @@ std::string text_of(const Explanation& explanation, double millimetres, const fs
   return text;
 }
 
+/// Takes an earlier explanation away, unless this one would be refused: its diagnoses come late.
+void replace_old(const DiagnosedCase& given, const CommandLine& command, const fs::path& output) {
+  const std::array<fs::path, 2> old{output / "explain.json", output / "report.html"};
+  if (std::none_of(old.begin(), old.end(), [](const fs::path& file) { return fs::exists(file); })) return;
+  check_numbers(given, command);
+  given.inputs.check();
+  for (const fs::path& file : old) fs::remove(file);
+}
+
 }  // namespace
 
 Made<Explanation> explain(const CommandLine& command) {
@@ -75,7 +87,7 @@ Made<Explanation> explain(const CommandLine& command) {
   CommandLine own = command;
   if (own.output.empty()) own.output = fs::path("out") / (given.file.common().name + "_explain");
   const fs::path output = fs::absolute(claim_output(own, given.file));
-  for (const char* old : {"explain.json", "report.html"}) fs::remove(output / old);
+  replace_old(given, own, output);
   mark_output(output, command.case_file);
   Verbs verbs(own);
   const ExplanationPath path = explain(given, output, verbs, own.quiet);

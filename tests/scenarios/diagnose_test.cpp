@@ -202,6 +202,27 @@ TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
   EXPECT_NE(said.find("what it changes (95 %)"), std::string::npos) << said;
 }
 
+/// Only the programs know the names of their numbers.
+TEST_F(Diagnose, KeepsWhatWasFoundBeforeWhereACaseIsRefused) {
+  make_twin("same", "{}");
+  const fs::path wrong = folder.file(
+      "twin/wrong.yaml", "base: case.yaml\nname: wrong\ndiagnosis: {assumed: [solid.material.yuong], coarse: false}\n");
+  const std::string mark = fmt::format("# case_file: {}\nname: wrong\n", wrong.string());
+  fs::create_directories(output());
+  folder.file("out/case_as_run.yaml", mark);
+  const std::vector<std::string> earlier{"diagnosis.json", "explain.json", "report.html"};
+  for (const std::string& name : earlier) folder.file("out/" + name, "earlier");
+  for (const char* verb : {"diagnose", "explain"}) {
+    const ChildEnd end = tether({verb, wrong.string(), "--output", output().string()});
+    EXPECT_EQ(end.exit_code, 2) << end.output;
+    EXPECT_NE(end.errors.find("yuong"), std::string::npos) << end.errors;
+    for (const std::string& name : earlier) EXPECT_EQ(content_of(output() / name), "earlier") << verb << ": " << name;
+    EXPECT_EQ(content_of(output() / "case_as_run.yaml"), mark) << verb;
+    EXPECT_FALSE(fs::exists(output() / "model_0")) << "refused before anything runs";
+  }
+  for (const std::string& name : earlier) fs::remove(output() / name);  // are none
+}
+
 TEST_F(Diagnose, FindsNothingWhereNothingIsHidden) {
   const Json found = diagnosed("same", "{verdict: nothing_missing}");
   EXPECT_EQ(found["verdict"], "nothing_missing") << said;

@@ -317,8 +317,15 @@ TEST_F(Identify, TellsBeforeItBeginsWhatItWouldTake) {
 TEST_F(Identify, SaysWhichNumberItDoesNotKnow) {
   const fs::path wrong =
       case_variant(case_file, folder / "wrong", {{"regions.spine.stiffness]", "regions.spin.stiffness]"}});
+  fs::create_directories(folder / "none");
+  const std::string mark = fmt::format("# case_file: {}\n{}", wrong.string(), content_of(wrong));
+  std::ofstream(folder / "none/case_as_run.yaml") << mark;
+  std::ofstream(folder / "none/estimate.json") << "earlier";
   const ChildEnd end = tether("identify", wrong, "none", {});
   EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(content_of(folder / "none/estimate.json"), "earlier") << "kept until the case is accepted";
+  EXPECT_EQ(content_of(folder / "none/case_as_run.yaml"), mark);
+  fs::remove_all(folder / "none");  // no results
   EXPECT_NE(end.errors.find("did you mean solid.support.regions.spine.stiffness?"), std::string::npos) << end.errors;
 }
 
