@@ -83,6 +83,7 @@ Made<ComparisonResult> compare(const CommandLine& command) {
   const InputWatch inputs(command.case_file);
   const MeasuredCase measured(command.case_file);
   const fs::path output = output_of(command, measured.file);
+  check_keeps_inputs(output, command.case_file);
   hold_output(output);
   provide_run(command, measured.file, output, measured.data.points());
   const FinishedRun run(output);

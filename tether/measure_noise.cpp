@@ -58,6 +58,7 @@ Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
     throw input_error("{}: has no surfaces or contours whose noise could be measured",
                       measured.file.where("observations"));
   const fs::path output = output_of(command, measured.file);
+  check_keeps_inputs(output, command.case_file);
   hold_output(output);
   provide_run(command, measured.file, output, data.points());
   const FinishedRun run(output);

@@ -236,6 +236,23 @@ TEST_F(Compare, SaysThatAPulledRunIsNoEvidence) {
   EXPECT_FALSE(comparison()["run"]["is_evidence"]);
 }
 
+/// The run is there: nothing else would claim its folder.
+TEST_F(Compare, ReplacesNoDataInTheFolderOfItsRun) {
+  const fs::path mine = output / "comparison_blood.csv";
+  fs::copy_file(folder / "pressures.csv", mine);
+  const std::string data = content_of(mine);
+  std::string text = content_of(compared);
+  text.replace(text.find((folder / "pressures.csv").string()), (folder / "pressures.csv").string().size(), mine);
+  std::ofstream(compared) << text;
+  for (const char* verb : {"compare", "measure-noise"}) {
+    const ChildEnd end = tether(verb, compared, output);
+    EXPECT_EQ(end.exit_code, 2) << verb << ": " << end.output;
+    EXPECT_NE(end.errors.find("comparison_blood.csv: is read"), std::string::npos) << verb << ": " << end.errors;
+    EXPECT_EQ(content_of(mine), data) << verb;
+  }
+  fs::remove(mine);  // is no table of results
+}
+
 TEST_F(Compare, SimulatesWhatIsNotThere) {
   std::string text = content_of(compared);
   text.replace(text.find("young: 4e6"), 10, "young: 1e7");
