@@ -245,7 +245,7 @@ TEST_F(Compare, ReplacesNoDataInTheFolderOfItsRun) {
   text.replace(text.find((folder / "pressures.csv").string()), (folder / "pressures.csv").string().size(), mine);
   std::ofstream(compared) << text;
   for (const char* verb : {"compare", "measure-noise"}) {
-    const ChildEnd end = tether(verb, compared, output);
+    const ChildEnd end = capture({{TETHER_PROGRAM, verb, compared.string(), "--output", output.string()}, {}});
     EXPECT_EQ(end.exit_code, 2) << verb << ": " << end.output;
     EXPECT_NE(end.errors.find("comparison_blood.csv: is read"), std::string::npos) << verb << ": " << end.errors;
     EXPECT_EQ(content_of(mine), data) << verb;

@@ -204,7 +204,7 @@ TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
 
 /// Only the programs know the names of their numbers.
 TEST_F(Diagnose, KeepsWhatWasFoundBeforeWhereACaseIsRefused) {
-  make_twin("same", "{}");
+  make_twin("same", "{verdict: nothing_missing}");
   const fs::path wrong = folder.file(
       "twin/wrong.yaml", "base: case.yaml\nname: wrong\ndiagnosis: {assumed: [solid.material.yuong], coarse: false}\n");
   const std::string mark = fmt::format("# case_file: {}\nname: wrong\n", wrong.string());
