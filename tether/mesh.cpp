@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <set>
 
 #include "common/base/error.hpp"
+#include "common/base/folder_lock.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/vtu_writer.hpp"
@@ -113,6 +116,14 @@ std::string areas_text(const WallMesh& wall, const UnitSystem& units) {
   return "  outer wall [cm2]: " + text + "\n";
 }
 
+/// Whether the meshes may mark the folder: results of a run keep the mark that says of which case they are.
+bool is_to_be_marked(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / case_as_run)) return true;
+  const std::set<std::string> ours{case_as_run, folder_lock_name, "mesh"};
+  return std::all_of(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator(),
+                     [&](const auto& entry) { return ours.contains(entry.path().filename().string()); });
+}
+
 constexpr double flat = 0.05;  ///< radius ratio below which a solution suffers
 constexpr double thinner = 0.95;
 
@@ -140,7 +151,9 @@ int write_meshes(const CommandLine& command) {
   CaseFile file(command.case_file);
   const ReadVessel read = mesh_of(command, file);
   const VesselMesh& vessel = read.mesh;
-  const auto folder = claim_and_mark_output(command, file) / "mesh";
+  const std::filesystem::path output = claim_output(command, file), folder = output / "mesh";
+  const bool is_marked = is_to_be_marked(output);
+  if (is_marked) mark_output(output, command.case_file);
   std::filesystem::create_directories(folder);
   const Faces fluid_faces = faces_of(vessel.fluid), wall_faces = faces_of(vessel.wall);
   write_vtu(folder / "fluid.vtu", vessel.fluid.points, cells_of(vessel.fluid), {});
@@ -157,6 +170,9 @@ int write_meshes(const CommandLine& command) {
             << "  wall_faces.vtu    colour by face: " << wall_faces.legend() << "\n"
             << "  regions.vtu       colour by region: " << regions_legend(vessel.wall) << "\n"
             << (drawn ? "  regions.png       the same as a picture\n" : "");
+  if (!is_marked)
+    std::cout << "  They are of the case as it is now, the other results of the case in "
+              << (output / case_as_run).string() << "\n";
   return exit_done;
 }
 

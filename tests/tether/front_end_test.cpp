@@ -401,6 +401,27 @@ TEST_F(FrontEnd, WritesMeshesForViewing) {
     EXPECT_GT(fs::file_size(folder_ / "results/mesh" / (std::string(name) + ".vtu")), 1000u) << name;
 }
 
+TEST_F(FrontEnd, MeshesLeaveTheMarkOfARun) {
+  const auto write_case = [&](double length) {
+    std::ofstream(folder_ / "case.yaml")
+        << "name: tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\nsolid: {element: p1}\n"
+        << "mesh: {source: swept, swept: {radius: 1, wall_thickness: 0.1, around: 12, along: 5, regions: {all: {}}, "
+        << "length: " << length << "}}\n";
+  };
+  write_case(3);
+  EXPECT_EQ(tether("mesh case.yaml --output results").exit_code, 0);
+  write_case(4);
+  EXPECT_EQ(tether("mesh case.yaml --output results").exit_code, 0);
+  EXPECT_NE(content("results/case_as_run.yaml").find("length: 4"), std::string::npos) << "of meshes alone";
+  const std::string mark = content("results/case_as_run.yaml");
+  std::ofstream(folder_ / "results/summary.json") << "{}";
+  write_case(5);
+  const ChildEnd end = tether("mesh case.yaml --output results");
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_EQ(content("results/case_as_run.yaml"), mark);
+  EXPECT_NE(end.output.find("of the case as it is now"), std::string::npos) << end.output;
+}
+
 TEST_F(FrontEnd, NamesWhatIsNotBuilt) {
   fs::remove(folder_ / "fsi_master");
   const ChildEnd end = tether("simulate case.yaml");
