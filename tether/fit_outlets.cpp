@@ -4,6 +4,7 @@
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "fluid/windkessels/outlets_text.hpp"
+#include "tether/new_results.hpp"
 #include "tether/verbs.hpp"
 
 namespace tether {
@@ -23,17 +24,16 @@ Made<FittedOutlets> fit_outlets(const CommandLine& command) {
       throw input_error("{}: {}", command.case_file.string(), error.what());
     }
   }();
-  mark_made(folder, made.verb, command.case_file);
-  for (const char* old : {"case.yaml", "outlets.json", "outlets.csv", "plots/outlets.png"}) fs::remove(folder / old);
-  write_record(folder / "outlets.json", fit.result);
-  write_beat(folder / "outlets.csv", fit);
+  const NewResults results(folder, {"outlets.json", "outlets.csv", "case.yaml", "plots/outlets.png"});
+  write_record(results.beside("outlets.json"), fit.result);
+  write_beat(results.beside("outlets.csv"), fit);
+  if (fit.overlay) write_overlay(results.beside("case.yaml"), *fit.overlay);
+  mark_made(folder, made.verb, command.case_file);  // nothing speaks against new results any more
+  results.put_in_place();
+  if (fit.overlay) note_just_made(folder, made.to_go_on_with);
   std::string told = text_of(fit.result) + fmt::format("In {}: outlets.json, outlets.csv", folder.string());
   if (draw_outlets(folder, fit)) told += ", plots/outlets.png";
-  if (fit.overlay) {
-    write_overlay(folder / "case.yaml", *fit.overlay);
-    note_made(folder, made.to_go_on_with);
-    told += fmt::format(", case.yaml: tether simulate {}", (folder / "case.yaml").string());
-  }
+  if (fit.overlay) told += fmt::format(", case.yaml: tether simulate {}", (folder / "case.yaml").string());
   return {std::move(fit.result), told + "\n"};
 }
 

@@ -11,6 +11,7 @@
 #include "common/io/vtp_writer.hpp"
 #include "diagnosis/comparison/finished_run.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
+#include "tether/new_results.hpp"
 #include "tether/verbs.hpp"
 #include "twin/answer.hpp"
 #include "twin/twin_data.hpp"
@@ -247,7 +248,7 @@ Made<std::filesystem::path> make_twin(const CommandLine& command) {
   mark_made(folder, twin_verb, command.case_file);
   remove_twin(folder);
   beside.put_in_place();
-  note_made(folder, {case_name});
+  note_just_made(folder, {case_name});
   return {folder / "case.yaml", where_frames_are(folder, made.frames, given.file.units())};
 }
 

@@ -9,6 +9,7 @@
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
+#include "tests/study/bent_tube.hpp"
 
 namespace tether {
 namespace {
@@ -90,7 +91,8 @@ TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
   const auto twin = [&](int frames, const std::string& fault) {
     const fs::path file =
         folder.file("twin.yaml", fmt::format("base: model.yaml\nname: twin\ntwin: {{truth: same.yaml, "
-                                             "frames: {}, image: {{voxel: [0, 0, 0]}}, hidden: "
+                                             "frames: {0}, noise: {{deviation: 0.0{0} mm, correlation_length: 5 mm}}, "
+                                             "image: {{voxel: [0, 0, 0]}}, hidden: "
                                              "{{verdict: nothing_missing}}}}\n",
                                              frames));
     return capture({{TETHER_PROGRAM, "twin", file.string(), "--output", (folder / "out").string(), "--quiet"},
@@ -111,6 +113,63 @@ TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
   }
   EXPECT_EQ(twin(4, "none:write:none:1:ENOSPC").exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/data/lumen_03.vtp"));
+  EXPECT_EQ(twin(5, "tether:write:.made_by:1:ENOSPC").exit_code, 1);
+  EXPECT_EQ(twin(5, "none:write:none:1:ENOSPC").exit_code, 0) << "its case was nobody's";
+}
+
+/// What a verb makes of a file, which stays until all of it is made anew.
+class UnwritableMade : public ::testing::Test {
+ protected:
+  ChildEnd made(const char* verb, const fs::path& file, const std::string& fault) const {
+    return capture({{TETHER_PROGRAM, verb, file.string(), "--output", (folder_ / "out").string()},
+                    {{"LD_PRELOAD", preloaded(TETHER_FAULTS)},
+                     {"TETHER_FAULT_ROOT", (folder_ / "out").string()},
+                     {"TETHER_FAULT", fault}}});
+  }
+  std::string held(const std::vector<const char*>& names) const {
+    std::string all;
+    for (const char* name : names) all += content_of(folder_ / "out" / name);
+    return all;
+  }
+  static constexpr const char* no_fault = "none:write:none:1:ENOSPC";
+  TemporaryFolder folder_;
+};
+
+TEST_F(UnwritableMade, OutletsStayAndTheirCaseIsNobodys) {
+  folder_.file("flow.csv", "time [s], flow [ml/s]\n0, 0\n0.1, 300\n0.2, 400\n0.3, 200\n0.4, 0\n0.6, 0\n0.8, 0\n");
+  const auto outlets = [&](int pulse) {
+    return folder_.file(
+        "outlets.yaml",
+        fmt::format("name: outlets\ncase: {}/configs/tube/case.yaml\nflow: {{file: flow.csv, value: flow, "
+                    "period: 0.8}}\npressure: {{mean: 93 mmHg, pulse: {} mmHg}}\noutlets: {{outlet: "
+                    "{{share: 1}}}}\n",
+                    TETHER_SOURCE, pulse));
+  };
+  const ChildEnd first = made("fit-outlets", outlets(50), no_fault);
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const std::vector<const char*> files{"outlets.json", "outlets.csv", "case.yaml"};
+  const std::string before = held(files);
+  for (const char* fault : {"tether:write:outlets.csv:1:ENOSPC", "tether:write:case.yaml:1:ENOSPC"}) {
+    EXPECT_EQ(made("fit-outlets", outlets(45), fault).exit_code, 1) << fault;
+    EXPECT_EQ(held(files), before) << fault;
+  }
+  EXPECT_EQ(made("fit-outlets", outlets(45), "tether:write:.made_by:1:ENOSPC").exit_code, 1);
+  const ChildEnd again = made("fit-outlets", outlets(45), no_fault);
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_NE(held(files), before);
+}
+
+TEST_F(UnwritableMade, ARingStays) {
+  testing::write_stl(folder_ / "one.stl", testing::bent_tube());
+  folder_.file("frames.csv", "file, time [s]\none.stl, 0\none.stl, 0.1\none.stl, 0.2\n");
+  const fs::path ring =
+      folder_.file("ring.yaml", "name: root\nframes: {file: frames.csv, unit: cm}\nring: {near: [4.2, 0, 0]}\n");
+  const ChildEnd first = made("track-ring", ring, no_fault);
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const std::string before = held({"ring.json", "poses.csv"});
+  EXPECT_FALSE(before.empty());
+  EXPECT_EQ(made("track-ring", ring, "tether:write:poses.csv:1:ENOSPC").exit_code, 1);
+  EXPECT_EQ(held({"ring.json", "poses.csv"}), before);
 }
 
 }  // namespace
