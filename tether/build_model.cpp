@@ -5,6 +5,7 @@
 #include "common/io/record_file.hpp"
 #include "common/io/vtp_writer.hpp"
 #include "pictures/pictures.hpp"
+#include "tether/new_results.hpp"
 #include "tether/verbs.hpp"
 #include "vessel/image/slices.hpp"
 #include "vessel/study/build_surface.hpp"
@@ -112,13 +113,14 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
       model = model_of(built, *study.model, units, command.case_file, places);
     }
     // nothing speaks against new results any more
+    if (!model) remove_model(folder / "model");  // it was of another surface
     write_surface(folder, built);
     for (const char* picture : {"1_read", "2_repaired", "3_opened", "4_closed", "surface"}) draw(folder, picture);
     std::string told =
         text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
     if (model) {
       write_model(folder / "model", study.name + "_model", *model, built.tree, *study.model, units);
-      note_made(folder, made.to_go_on_with);
+      note_just_made(folder, made.to_go_on_with);
       told += model_text(model->quality) +
               fmt::format("In {0}: meshes, quality.json, case.yaml: tether simulate {0}/case.yaml\n",
                           (folder / "model").string());

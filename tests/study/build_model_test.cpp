@@ -52,6 +52,16 @@ TEST(BuildModel, WritesAModelThatRuns) {
   EXPECT_NEAR(quality.thickness.mean, 0.1, 1e-3);
   const ChildEnd valid = capture({{TETHER_PROGRAM, "validate", (folder / "out" / "model" / "case.yaml").string()}, {}});
   EXPECT_EQ(valid.exit_code, exit_done) << valid.errors;
+
+  std::ofstream(folder / "out" / "model" / "mine.txt") << "mine";
+  std::ofstream(folder / "study.yaml") << "name: tube\nsurface: {file: tube.stl, unit: cm}\n"
+                                          "openings:\n  in: {near: [4, 0, 0]}\n  out: {near: [-2, 3.46, 0]}\n"
+                                          "inlet: in\nedges: {longest: 3 mm}\n";
+  const ChildEnd without = built(folder);
+  EXPECT_EQ(without.exit_code, exit_done) << without.errors;
+  const fs::directory_iterator left(folder / "out" / "model");
+  EXPECT_EQ(std::distance(left, {}), 1) << "the model was of another surface";
+  EXPECT_TRUE(fs::exists(folder / "out" / "model" / "mine.txt"));
 }
 
 TEST(BuildModel, LeavesFilesOfOthersAlone) {

@@ -62,6 +62,19 @@ TEST(VesselModel, IsBuiltFromASurfaceAndReadBackByACase) {
     EXPECT_NEAR(area_of(again.wall.points, again.wall.outside[i]), q.regions[i].area, 1e-6) << i;
   EXPECT_EQ(again.wall.rings.size(), 3u);
   EXPECT_EQ(read_record<ModelQuality>(folder.path() / "model/quality.json").wall.elements, q.wall.elements);
+
+  folder.file("model/mine.txt", "mine");
+  remove_model(folder / "model");
+  const std::filesystem::directory_iterator left(folder / "model");
+  EXPECT_EQ(left->path().filename(), "mine.txt");
+  EXPECT_EQ(std::distance(left, {}), 1);
+  folder.file("model/wall.vtu", "mine");
+  remove_model(folder / "model");
+  EXPECT_TRUE(std::filesystem::exists(folder / "model/wall.vtu")) << "without quality.json it is somebody else's";
+  folder.file("model/quality.json", "");
+  std::filesystem::remove(folder / "model/mine.txt");
+  remove_model(folder / "model");
+  EXPECT_FALSE(std::filesystem::exists(folder / "model"));
 }
 
 TEST(VesselModel, WhatCannotBeFilledIsToldWithItsPlace) {

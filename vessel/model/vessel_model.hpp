@@ -36,4 +36,7 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
 void write_model(const std::filesystem::path& folder, const std::string& name, const VesselModel& model,
                  const CentrelineTree& tree, const VolumeCase& study, const UnitSystem& units);
 
+/// Removes what write_model wrote, and the folder if nothing else is in it. Files beside no quality.json are others'.
+void remove_model(const std::filesystem::path& folder);
+
 }  // namespace tether

@@ -104,4 +104,12 @@ void write_model(const fs::path& folder, const std::string& name, const VesselMo
   write_text(place / "flow.csv", ready_flow(model, units));
 }
 
+void remove_model(const fs::path& folder) {
+  if (!fs::exists(folder / "quality.json")) return;
+  for (const char* name : {"case.yaml", "flow.csv", "lumen.vtu", "lumen_faces.vtu", "wall.vtu", "wall_faces.vtu",
+                           "centreline.csv", "quality.json"})  // the last says whose the first are
+    fs::remove(folder / name);
+  if (fs::is_directory(folder) && fs::is_empty(folder)) fs::remove(folder);
+}
+
 }  // namespace tether
