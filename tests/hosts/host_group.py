@@ -62,6 +62,13 @@ def can_be_made():
     return os.geteuid() == 0 and all(subprocess.run(words, capture_output=True, check=False).returncode == 0 for words in steps)
 
 
+def told_by(run, seconds):
+    """What a program wrote to stderr until its end. Not a line of mpirun's, which tells at times, on a busy machine, that the process group
+    of an ssh is set already: by the ssh itself (open-mpi/ompi, pull request 2957)."""
+    told = run.communicate(timeout=seconds)[1]
+    return "".join(line for line in told.splitlines(keepends=True) if "plm:rsh: Warning: setpgid(" not in line)
+
+
 class Host:
     def __init__(self, group, number):
         self.group, self.name = group, f"h{number}"

@@ -51,7 +51,7 @@ class Hosts(unittest.TestCase):
         self.assertIsNone(run.poll(), run.poll() and run.stderr.read())
 
     def assert_told(self, run, host, name):
-        told = run.communicate(timeout=NOTICED)[1]
+        told = host_group.told_by(run, NOTICED)
         self.assertEqual(run.returncode, 1, told)
         self.assertIn(f"tether: mpirun ended the run: no answer from {host}\n", told)
         self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --processes 3 --resume\n", told)
@@ -63,7 +63,7 @@ class Hosts(unittest.TestCase):
 
     def assert_goes_on(self, name, nodes):
         run = self.identify(name, "--resume", nodes=nodes)
-        self.assertEqual(run.communicate(timeout=120)[1], "")
+        self.assertEqual(host_group.told_by(run, 120), "")
         self.assertEqual(run.returncode, 0)
         self.assertEqual(cases.estimates(self.folder / name), cases.estimates(self.folder / "here"))
 
@@ -71,7 +71,7 @@ class Hosts(unittest.TestCase):
         run = self.identify("over")
         wait(lambda: all({"fsi_master", "observation_man"} <= set(self.ours(host)) for host in self.group.hosts), 60,
                         "a model on each host")
-        self.assertEqual((run.communicate(timeout=120)[1], run.returncode), ("", 0))
+        self.assertEqual((host_group.told_by(run, 120), run.returncode), ("", 0))
         self.assertEqual(cases.estimates(self.folder / "over"), cases.estimates(self.folder / "here"))
 
     def test_a_host_that_is_lost_is_named_and_the_others_go_on_to_the_same_bits(self):
@@ -89,14 +89,14 @@ class Hosts(unittest.TestCase):
         host = self.group.hosts[1]
         wait(lambda: "orted" in host.processes(), 30, "orted")
         host.lose()
-        told = run.communicate(timeout=NOTICED)[1]
+        told = host_group.told_by(run, NOTICED)
         self.assertEqual(run.returncode, 1, told)
         self.assertIn("tether: mpirun ended the run: no answer from h1\n", told)
         self.assert_nothing_left(10, self.group.hosts[0], self.group.hosts[2])
 
     def test_the_first_host_is_this_one(self):
         run = self.identify("elsewhere", nodes="h1,h0")
-        self.assertEqual(run.communicate(timeout=30)[1], "TETHER_NODES: h1 is not this machine (h0), which must be the first\n")
+        self.assertEqual(host_group.told_by(run, 30), "TETHER_NODES: h1 is not this machine (h0), which must be the first\n")
         self.assertEqual(run.returncode, 2)
 
     def test_a_host_that_is_cut_off_ends_its_processes(self):
@@ -127,7 +127,7 @@ class Hosts(unittest.TestCase):
                 run = self.identify(name)
                 self.wait_for_state(run, name)
                 os.kill(self.group.hosts[1].processes()[program][0], signal.SIGKILL)
-                told = run.communicate(timeout=40)[1]
+                told = host_group.told_by(run, 40)
                 self.assertEqual(run.returncode, 1, told)
                 self.assertRegex(told, rf"{told_as} \(pid \d+ on h1\) died while .*")
                 self.assert_nothing_left(10, *self.group.hosts)
@@ -137,7 +137,7 @@ class Hosts(unittest.TestCase):
         self.wait_for_state(run, "stopped")
         os.kill(self.group.hosts[1].processes()["fsi_master"][0], signal.SIGSTOP)
         began = time.monotonic()
-        told = run.communicate(timeout=40)[1]
+        told = host_group.told_by(run, 40)
         self.assertLess(time.monotonic() - began, 20)
         self.assertEqual(run.returncode, 1, told)
         self.assertRegex(told, r"\(pid \d+ on h1\) was stopped while .*, and still is 5 s later")
