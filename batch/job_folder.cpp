@@ -43,13 +43,6 @@ std::optional<Job> job_to_replace(const fs::path& folder, bool overwrite) {
   }
 }
 
-void check_keeps(const fs::path& place, const fs::path& file) {
-  const fs::path from_it = fs::weakly_canonical(fs::absolute(file)).lexically_relative(fs::weakly_canonical(place));
-  if (!from_it.empty() && *from_it.begin() != "..")
-    throw input_error("{}: is read, and what is written into {} would replace it; {}", file.string(), place.string(),
-                      way_out);
-}
-
 }  // namespace
 
 void check_replaced(const fs::path& folder, bool overwrite) {
@@ -67,10 +60,10 @@ void check_replaced(const fs::path& folder, bool overwrite) {
                       job->number);
 }
 
-void check_keeps_read(const fs::path& folder, const std::vector<JobCase>& cases, const std::vector<fs::path>& files) {
+void check_keeps_read(const fs::path& folder, const std::vector<JobCase>& cases, const std::set<fs::path>& files) {
   const std::vector<fs::path> replaced{folder / job_files, folder / results_table};
   for (const fs::path& place : replaced) {
-    for (const fs::path& file : files) check_keeps(place, file);
+    check_none_is_in(place, files);
     for (const JobCase& one : cases) check_keeps_inputs(place, one.case_file);
   }
   for (const JobCase& one : cases) check_keeps_inputs(folder / one.name, one.case_file);

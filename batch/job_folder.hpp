@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ void check_replaced(const std::filesystem::path& folder, bool overwrite);
 /// Throws InputError if a job of this folder would replace one of these files, what a case is read from, or, by the
 /// results of a case, what that is read from.
 void check_keeps_read(const std::filesystem::path& folder, const std::vector<JobCase>& cases,
-                      const std::vector<std::filesystem::path>& files);
+                      const std::set<std::filesystem::path>& files);
 
 /// Replaces what an earlier job left in the folder by this one's record. That is written first: whatever happens then,
 /// the folder is known to hold a job.

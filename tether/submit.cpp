@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <set>
 
 #include "batch/job_cases.hpp"
 #include "batch/job_folder.hpp"
@@ -126,8 +127,8 @@ std::vector<JobCase> cases_of(const Typed& typed, const fs::path& made) {
 }
 
 void check_keeps_read(const Typed& typed, const fs::path& folder, const std::vector<JobCase>& cases) {
-  std::vector<fs::path> read{typed.given};
-  if (!typed.table.empty()) read.push_back(typed.table);
+  std::set<fs::path> read{typed.given};
+  if (!typed.table.empty()) read.insert(typed.table);
   check_keeps_read(folder, cases, read);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "common/base/lower_case.hpp"
 #include "vessel/cell_sorter.hpp"
 #include "vessel/file_source.hpp"
 #include "vessel/readers.hpp"

@@ -1,14 +1,13 @@
 #include "vessel/mesh_file.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <utility>
 
 #include "common/base/error.hpp"
 #include "common/base/given_number.hpp"
 #include "common/base/input_stream.hpp"
+#include "common/base/lower_case.hpp"
 #include "vessel/readers.hpp"
 
 namespace tether {
@@ -16,12 +15,6 @@ namespace tether {
 std::string file_content(const std::filesystem::path& path) {
   std::ifstream file = input_stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 namespace {

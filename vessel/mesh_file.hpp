@@ -29,7 +29,4 @@ struct MeshFile {
 /// InputError: cannot be read, other cells than these, no points.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
-/// Of an extension: programs write .STL too.
-std::string lower_case(std::string text);
-
 }  // namespace tether

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "common/base/lower_case.hpp"
 #include "vessel/cell_sorter.hpp"
 #include "vessel/readers.hpp"
 #include "vessel/xml_check.hpp"

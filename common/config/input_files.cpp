@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
+#include "common/base/lower_case.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/named_path.hpp"
 #include "common/config/output_folder.hpp"
@@ -118,11 +118,6 @@ void gather(const YamlNode& node, const std::string& field, const fs::path& fold
     found.push_back({field, node.text, named_path(folder, node.text)});
   for (const YamlNode& item : node.items) gather(item, field, folder, found);
   for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
 }
 
 bool is_mesh(const fs::path& file) {

@@ -63,14 +63,6 @@ std::string first_line_of(const fs::path& mark) {
   return begin.substr(0, begin.find('\n'));
 }
 
-void check_none_is_in(const fs::path& place, const std::set<fs::path>& read) {
-  for (const fs::path& one : read)
-    if (is_in(one, place))
-      throw input_error(
-          "{}: is read, and what is written into {} would replace it; choose another folder with --output",
-          one.string(), place.string());
-}
-
 /// What a mark says: "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and /home/ada/two.stl".
 std::string mark_of(const std::string& verb, const std::vector<fs::path>& files) {
   std::string mark = verb;
@@ -164,6 +156,14 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
 }
 
 }  // namespace
+
+void check_none_is_in(const fs::path& place, const std::set<fs::path>& read) {
+  for (const fs::path& one : read)
+    if (is_in(one, place))
+      throw input_error(
+          "{}: is read, and what is written into {} would replace it; choose another folder with --output",
+          one.string(), place.string());
+}
 
 void check_writable_through(const fs::path& folder) {
   std::error_code none;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+
 #include "common/config/case_file.hpp"
 #include "common/config/command_line.hpp"
 
@@ -57,8 +59,12 @@ void note_made(const std::filesystem::path& folder, const std::vector<std::files
 std::filesystem::path claim_for_made(const std::filesystem::path& folder, bool overwrite, const std::string& verb,
                                      const std::vector<std::filesystem::path>& files);
 
+/// Throws InputError if one of these files and folders, which are read, is `place` or stands in it: it would be
+/// removed.
+void check_none_is_in(const std::filesystem::path& place, const std::set<std::filesystem::path>& read);
+
 /// Throws InputError if the file, or a file or folder that it is read from (files_read, folders_read), is `place` or
-/// stands in it: it would be removed.
+/// stands in it.
 void check_keeps_inputs(const std::filesystem::path& place, const std::filesystem::path& file);
 
 /// Marks a folder as this case's, as the case and its files now are. To be called when no results of an earlier state

@@ -8,6 +8,7 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/base/given_number.hpp"
+#include "common/base/lower_case.hpp"
 #include "common/config/input_files.hpp"
 #include "common/io/pvd.hpp"
 #include "observation_manager/measurements/stated_unit.hpp"
