@@ -248,7 +248,7 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const Inpu
       codes.interface_record(),
       periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start, plan.image_pressure, plan.units),
       rest_in(plan.output),
-      fmt::format("{:016x}", hash_content(plan.output / "timeseries.csv"))};
+      hashes_of_results(plan.output)};
   check_held(plan.output);
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }

@@ -35,12 +35,19 @@ CheckedContent unpack(const fs::path& path, Fields&... fields) {
   return content;
 }
 
+/// Which states belong together: those of another run may be of the same step.
+std::int64_t hash_of_states(const Bytes& fluid, const Bytes& solid) {
+  return static_cast<std::int64_t>(
+      hash_bytes(solid.data(), solid.size(), hash_bytes(fluid.data(), fluid.size(), fluid.size())));
+}
+
 Checkpoint read_folder(const fs::path& folder) {
   Checkpoint c;
   std::vector<double> numbers;
-  const CheckedContent master =
-      unpack(folder / "master.bin", c.snapshot.displacement, c.snapshot.velocity, c.snapshot.method,
-             c.snapshot.coupling, numbers, c.without_state, c.coupling, c.origin, c.table);
+  std::int64_t states = 0;
+  const CheckedContent master = unpack(folder / "master.bin", c.snapshot.displacement, c.snapshot.velocity,
+                                       c.snapshot.method, c.snapshot.coupling, numbers, c.without_state, c.coupling,
+                                       c.origin, c.table, c.motion, c.velocity, states);
   c.step = master.step;
   c.fingerprint = master.fingerprint;
   auto next = numbers.begin();
@@ -50,6 +57,9 @@ Checkpoint read_folder(const fs::path& folder) {
     const CheckedContent content = unpack(folder / name, *state);
     if (content.step != c.step) throw input_error("{}: is of another step than master.bin", (folder / name).string());
   }
+  if (states != hash_of_states(packed(c.snapshot.fluid), packed(c.snapshot.solid)))
+    throw input_error("{}: holds states of different runs: fluid.bin and solid.bin are not those of its master.bin",
+                      folder.string());
   return c;
 }
 
@@ -148,10 +158,12 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   const auto write = [&](const char* name, const Bytes& bytes) {
     write_checked(next / name, checkpoint.fingerprint, checkpoint.step, bytes);
   };
+  const Bytes fluid = packed(s.fluid), solid = packed(s.solid);
   write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state,
-                             checkpoint.coupling, checkpoint.origin, checkpoint.table));
-  write("fluid.bin", packed(s.fluid));
-  write("solid.bin", packed(s.solid));
+                             checkpoint.coupling, checkpoint.origin, checkpoint.table, checkpoint.motion,
+                             checkpoint.velocity, hash_of_states(fluid, solid)));
+  write("fluid.bin", fluid);
+  write("solid.bin", solid);
   flush_to_disk(next);
   put_fresh_in_place(output);
   flush_to_disk(output);

@@ -32,8 +32,10 @@ struct Checkpoint {
   std::string without_state;  ///< programs that announce no state: such a checkpoint cannot be continued
   std::string coupling;       ///< how its steps were coupled: the section of the case, JSON
   StateOrigin origin{};
-  std::int64_t table = 0;  ///< checksum of timeseries.csv
-  std::string refused{};   ///< why a newer one is not taken: it is damaged
+  std::int64_t table = 0;     ///< checksum of timeseries.csv,
+  std::int64_t motion = 0;    ///< of lumen.motion
+  std::int64_t velocity = 0;  ///< and of blood.velocity, as far as they belong to it
+  std::string refused{};      ///< why a newer one is not taken: it is damaged
 };
 
 /// Writes the folder OUTPUT/checkpoint (master.bin, fluid.bin, solid.bin) as a whole: a new folder is filled, flushed

@@ -1,10 +1,12 @@
 #include "fsi_master/group_server.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
+#include "common/base/write_error.hpp"
 #include "fsi_master/run_guide.hpp"
 #include "fsi_master/summary.hpp"
 #include "fsi_master/untold.hpp"
@@ -222,6 +224,22 @@ void GroupServer::observe(double time, protocol::Advanced& reply) {
   reply.weights = std::move(seen.weights);
 }
 
+namespace {
+
+/// Where a run's folder is below that of the case, as in a diagnosis, the latter is not made: it may have been removed,
+/// and in what is made in its place nobody would find whose it is.
+void make_run_folder(const std::filesystem::path& of_case, const std::filesystem::path& folder) {
+  const std::filesystem::path below = std::filesystem::absolute(folder).lexically_relative(of_case);
+  if (below.empty() || *below.begin() == "..") {
+    std::filesystem::create_directories(folder);
+    return;
+  }
+  std::filesystem::path made = of_case;
+  for (const std::filesystem::path& part : below) make_folder(made /= part);
+}
+
+}  // namespace
+
 protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   loop_->restore(initial_);
   (*this)(protocol::SetParameters{m.names, m.values});
@@ -229,7 +247,7 @@ protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   plan.output = m.output;
   plan.write_series = false;  // the codes of all groups have one folder
   plan.last_step = m.steps;
-  std::filesystem::create_directories(plan.output);
+  make_run_folder(std::filesystem::absolute(master_->file.path()).parent_path(), plan.output);
   const auto guide = guide_of(m, plan.dt);
   codes_->coupling().follow(guide.get());
   Simulation simulation(plan, codes_->crew(), master_->coupling.halvings);

@@ -78,8 +78,8 @@ void Simulation::begin() {
 Checkpoint Simulation::taken_up() {
   const auto take_up_tables = [&](const Checkpoint& of) {
     series_.resume(of.step, static_cast<std::uint64_t>(of.table));
-    motion_.resume(of.step + 1);
-    if (velocity_) velocity_->resume(of.step + 1);
+    motion_.resume(of.step + 1, static_cast<std::uint64_t>(of.motion));
+    if (velocity_) velocity_->resume(of.step + 1, static_cast<std::uint64_t>(of.velocity));
   };
   Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
   try {
@@ -225,8 +225,11 @@ void Simulation::save(std::int64_t step) {
   series_.flush();
   motion_.flush();
   if (velocity_) velocity_->flush();
-  write_checkpoint(plan_.output, {step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling,
-                                  origin, static_cast<std::int64_t>(series_.checksum())});
+  Checkpoint checkpoint{step, plan_.fingerprint, loop_.snapshot(), statistics_, without_state, coupling, origin};
+  checkpoint.table = static_cast<std::int64_t>(series_.checksum());
+  checkpoint.motion = static_cast<std::int64_t>(motion_.checksum());
+  if (velocity_) checkpoint.velocity = static_cast<std::int64_t>(velocity_->checksum());
+  write_checkpoint(plan_.output, checkpoint);
   saved_step_ = step;
 }
 

@@ -85,7 +85,7 @@ RunSummary summary_of(const Simulation& simulation, const RunFacts& facts) {
   summary.effective_case.text = facts.effective_case;
   summary.periodicity = facts.periodicity;
   summary.rest = facts.rest;
-  summary.table = facts.table;
+  summary.written = facts.written;
   summary.made_from = facts.made_from;
   summary.made_from.coupled_otherwise = simulation.coupled_otherwise();
   return summary;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct RunFacts {
   InterfaceRecord interface;
   std::optional<Periodicity> periodicity;
   std::optional<RestState> rest;
-  std::string table;  ///< a hash of what timeseries.csv holds
+  std::map<std::string, std::string> written;  ///< files of results, and a hash of what each holds
 };
 
 /// What was run, how it went and what it cost, in the case's units and in mmHg and mm.

@@ -7,7 +7,6 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
-#include "common/config/input_files.hpp"
 #include "common/io/lumen_motion.hpp"
 #include "common/io/record_file.hpp"
 
@@ -18,11 +17,6 @@ namespace fs = std::filesystem;
 
 fs::path record_in(const fs::path& folder) {
   return folder / "run.json";
-}
-
-std::string table_in(const fs::path& folder) {
-  const fs::path table = folder / "timeseries.csv";
-  return fs::exists(table) ? fmt::format("{:016x}", hash_content(table)) : "";
 }
 
 /// Moves a folder, as a whole, to where nothing is; onto another disk by a copy beside the place.
@@ -42,7 +36,7 @@ std::optional<MadeRun> made_run_in(const fs::path& folder) {
   if (!fs::exists(record_in(folder))) return std::nullopt;
   try {
     MadeRun run = read_record<MadeRun>(record_in(folder));
-    if (run.table != table_in(folder)) return std::nullopt;
+    if (run.written != hashes_of_results(folder)) return std::nullopt;
     if (!run.failure) check_is_whole(folder, run.steps);
     return run;
   } catch (const InputError&) {
@@ -51,7 +45,7 @@ std::optional<MadeRun> made_run_in(const fs::path& folder) {
 }
 
 void write_made_run(const fs::path& folder, MadeRun run) {
-  run.table = table_in(folder);
+  run.written = hashes_of_results(folder);
   write_record(record_in(folder), run);
 }
 

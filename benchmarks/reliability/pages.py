@@ -2,11 +2,13 @@
 import collections
 import json
 import pathlib
+import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/reliability.md"
 SIGNALS = ("KILL", "TERM", "INT", "STOP")
 MOST_LINES = 4
+OF_MPIRUN = re.compile(r"^\[[\w.-]+:\d+\] .*\n?", re.MULTILINE)  # [host:process]: what Open MPI tells for itself
 LONG_NAMES = ("identification_master", "observation_manager")  # /proc/N/comm has fifteen letters
 
 
@@ -19,7 +21,7 @@ def parts_of(key):
 def faults_of(key, result):
     """What is wrong with an outcome."""
     _, kind, program, _, fault = parts_of(key)
-    wrong, code, message = [], result["code"], result["message"]
+    wrong, code, message = [], result["code"], OF_MPIRUN.sub("", result["message"])
     itself = (kind == "signal" and program == "tether" and fault == "KILL") or fault == "the first host is lost"  # it can tell nothing
     if code is None:
         wrong.append("does not end")
@@ -54,7 +56,7 @@ def cell(key, result):
 
 def said(result):
     """The first line of what was said: the cause. Of a second job: what it was told."""
-    message = result.get("second", result)["message"]
+    message = OF_MPIRUN.sub("", result.get("second", result)["message"])
     return message.split("\n", 1)[0].replace("|", "\\|")
 
 
@@ -152,7 +154,7 @@ def write_page(known, folder):
     text = ["# Faults and what they lead to", "",
             "Written by `benchmarks/reliability/run`: do not edit. The real programs on a small case (`configs/tube` with 12 x 8 nodes): each fault made once in a job of its own, "
             "then the same command again, and what it leaves held against an undisturbed job's: files of a simulation and an identification's table to the bit, records but for cost.", "",
-            f"{len(known)} faults, {len(known) - len(wrong)} of them green: exit code 1 (or the job goes on to the same results), one message of at most {MOST_LINES} lines, no process left after ten seconds, "
+            f"{len(known)} faults, {len(known) - len(wrong)} of them green: exit code 1 (or the job goes on to the same results), one message of at most {MOST_LINES} lines (beside what Open MPI tells for itself, `[host:process] ...`), no process left after ten seconds, "
             "the same command then ends with 0 and with the same results.", "",
             "## Signals", "",
             "*told*: it said why within the time given, from the signal to the end; *resumed*: from the last checkpoint; *goes on*: to its end, as if nothing had been. "

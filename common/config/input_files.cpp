@@ -11,6 +11,7 @@
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
+#include "common/base/hash_file.hpp"
 #include "common/base/lower_case.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/named_path.hpp"
@@ -26,16 +27,6 @@ constexpr int folders_deep = 1;  ///< those of meshes have their surfaces one be
 
 std::uint64_t hash_text(std::string_view text, std::uint64_t seed) {
   return hash_bytes(text.data(), text.size(), hash_bytes("|", 1, seed));
-}
-
-std::uint64_t hash_file(const fs::path& path, std::uint64_t seed) {
-  std::error_code none;
-  if (!fs::is_regular_file(path, none)) return seed;  // to open a pipe would wait without end
-  std::ifstream file(path, std::ios::binary);
-  std::vector<char> block(1 << 20);  // a multiple of what hash_bytes takes at a time
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    seed = hash_bytes(block.data(), static_cast<std::size_t>(file.gcount()), seed);
-  return seed;
 }
 
 bool is_number(std::string_view text) {

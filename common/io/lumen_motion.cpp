@@ -1,7 +1,10 @@
 #include "common/io/lumen_motion.hpp"
 
+#include <fmt/format.h>
+
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/hash_file.hpp"
 
 namespace tether {
 namespace {
@@ -31,6 +34,13 @@ void check_is_whole(const std::filesystem::path& folder, std::int64_t steps) {
   if (const auto velocities = folder / "blood.velocity"; std::filesystem::exists(velocities))
     BloodVelocity(velocities).check_has(steps);
   check_has_rows(folder / "timeseries.csv", steps);
+}
+
+std::map<std::string, std::string> hashes_of_results(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> hashes;
+  for (const char* name : {"timeseries.csv", "lumen.motion", "blood.velocity"})
+    if (std::filesystem::exists(folder / name)) hashes[name] = fmt::format("{:016x}", hash_file(folder / name, 0));
+  return hashes;
 }
 
 }  // namespace tether

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "common/io/point_series.hpp"
 
 namespace tether {
@@ -42,5 +45,8 @@ void check_has_rows(const std::filesystem::path& table, std::int64_t steps);
 /// Throws InputError if what a run of so many steps left in its folder (lumen.motion, timeseries.csv, and
 /// blood.velocity where there is one) is missing, damaged or cut short.
 void check_is_whole(const std::filesystem::path& folder, std::int64_t steps);
+
+/// Of those of these files that a run has left in its folder, a hash of what each holds.
+std::map<std::string, std::string> hashes_of_results(const std::filesystem::path& folder);
 
 }  // namespace tether

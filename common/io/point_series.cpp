@@ -58,12 +58,14 @@ void PointSeriesWriter::start() {
   put(file_, &checksum_, 1);
 }
 
-void PointSeriesWriter::resume(std::int64_t records) {
+void PointSeriesWriter::resume(std::int64_t records, std::uint64_t checksum) {
   const PointSeries found(kind_, path_, records);
   if (found.points() != points_) throw input_error("{}: is the {} of another case", path_.string(), kind_.what);
   if (static_cast<std::int64_t>(found.times().size()) < records)
     throw input_error("{}: has {} records; the run to resume made {}", path_.string(), found.times().size(), records);
-  checksum_ = found.checksum_after(records);
+  if (found.checksum_after(records) != checksum)
+    throw input_error("{}: is the {} of another run: not what the checkpoint belongs to", path_.string(), kind_.what);
+  checksum_ = checksum;
   std::filesystem::resize_file(
       path_, header_size(kind_, points_.cols()) + static_cast<std::uintmax_t>(records) * record_size(points_.cols()));
   file_ = std::ofstream(path_, std::ios::binary | std::ios::app);

@@ -28,13 +28,16 @@ class PointSeriesWriter {
   /// A new file.
   void start();
   /// Goes on behind the first `records` records of the file; later ones are dropped, damaged or not. Throws InputError
-  /// if the file is of other points, has fewer or these are damaged; it is as it was then.
-  void resume(std::int64_t records);
+  /// if the file is of other points, has fewer, others than those of the checksum, or damaged ones; it is as it was
+  /// then.
+  void resume(std::int64_t records, std::uint64_t checksum);
   /// To be read by others when this returns. Throws RunError if it cannot be written.
   void append(double time, const Points& vectors);
   /// To the disk: what a checkpoint counts on must outlast a loss of power. Throws RunError.
   void flush() const { flush_to_disk(path_); }
   const Points& points() const { return points_; }
+  /// Of all records so far.
+  std::uint64_t checksum() const { return checksum_; }
 
  private:
   PointSeriesKind kind_;

@@ -83,9 +83,13 @@ RunSummary summary_in(const fs::path& output) {
   return read_record<RunSummary>(output / "summary.json");
 }
 
-void check_is_as_written(const fs::path& table, const std::string& content) {
-  if (fmt::format("{:016x}", hash_content(table)) != content)
-    throw input_error("{}: was changed after the run: it is not what the run wrote", table.string());
+void check_is_as_written(const fs::path& output, const std::map<std::string, std::string>& written) {
+  const auto now = hashes_of_results(output);
+  for (const auto& [name, content] : now)
+    if (const auto then = written.find(name); then == written.end() || then->second != content)
+      throw input_error("{}: was changed after the run: it is not what the run wrote", (output / name).string());
+  for (const auto& [name, content] : written)
+    if (now.count(name) == 0) throw input_error("{}: was removed after the run", (output / name).string());
 }
 
 }  // namespace
@@ -124,7 +128,7 @@ FinishedRun::FinishedRun(const fs::path& output) : motion(output / "lumen.motion
   motion.check_has(steps);
   if (velocity) velocity->check_has(steps);
   check_has_rows(output / "timeseries.csv", steps);
-  check_is_as_written(output / "timeseries.csv", summary.table);
+  check_is_as_written(output, summary.written);
   if (summary.observer) observer_gain = summary.observer->gain;
 }
 

@@ -159,7 +159,7 @@ struct RunSummary {
   std::optional<RestState> rest;
   std::optional<Periodicity> periodicity;
   std::optional<ObserverWork> observer;
-  std::string table;
+  std::map<std::string, std::string> written;
   std::vector<std::string> notices;
   std::map<std::string, std::string> versions;
   JsonTree effective_case;
@@ -194,7 +194,7 @@ struct RunSummary {
     field("rest", self.rest, "how the wall rests in the image; null: the wall's code does not say");
     field("periodicity", self.periodicity, "from beat to beat; null: there are not two, or no period");
     field("observer", self.observer, "null: none");
-    field("table", self.table, "a hash of what timeseries.csv held when the run ended");
+    field("written", self.written, "files of results, and a hash of what each held when the run ended");
     field("notices", self.notices, "of the programs");
     field("versions", self.versions, "of the programs");
     field("effective_case", self.effective_case, "the case with all defaults");

@@ -18,7 +18,7 @@ struct MadeRun {
   std::optional<std::string> failure;
   std::int64_t evaluations = 0;
   double cpu_seconds = 0;
-  std::string table;
+  std::map<std::string, std::string> written;
 
   static void fields(auto& self, auto&& field) {
     field("case_hash", self.case_hash, "of all that the case says of the model, its mesh and its time step");
@@ -27,7 +27,7 @@ struct MadeRun {
     field("failure", self.failure, "why it ended before its end; null: it did not");
     field("evaluations", self.evaluations, "of fluid and solid together, over all steps");
     field("cpu_seconds", self.cpu_seconds, "of all processes [s]");
-    field("table", self.table, "hash of what timeseries.csv held; empty: there was none");
+    field("written", self.written, "files of results, and a hash of what each held when it ended");
   }
 };
 

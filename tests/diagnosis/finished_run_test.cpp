@@ -91,15 +91,26 @@ TEST_F(FinishedRunTest, OneThatIsDamagedSaysWhere) {
   folder.file("out/timeseries.csv", "time [s]\n0.1\n");
   EXPECT_EQ(damage_of(output).value_or("none"), table + ": is cut short: it has 1 rows of a run of 2 steps");
   folder.file("out/timeseries.csv", "time [s]\n0.1\n0.2\n");
-  EXPECT_EQ(damage_of(output).value_or("none"), table + ": was changed after the run: it is not what the run wrote");
   RunSummary summary = summary_of(folder / "case.yaml");
-  summary.table = fmt::format("{:016x}", hash_content(table));
+  summary.written = hashes_of_results(output);
   write_record(output / "summary.json", summary);
   EXPECT_EQ(damage_of(output), std::nullopt);
   folder.file("out/timeseries.csv", "time [s]\n0.1\n0.3\n");
   EXPECT_EQ(damage_of(output).value_or("none"), table + ": was changed after the run: it is not what the run wrote");
   folder.file("out/timeseries.csv", "time [s]\n0.1\n0.2\n");
-  fs::resize_file(output / "lumen.motion", fs::file_size(output / "lumen.motion") - 1);
+  const fs::path motion = output / "lumen.motion";
+  fs::copy_file(motion, output / "own.motion");
+  writer.start();
+  for (int step = 0; step <= 2; ++step) writer.append(0.1 * step, Points::Random(3, 4));
+  EXPECT_EQ(damage_of(output).value_or("none"),
+            motion.string() + ": was changed after the run: it is not what the run wrote")
+      << "whole, and of another run";
+  fs::rename(output / "own.motion", motion);
+  EXPECT_EQ(damage_of(output), std::nullopt);
+  BloodVelocityWriter(output / "blood.velocity", Points::Random(3, 2)).start();
+  EXPECT_NE(damage_of(output), std::nullopt) << "of no step";
+  fs::remove(output / "blood.velocity");
+  fs::resize_file(motion, fs::file_size(motion) - 1);
   EXPECT_EQ(damage_of(output).value_or("none"),
             (output / "lumen.motion").string() + ": is cut short: it has 2 records of a run of 2 steps");
   std::ofstream(output / "summary.json") << "{\"steps\": 2";

@@ -142,6 +142,22 @@ TEST_F(Output, DamagedCheckpointsAreNoticed) {
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("fluid.bin: is cut short"), std::string::npos);
 }
 
+/// Each of them whole, of the same case and step.
+TEST_F(Output, StatesOfDifferentRunsAreNoCheckpoint) {
+  for (const char* file : {"fluid.bin", "solid.bin"}) {
+    Checkpoint other = some_checkpoint(8);
+    for (std::vector<double>* state : {&other.snapshot.fluid, &other.snapshot.solid}) state->at(0) += 1;
+    write_checkpoint(folder, other);
+    fs::copy_file(folder / "checkpoint" / file, folder / file);
+    write_checkpoint(folder, some_checkpoint(7));
+    write_checkpoint(folder, some_checkpoint(8));
+    fs::rename(folder / file, folder / "checkpoint" / file);
+    const Checkpoint taken = read_checkpoint(folder, 77);
+    EXPECT_EQ(taken.step, 7);
+    EXPECT_NE(taken.refused.find("checkpoint: holds states of different runs"), std::string::npos) << taken.refused;
+  }
+}
+
 TEST_F(Output, TheCheckpointBeforeIsTakenIfTheNewestIsDamaged) {
   write_checkpoint(folder, some_checkpoint(7));
   write_checkpoint(folder, some_checkpoint(8));

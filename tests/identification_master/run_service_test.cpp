@@ -114,7 +114,6 @@ TEST_F(Service, AnotherCaseOtherValuesOrStepsAreAnotherRun) {
   EXPECT_TRUE(made(longer, {order("a", 4)})[0].made) << "a file of another version";
 }
 
-/// Text has no checksum of its own.
 TEST_F(Service, ARunWhoseTableIsNotAsItWasIsAnotherRun) {
   MadeRun run;
   run.failure = "so that no motion is wanted";
@@ -125,6 +124,23 @@ TEST_F(Service, ARunWhoseTableIsNotAsItWasIsAnotherRun) {
   std::ofstream(folder / "a/timeseries.csv") << "time [s]\n0.2\n";
   EXPECT_FALSE(made_run_in(folder / "a"));
   std::filesystem::remove(folder / "a/timeseries.csv");
+  EXPECT_FALSE(made_run_in(folder / "a"));
+}
+
+/// Each record has a checksum, which that of another run has too.
+TEST_F(Service, ARunWithTheMotionOfAnotherIsAnotherRun) {
+  MadeRun run;
+  run.failure = "so that no steps are wanted";
+  std::filesystem::create_directories(folder / "a");
+  const auto move = [&](double displacement) {
+    LumenMotionWriter motion(folder / "a/lumen.motion", Points::Zero(3, 2));
+    motion.start();
+    motion.append(0, Points::Constant(3, 2, displacement));
+  };
+  move(1);
+  write_made_run(folder / "a", run);
+  EXPECT_TRUE(made_run_in(folder / "a"));
+  move(2);
   EXPECT_FALSE(made_run_in(folder / "a"));
 }
 

@@ -24,8 +24,13 @@ struct MotionFile {
   void write(int records) {
     LumenMotionWriter writer(path, x);
     writer.start();
-    for (int k = 0; k < records; ++k) writer.append(0.5 * k, moved(k));
+    checksums = {writer.checksum()};
+    for (int k = 0; k < records; ++k) {
+      writer.append(0.5 * k, moved(k));
+      checksums.push_back(writer.checksum());
+    }
   }
+  std::vector<std::uint64_t> checksums = {};  ///< behind so many records
 };
 
 TEST(LumenMotion, IsReadBackAndLinearBetweenSteps) {
@@ -47,7 +52,7 @@ TEST(LumenMotion, GoesOnAfterAResumeAsIfNeverStopped) {
   whole.write(6);
   resumed.write(4);  // one more than the checkpoint knows
   LumenMotionWriter writer(resumed.path, resumed.x);
-  writer.resume(3);
+  writer.resume(3, whole.checksums[3]);
   for (int k = 3; k < 6; ++k) writer.append(0.5 * k, moved(k));
   const auto bytes = [](const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -55,13 +60,31 @@ TEST(LumenMotion, GoesOnAfterAResumeAsIfNeverStopped) {
   };
   EXPECT_EQ(bytes(whole.path), bytes(resumed.path));
   std::fstream(resumed.path, std::ios::binary | std::ios::in | std::ios::out).seekp(-20, std::ios::end) << "damaged";
-  EXPECT_THROW(writer.resume(6), InputError);
+  EXPECT_THROW(writer.resume(6, whole.checksums[6]), InputError);
   const std::string before = bytes(resumed.path);
-  EXPECT_THROW(writer.resume(7), InputError);
+  EXPECT_THROW(writer.resume(7, whole.checksums[6]), InputError);
   EXPECT_EQ(bytes(resumed.path), before);
-  LumenMotionWriter(resumed.path, resumed.x).resume(5);
+  LumenMotionWriter(resumed.path, resumed.x).resume(5, whole.checksums[5]);
   EXPECT_EQ(LumenMotion(resumed.path).times().size(), 5) << "what is dropped may be damaged";
-  EXPECT_THROW(LumenMotionWriter(resumed.path, imaged().array() + 1).resume(3), InputError);
+  EXPECT_THROW(LumenMotionWriter(resumed.path, imaged().array() + 1).resume(3, whole.checksums[3]), InputError);
+}
+
+/// Of the same points and as many records, each of them whole.
+TEST(LumenMotion, DoesNotGoOnWithThatOfAnotherRun) {
+  MotionFile own, other;
+  other.x = own.x;
+  own.write(4);
+  LumenMotionWriter writer(other.path, other.x);
+  writer.start();
+  for (int k = 0; k < 4; ++k) writer.append(0.5 * k, moved(k + 1));
+  try {
+    LumenMotionWriter(other.path, other.x).resume(3, own.checksums[3]);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              other.path.string() + ": is the motion of a lumen of another run: not what the checkpoint belongs to");
+  }
+  EXPECT_EQ(LumenMotion(other.path).times().size(), 4) << "it is as it was";
 }
 
 TEST(LumenMotion, OtherFilesAreRefused) {
