@@ -16,6 +16,8 @@ namespace tether {
 
 namespace {
 
+constexpr std::size_t most_names = 1000;  ///< of elements and properties: each is looked for among the others
+
 struct PlyProperty {
   std::string name;
   Scalar type;
@@ -54,9 +56,11 @@ class PlyReader {
         encoding = read_format();
         has_format = true;
       } else if (word == "element") {
+        count_name();
         elements_.push_back(read_element_line());
       } else if (word == "property") {
         if (elements_.empty()) source_.fail("a property before any element");
+        count_name();
         add_property(elements_.back());
       } else if (word != "comment" && word != "obj_info") {
         source_.fail_expected("format, element, property, comment or end_header", word);
@@ -66,6 +70,10 @@ class PlyReader {
     source_.line();
     if (!has_format) source_.fail("the header states no format");
     source_.set_encoding(encoding);
+  }
+
+  void count_name() {
+    if (++names_ > most_names) source_.fail(fmt::format("has more than {} elements and properties", most_names));
   }
 
   Encoding read_format() {
@@ -236,6 +244,7 @@ class PlyReader {
   MeshFile mesh_;
   CellSorter sorter_;
   std::vector<PlyElement> elements_;
+  std::size_t names_ = 0;            // of elements and properties, so far
   std::vector<std::int64_t> nodes_;  // of a face
   bool has_points_ = false;
 };

@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "common/base/xml_tags.hpp"
 #include "vessel/readers.hpp"
 #include "vessel/xml_bytes.hpp"
-#include "vessel/xml_tags.hpp"
 
 namespace tether {
 
@@ -32,6 +32,7 @@ namespace {
 constexpr std::uint64_t largest_array = 400'000'000;
 
 constexpr std::uint64_t most_components = 1000;
+constexpr std::size_t most_arrays = 1000;         ///< of a section of a piece: VTK looks for each among the others
 constexpr std::uint64_t most_compression = 1100;  ///< zlib: 1032; blocks of the others are too small for more
 
 /// Bytes of one number; 0: text, of any length. None: unknown.
@@ -158,6 +159,8 @@ class XmlCheck {
   /// VTK finds the arrays of data by their place among those of different names in the first piece.
   void take_name(const XmlTag& tag) {
     const std::string section = section_of(tag), name(section == "Points" ? section : tag.attribute("Name"));
+    if (++arrays_in_[{pieces_.size(), section}] > most_arrays)
+      tags_.fail(tag.begin, fmt::format("{} has more than {} arrays", section, most_arrays));
     if ((section == "Points" || is_cells(section)) && !names_[{pieces_.size(), section}].insert(name).second)
       tags_.fail(tag.begin, fmt::format("a second array {} of a piece: must be one", name.substr(0, 40)));
     if (section != "PointData" && section != "CellData") return;
@@ -462,6 +465,7 @@ class XmlCheck {
   std::vector<XmlPiece> pieces_;
   std::vector<XmlArray> arrays_;
   std::map<std::pair<std::size_t, std::string>, std::set<std::string>> names_;  ///< of arrays, by piece and section
+  std::map<std::pair<std::size_t, std::string>, std::size_t> arrays_in_;        ///< how many, by piece and section
   std::set<std::pair<std::size_t, std::string>> seen_;                          ///< the dataset, and sections by piece
   std::optional<XmlTag> appended_;
   std::map<std::pair<std::size_t, std::string>, std::uint64_t> last_offset_;  ///< by piece and section

@@ -11,7 +11,9 @@
 #include <regex>
 
 #include "common/base/error.hpp"
+#include "common/base/input_stream.hpp"
 #include "common/base/whole_file.hpp"
+#include "common/base/xml_tags.hpp"
 
 namespace tether {
 
@@ -19,8 +21,18 @@ namespace {
 
 using Element = vtkSmartPointer<vtkXMLDataElement>;
 
+constexpr std::uintmax_t largest_series = 50'000'000;  ///< bytes: of 100,000 files with long names
+
+/// Throws InputError for what VTK's parser would take long for.
+void check_tags(const std::filesystem::path& path) {
+  const std::string content = content_of(path, largest_series);
+  XmlTags tags(path.string(), content);
+  while (!tags.at_end()) tags.next();
+}
+
 /// The root of an XML file; null if it is none.
 Element root_of(const std::filesystem::path& path) {
+  check_tags(path);
   vtkObject::GlobalWarningDisplayOff();  // errors are reported by exceptions
   return Element::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
 }

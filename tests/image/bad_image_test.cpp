@@ -209,6 +209,15 @@ TEST(BadImage, HeadersThatStateTooMuchAreRefused) {
   expect_said(refusal_of_nrrd("dimension: 3\nsizes: 2 2 2\nencoding: gzip\n"), {"compressed voxels cannot be read"});
   expect_said(refusal_of_nrrd("dimension: 3\nsizes: 2 2 2\nencoding: rle\n"), {"encoding: 'rle': must be raw"});
   expect_said(refusal_of_nrrd("dimension: 4\nsizes: 2 2 2\nencoding: raw\n"), {"sizes: '2 2 2': must be as many"});
+  const std::string head = "dimension: 3\nsizes: 2 2 2\nencoding: raw\n";
+  std::string keys, fields;
+  for (int i = 0; i < 10'000; ++i) keys += fmt::format("k{}:=v\n", i), fields += fmt::format("K{} = 1\n", i);
+  expect_said(refusal_of_nrrd(head + keys), {"a.nrrd:10001: the header has more than 10000 lines"});
+  EXPECT_EQ(refusal_of_nrrd(head + keys.substr(0, keys.find("k9000:"))).find("lines"), std::string::npos);
+  for (int i = 0; i < 11; ++i) keys.insert(0, "l:=" + std::string(1'000'000, 'v') + "\n");
+  expect_said(refusal_of_nrrd(head + keys), {"the header has more than 10 MB"});
+  folder.text("a.mha", fields);
+  expect_said(folder.refusal("file: a.mha, threshold: {above: 1}"), {"a.mha:10001: the header has more than 10000"});
 
   write_image(folder.path / "a.nii", tube_image());
   std::fstream nifti(folder.path / "a.nii", std::ios::in | std::ios::out | std::ios::binary);

@@ -118,7 +118,25 @@ TEST(PvdSeries, IsReadAsXml) {
             "b.pvd: DataSet 1 (from 0): timestep: '1s' is not a number");
   EXPECT_EQ(message("<DataSet file=\"a\"/>"), "b.pvd: DataSet 1 (from 0) states no timestep");
   EXPECT_EQ(message("<DataSet timestep=\"1\"/>"), "b.pvd: DataSet 1 (from 0) states no file");
-  EXPECT_EQ(message("<DataSet"), "b.pvd: is not a ParaView collection");
+  EXPECT_EQ(message("<DataSet"), "b.pvd:1: a tag is not whole: cut short?");
+  EXPECT_EQ(message("</Collection>"), "b.pvd:1: </Collection> closes no open tag");
+}
+
+/// One file for each time of a long run; and names in a tag, each of which VTK's parser looks for among the others.
+TEST(PvdSeries, MayHaveManyFilesAndFewAttributes) {
+  const TemporaryFolder folder;
+  std::string files, attributes;
+  for (int i = 0; i < 100'000; ++i) {
+    files += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"a.vtp\"></DataSet>\n", i);
+    attributes += fmt::format(" a{}=\"1\"", i);
+  }
+  const auto many =
+      folder.file("a.pvd", "<VTKFile type=\"Collection\"><Collection>\n" + files + "</Collection></VTKFile>");
+  EXPECT_EQ(PvdSeries::resumed(many, 1e9).entries().size(), 100'000U);
+  const auto bad = folder.file("b.pvd", "<VTKFile" + attributes + "><Collection/></VTKFile>");
+  EXPECT_EQ(message_of([&] { PvdSeries::resumed(bad, 1); }), bad.string() + ":1: a tag has more than 100 attributes");
+  const auto tags = folder.file("c.pvd", "<VTKFile><Collection>" + files + files + "</Collection></VTKFile>");
+  EXPECT_EQ(message_of([&] { PvdSeries::resumed(tags, 1); }), tags.string() + ":125000: has more than 250000 tags");
 }
 
 }  // namespace

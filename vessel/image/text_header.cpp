@@ -9,6 +9,14 @@
 
 namespace tether {
 
+namespace {
+
+/// ITK and teem look for each line among the others, and keep some kB of it. 3D Slicer writes ten lines a segment.
+constexpr int most_lines = 10'000;
+constexpr std::size_t largest_header = 10'000'000;  ///< bytes
+
+}  // namespace
+
 bool is_length(double number) {
   const double size = std::abs(number);
   return size < 1e9 && (size == 0 || size > 1e-30);
@@ -37,6 +45,9 @@ std::optional<std::string> TextHeader::next() {
   std::string line;
   if (!std::getline(in_, line)) return std::nullopt;
   ++line_;
+  bytes_ += line.size();
+  if (line_ > most_lines) fail(fmt::format("the header has more than {} lines", most_lines));
+  if (bytes_ > largest_header) fail(fmt::format("the header has more than {} MB", largest_header / 1'000'000));
   const auto is_control = [](char c) { return c != '\t' && c != '\r' && c >= 0 && c < ' '; };
   if (line.size() > longest_line_ || std::any_of(line.begin(), line.end(), is_control))
     fail(fmt::format("a line of text was expected, of no more than {} characters", longest_line_));

@@ -16,7 +16,8 @@ class TextHeader {
   TextHeader(const std::filesystem::path& file, std::size_t longest_line)
       : file_(file.string()), longest_line_(longest_line), in_(file, std::ios::binary) {}
 
-  /// The next line without its end; none behind the last one. Throws InputError if it is no text or too long.
+  /// The next line without its end; none behind the last one. Throws InputError if it is no text or too long, or they
+  /// are more than any image's.
   std::optional<std::string> next();
   /// Throws InputError if it is given twice.
   void add(const std::string& name, const std::string& value);
@@ -39,6 +40,7 @@ class TextHeader {
   std::size_t longest_line_;
   std::ifstream in_;
   int line_ = 0;
+  std::size_t bytes_ = 0;  ///< of the lines so far
   std::map<std::string, std::string> fields_;
 };
 

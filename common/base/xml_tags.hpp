@@ -17,12 +17,13 @@ struct XmlTag {
   std::string_view attribute(std::string_view name, std::string_view if_absent = {}) const;
 };
 
-/// Goes through the tags of an XML file, and knows those that are open. No more of XML than VTK's files have.
+/// Goes through the tags of an XML file, and knows those that are open. No more of XML than VTK's files have, and no
+/// more of each than VTK's parser takes in short time.
 class XmlTags {
  public:
   XmlTags(std::string name, std::string_view content) : name_(std::move(name)), content_(content) {}
 
-  /// Throws InputError with the line: no tag, cut short, closes another than the open one.
+  /// Throws InputError with the line: no tag, cut short, closes another than the open one, more than any file has.
   XmlTag next();
   /// Nothing but blanks and comments is left. Throws InputError if a tag is still open.
   bool at_end();
@@ -35,6 +36,7 @@ class XmlTags {
   void skip_to_tag();
   void skip_behind(std::string_view what);
   void read_attributes(XmlTag& tag);
+  void add_attribute(XmlTag& tag, std::string_view name, std::string_view value) const;
   void follow(const XmlTag& tag);
   std::string_view letters_until(std::string_view ends);
   void skip_blanks();
@@ -42,6 +44,7 @@ class XmlTags {
   std::string name_;
   std::string_view content_;
   std::size_t position_ = 0;
+  std::size_t tags_ = 0;  ///< so far
   std::vector<std::string_view> open_;
 };
 

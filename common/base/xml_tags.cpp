@@ -1,4 +1,4 @@
-#include "vessel/xml_tags.hpp"
+#include "common/base/xml_tags.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,10 @@ namespace tether {
 
 namespace {
 constexpr std::string_view xml_blanks = " \t\r\n";
-constexpr std::size_t most_open_tags = 50;  // VTK goes through them by recursion
+constexpr std::size_t most_open_tags = 50;     // VTK goes through them by recursion
+constexpr std::size_t most_tags = 250'000;     ///< VTK takes 2 kB for each; a series has up to 100,000 files
+constexpr std::size_t most_attributes = 100;   ///< of a tag: VTK looks for each among the others
+constexpr std::size_t longest_value = 65'536;  ///< bytes: VTK copies it with each &amp; in it
 }  // namespace
 
 std::string_view XmlTag::attribute(std::string_view name, std::string_view if_absent) const {
@@ -67,6 +70,7 @@ XmlTag XmlTags::next() {
   if (tag.closing) ++position_;
   tag.name = letters_until(" \t\r\n/><=\"");
   if (tag.name.empty() || tag.name[0] == '!') fail(tag.begin, "no tag that a VTK file can have");
+  if (++tags_ > most_tags) fail(tag.begin, fmt::format("has more than {} tags", most_tags));
   read_attributes(tag);
   follow(tag);
   return tag;
@@ -88,11 +92,19 @@ void XmlTags::read_attributes(XmlTag& tag) {
     const std::size_t end =
         quote == '"' || quote == '\'' ? content_.find(quote, position_ + 1) : std::string_view::npos;
     if (end == std::string_view::npos) fail(tag.begin, fmt::format("{} has no value in quotes", name.substr(0, 40)));
-    tag.attributes[name] = content_.substr(position_ + 1, end - position_ - 1);
+    add_attribute(tag, name, content_.substr(position_ + 1, end - position_ - 1));
     position_ = end + 1;
   }
   position_ += tag.empty ? 2 : 1;
   tag.end = position_;
+}
+
+void XmlTags::add_attribute(XmlTag& tag, std::string_view name, std::string_view value) const {
+  if (value.size() > longest_value)
+    fail(tag.begin, fmt::format("the value of {} has more than {} bytes", name.substr(0, 40), longest_value));
+  tag.attributes[name] = value;
+  if (tag.attributes.size() > most_attributes)
+    fail(tag.begin, fmt::format("a tag has more than {} attributes", most_attributes));
 }
 
 void XmlTags::follow(const XmlTag& tag) {
