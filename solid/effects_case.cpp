@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 #include "common/base/transform.hpp"
 #include "common/mesh/triangle_locator.hpp"
 #include "solid/motions/registry.hpp"
@@ -246,8 +247,8 @@ void check_effects(const Named<WallEffectCase>& effects, const WallMesh& mesh, c
     const std::string path = "solid.effects." + name;
     const bool on_ring = find_patch(mesh.rings, block.region) != nullptr;
     if (!block.region.empty() && !on_ring && find_patch(mesh.outside, block.region) == nullptr)
-      throw input_error("{}: {}: the wall has no such part; it has: {}", file.where(path + ".region"), block.region,
-                        parts_of(mesh));
+      throw input_error("{}: {}: the wall has no such part; it has: {}", file.where(path + ".region"),
+                        shortened(block.region), parts_of(mesh));
     if (replaces_clamp(declaration_of(block.effect.type)) && !on_ring)
       throw input_error("{}: a {} needs the name of an end ring as its region", file.where(path), block.effect.type);
     if (is_of(wall_effects(), block.effect.type) && on_ring)

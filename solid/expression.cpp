@@ -10,6 +10,7 @@
 #include <random>
 
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 
 namespace tether {
 
@@ -51,6 +52,8 @@ bool lists(const std::string& text) {
 constexpr std::array tried{0.0, 1.0, -1.0, 0.01, -0.01, 30.0, -30.0, 1e3, -1e3, 1e5, -1e5};
 constexpr int trials = 1000;
 
+constexpr std::size_t longest_told = 200;  ///< bytes of muParser's words, which quote the formula's
+
 /// For any values, tried together in an order that is the same each time.
 bool is_ever_finite(const mu::Parser& parser, std::vector<double>& values) {
   std::minstd_rand order;
@@ -66,8 +69,9 @@ bool is_ever_finite(const mu::Parser& parser, std::vector<double>& values) {
 Expression::Expression(std::string text, const std::vector<std::string>& names)
     : text_(std::move(text)), parser_(std::make_unique<Parser>()) {
   parser_->values.assign(names.size(), 1.0);
-  if (assigns(text_)) throw input_error("\"{}\": a formula cannot set a value: two of them are compared by ==", text_);
-  if (lists(text_)) throw input_error("\"{}\": numbers have points (0.5), and a formula is one, not a list", text_);
+  const std::string shown = shortened(text_);
+  if (assigns(text_)) throw input_error("\"{}\": a formula cannot set a value: two of them are compared by ==", shown);
+  if (lists(text_)) throw input_error("\"{}\": numbers have points (0.5), and a formula is one, not a list", shown);
   bool is_finite = false;
   try {
     parser_->parser.DefineConst("pi", std::numbers::pi);
@@ -75,10 +79,10 @@ Expression::Expression(std::string text, const std::vector<std::string>& names)
     parser_->parser.SetExpr(text_);
     is_finite = is_ever_finite(parser_->parser, parser_->values);
   } catch (const mu::Parser::exception_type& error) {
-    throw input_error("\"{}\": {}", text_, error.GetMsg());
+    throw input_error("\"{}\": {}", shown, shortened(error.GetMsg(), longest_told));
   }
   if (!is_finite)
-    throw input_error("\"{}\": is not a finite number{}", text_,
+    throw input_error("\"{}\": is not a finite number{}", shown,
                       parser_->parser.GetUsedVar().empty() ? "" : ", whatever its variables are");
 }
 
@@ -95,7 +99,7 @@ double Expression::operator()(const std::vector<double>& values) const {
   std::copy(values.begin(), values.end(), parser_->values.begin());
   const double result = parser_->parser.Eval();
   if (!std::isfinite(result))
-    throw run_error("the expression \"{}\" has no finite value at a point of the wall", text_);
+    throw run_error("the expression \"{}\" has no finite value at a point of the wall", shortened(text_));
   return result;
 }
 

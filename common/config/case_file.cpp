@@ -1,7 +1,6 @@
 #include "common/config/case_file.hpp"
 
 #include "common/base/error.hpp"
-#include "common/base/name.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/reader.hpp"
 #include "common/config/rules.hpp"
@@ -48,8 +47,6 @@ struct CaseFile::Contents {
 };
 
 CaseFile::CaseFile(const std::filesystem::path& file) : contents_(std::make_unique<Contents>(file)) {
-  if (!is_utf8(std::filesystem::absolute(file).string()))
-    throw input_error("{}: its path is not UTF-8, as results must be, which name it", file.string());
   if (contents_->tree.kind == YamlNode::Kind::scalar || contents_->tree.kind == YamlNode::Kind::list)
     throw input_error("{}: a case file is a section of named fields, such as 'name: tube'",
                       contents_->tree.place.text());

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 #include "common/config/named_path.hpp"
 
 namespace tether {
@@ -55,7 +56,7 @@ void check_units(const YamlNode& under, const YamlNode& over) {
     throw input_error(
         "{}: units: {}: must be the base's ({}), whose numbers would be taken in these; leave it out, and "
         "write numbers with their unit where it differs",
-        own->place.text(), own->text, base->text);
+        own->place.text(), shortened(own->text), shortened(base->text));
 }
 
 /// The path that `base` names; empty if there is none.

@@ -8,7 +8,6 @@
 
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
-#include "common/base/name.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/config/case_tree.hpp"
@@ -66,6 +65,7 @@ std::string first_line_of(const fs::path& mark) {
 /// What a mark says: "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and /home/ada/two.stl".
 std::string mark_of(const std::string& verb, const std::vector<fs::path>& files) {
   std::string mark = verb;
+  std::for_each(files.begin(), files.end(), check_path);
   for (const fs::path& file : files) mark += (mark == verb ? " " : " and ") + place_of(file).string();
   return mark;
 }
@@ -185,8 +185,7 @@ fs::path output_of(const CommandLine& command, const CaseFile& file) {
 }
 
 void hold_output(const fs::path& folder) {
-  if (!is_utf8(fs::absolute(folder).string()))
-    throw input_error("{}: its path is not UTF-8, as results must be, which name it", folder.string());
+  check_path(folder / "");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) refuse_folder(folder, "cannot be made", error.value());

@@ -10,6 +10,7 @@
 #include "common/base/error.hpp"
 #include "common/base/given_number.hpp"
 #include "common/base/name.hpp"
+#include "common/base/shortened.hpp"
 #include "common/config/named_path.hpp"
 #include "common/config/rules.hpp"
 
@@ -85,7 +86,7 @@ std::string Reader::unit(Dimension dimension) const {
 void Reader::wrong(const Field& field, const YamlPlace& place, const std::string& value, const std::string& rule) {
   Section& section = sections_.back();
   section.failed = true;
-  const std::string shown = value.empty() ? "" : value + ": ";
+  const std::string shown = value.empty() ? "" : shortened(value) + ": ";
   problems_.add(place, fmt::format("{}{}: {}{}{}", section.path, field.name, shown, rule, with_meaning(field.meaning)));
 }
 
@@ -127,7 +128,7 @@ std::optional<double> Reader::quantity(const Field& field, const YamlNode& node,
   try {
     value = units_.quantity(node.text, dimension);
   } catch (const InputError& error) {
-    wrong(field, node.place, "", error.what());
+    wrong(field, node.place, "", shortened(error.what(), 200));  // it quotes the value and lists units
     return std::nullopt;
   }
   const std::string rule = rule_broken(value, dimension, range);
@@ -286,8 +287,8 @@ std::vector<std::string> Reader::entry_names(const std::vector<std::string>&, Ne
       const bool has_dot = entry.key.find('.') != std::string::npos;
       if (is_name(entry.key) && !has_dot) continue;
       section.failed = true;
-      problems_.add(entry.place,
-                    fmt::format("{}{}: {}", section.path, entry.key, is_name(entry.key) ? field_name_rule : name_rule));
+      problems_.add(entry.place, fmt::format("{}{}: {}", section.path, shortened(entry.key),
+                                             is_name(entry.key) ? field_name_rule : name_rule));
     }
   if (section.known.empty() && need == Need::required) {
     section.failed = true;
@@ -335,7 +336,7 @@ void Reader::report_unknown(const Section& section) {
       rule += fmt::format("; did you mean '{}'?", near);
     else if (!section.known.empty())
       rule += "; known here: " + listed(section.known);
-    problems_.add(entry.place, fmt::format("{}{}: {}", section.path, entry.key, rule));
+    problems_.add(entry.place, fmt::format("{}{}: {}", section.path, shortened(entry.key), rule));
   }
 }
 

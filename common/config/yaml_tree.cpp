@@ -13,6 +13,8 @@
 #include "common/base/error.hpp"
 #include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
+#include "common/base/shortened.hpp"
+#include "common/config/named_path.hpp"
 
 namespace tether {
 namespace {
@@ -165,7 +167,7 @@ class Copier {
       if (!pair.first.IsScalar()) throw input_error("{}: a name is expected before ':'", place.text());
       const std::string& key = pair.first.Scalar();
       if (const auto [known, is_new] = lines.emplace(key, place.line); !is_new)
-        throw input_error("{}: '{}' is given twice; first on line {}", place.text(), key, known->second);
+        throw input_error("{}: '{}' is given twice; first on line {}", place.text(), shortened(key), known->second);
       YamlNode value = (*this)(pair.second, depth + 1);
       if (value.kind != YamlNode::Kind::scalar) value.place = place;
       to.entries.push_back({key, place, std::move(value)});
@@ -254,6 +256,7 @@ std::string YamlPlace::text() const {
 }
 
 YamlNode read_yaml(const std::filesystem::path& file, int depth) {
+  check_path(file);
   const std::string name = file.string(), text = text_of(file);
   const auto source = std::make_shared<const YamlFile>(YamlFile{file, depth});
   try {
@@ -269,10 +272,10 @@ YamlNode read_yaml(const std::filesystem::path& file, int depth) {
 
 YamlNode yaml_value(const std::string& text) {
   try {
-    if (const auto found = FirstLook::at(text)) throw input_error("'{}': {}", text, found->rule);
+    if (const auto found = FirstLook::at(text)) throw input_error("'{}': {}", shortened(text), found->rule);
     return Copier(nullptr)(YAML::Load(text));
   } catch (const YAML::Exception& error) {
-    throw input_error("'{}': not YAML: {}", text, error.msg);
+    throw input_error("'{}': not YAML: {}", shortened(text), error.msg);
   }
 }
 

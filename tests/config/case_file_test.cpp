@@ -263,6 +263,20 @@ TEST(CaseFile, IsAsLongAsPersonsWriteThem) {
   EXPECT_EQ(error_of_whole(comments + valid_head), "case.yaml: has more than 2000000 bytes: is it a case file?");
 }
 
+/// A value may be a page; the message that quotes it is a line.
+TEST(CaseFile, IsQuotedWithoutTheMiddleOfWhatIsLong) {
+  const std::string page(60'000, 'a'), shown = std::string(30, 'a') + " ... " + std::string(30, 'a');
+  for (const std::string& text : {"fluid: {density: 1, motion: " + page + "}\n", "fluid: {density: " + page + "}\n",
+                                  "fluid: {density: 1, ? " + page + " : 1}\n", "fluid: {density: 1 " + page + "}\n",
+                                  "? " + page + "\n: 1\n? " + page + "\n: 1\n"}) {
+    const std::string said = errors_in<Blood>(text);
+    EXPECT_LT(said.size(), 500U) << said;
+    EXPECT_NE(said.find("aaa ... "), std::string::npos) << said;
+  }
+  EXPECT_NE(errors_in<Blood>("fluid: {density: 1, motion: " + page + "}\n").find("motion: " + shown + ": must be one"),
+            std::string::npos);
+}
+
 TEST(CaseFile, NamesAFileThatCannotBeRead) {
   EXPECT_EQ(input_error_of([] { CaseFile("no/such.yaml"); }), "no/such.yaml: no such file");
   EXPECT_EQ(input_error_of([] { CaseFile("/tmp"); }), "/tmp: is not a file");

@@ -28,6 +28,26 @@ TEST_F(OutputFolder, IsMadeAndMayBeUsedAgainByTheSameCase) {
   EXPECT_TRUE(std::filesystem::exists(test_folder() / "results" / case_as_run));
 }
 
+/// The mark names the case in a comment: what follows an end of line there would be of the case.
+TEST_F(OutputFolder, AndCaseHavePathsOfOneLine) {
+  const std::string rule =
+      ": its path holds control characters (an end of line, a tab; here ?): rename the file or folder";
+  for (const std::string sign : {"\n", "\t", "\r", "\x1b"}) {
+    std::filesystem::create_directories(test_folder() / ("a" + sign + "name: evil"));
+    EXPECT_EQ(claim("tube", false, "a" + sign + "name: evil/case.yaml"), "a?name: evil/case.yaml" + rule);
+  }
+  EXPECT_FALSE(std::filesystem::exists(test_folder() / "results"));
+  std::filesystem::create_directory_symlink("a\nname: evil", test_folder() / "link");
+  EXPECT_EQ(claim("tube", false, "link/case.yaml"), "a?name: evil/case.yaml" + rule);
+  for (const std::string folder : {"b\n", "link", "b\n/c"})
+    EXPECT_NE(input_error_of([&] { hold_output(test_folder() / folder); }).find(rule), std::string::npos) << folder;
+  EXPECT_FALSE(std::filesystem::exists(test_folder() / "b\n"));
+  EXPECT_NE(input_error_of([&] {
+              claim_for_made(test_folder() / "noise", false, "measure-noise", {test_folder() / "a\n.stl"});
+            }).find(rule),
+            std::string::npos);
+}
+
 TEST_F(OutputFolder, IsRefusedToAnotherCase) {
   EXPECT_EQ(claim("tube"), "no error");
   EXPECT_EQ(claim("aorta"),

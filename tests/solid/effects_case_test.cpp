@@ -180,6 +180,13 @@ TEST(EffectsOfACase, MistakesAreNamedWithTheirLine) {
   EXPECT_NE(error("{type: stiffening, cubic: -1}").find("must not be negative"), std::string::npos);
   EXPECT_NE(error("{type: expression, normal: -k*un}").find("case.yaml:13: solid.effects.e"), std::string::npos);
   EXPECT_NE(error("{type: expression}").find("needs 'normal'"), std::string::npos);
+  for (const std::string& formula :
+       {std::string(60'000, '-') + "un", std::string(60'000, 'k'), "k=" + std::string(60'000, '3'),
+        "1,2" + std::string(60'000, '0'), "1/0" + std::string(60'000, ' ')}) {
+    const std::string said = error("{type: expression, normal: \"" + formula + "\"}");
+    EXPECT_TRUE(said.find("case.yaml:13: solid.effects.e: \"") != std::string::npos && said.size() < 500)
+        << said.substr(0, 2000);
+  }
   EXPECT_NE(error("{type: fibres, region: inlet_ring}").find("not in a ring"), std::string::npos);
   EXPECT_NE(error("{type: traction}").find("period"), std::string::npos);
   EXPECT_NE(
