@@ -10,6 +10,7 @@
 #include "common/io/record_file.hpp"
 #include "identification_master/checkpoint.hpp"
 #include "identification_master/identifiability.hpp"
+#include "identification_master/identified_case.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/sensitivity_tables.hpp"
 
@@ -104,7 +105,7 @@ EstimateCost cost_of(const IdentificationFacts& facts, Eigen::Index parameters) 
 }  // namespace
 
 void remove_old_estimates(const std::filesystem::path& output) {
-  for (const char* name : {"estimate.json", "estimate.csv", "identified.yaml", "plots/estimate.png",
+  for (const char* name : {"estimate.json", "estimate.csv", identified_case, "plots/estimate.png",
                            SensitivityTables::by_region, SensitivityTables::by_datum})
     std::filesystem::remove(output / name);
   remove_identification_checkpoints(output);

@@ -126,7 +126,9 @@ class Job {
     }
     save();
     if (plan_.corrects)
-      write_identified_case(output_ / "identified.yaml", given_.file, parameters_, filter_.last().mean);
+      make_to_go_on_with(output_, identified_case, [this](const fs::path& file) {
+        write_identified_case(file, given_.file, parameters_, filter_.last().mean);
+      });
     const std::vector<std::string> notices = notices_of(filter_.state());
     write_estimate(output_ / "estimate.json", parameters_, filter_, facts(notices));
     if (!command_.quiet)

@@ -1,6 +1,8 @@
 #include <fstream>
+#include <functional>
 #include <iostream>
 
+#include "common/base/write_error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/io/vtp_writer.hpp"
@@ -28,10 +30,11 @@ std::vector<Points> crosses(const std::vector<Vec3>& places) {
   return lines;
 }
 
-void write_tree(const fs::path& folder, const CentrelineTree& tree) {
+/// A table, and lines to look at.
+void write_tree(const fs::path& table_file, const fs::path& lines_file, const CentrelineTree& tree) {
   std::vector<Points> lines;
   std::vector<double> radii;
-  std::ofstream table(folder / "centreline.csv");
+  std::ofstream table(table_file);
   table << "branch, parent, x [cm], y [cm], z [cm], radius [cm]\n";
   for (const Branch& branch : tree.branches) {
     Points& line = lines.emplace_back(3, static_cast<Eigen::Index>(branch.points.size()));
@@ -44,15 +47,33 @@ void write_tree(const fs::path& folder, const CentrelineTree& tree) {
     }
     radii.insert(radii.end(), branch.radii.begin(), branch.radii.end());
   }
-  write_vtp(folder / "centreline.vtp", lines, "radius", radii);
-  if (!table.flush()) throw run_error("{}: cannot be written to", folder.string());
+  if (!table.flush()) throw write_error(table_file);
+  write_vtp(lines_file, lines, "radius", radii);
 }
 
-void write_surface(const fs::path& folder, const BuiltSurface& built) {
-  for (const char* old : {"surface.vtp", "surface.json", "centreline.vtp", "centreline.csv"}) fs::remove(folder / old);
-  write_vtp(folder / "surface.vtp", built.surface.points, built.surface.triangles, built.surface.label);
-  write_tree(folder, built.tree);
-  write_record(folder / "surface.json", built.summary);
+/// What a study's surface and model are, in the order in which new ones take the places of old ones.
+std::vector<fs::path> names_of_results(bool has_model) {
+  std::vector<fs::path> names{"surface.vtp", "centreline.vtp", "centreline.csv", "surface.json"};
+  if (!has_model) return names;
+  for (const char* name : model_files) names.push_back(fs::path("model") / name);
+  return names;
+}
+
+void write_surface(const NewResults& results, const BuiltSurface& built) {
+  write_vtp(results.beside("surface.vtp"), built.surface.points, built.surface.triangles, built.surface.label);
+  write_tree(results.beside("centreline.csv"), results.beside("centreline.vtp"), built.tree);
+  write_record(results.beside("surface.json"), built.summary);
+}
+
+/// What `write` writes is beside what is there, which stays if the disk does not take it.
+void write_beside(const fs::path& folder, const std::function<void()>& write) {
+  const bool has_old = fs::exists(folder / "surface.json");
+  try {
+    write();
+  } catch (const RunError& error) {
+    throw run_error("{}{}", error.what(),
+                    has_old ? "; the surface and the model that were there are as they were" : "");
+  }
 }
 
 void draw(const fs::path& folder, const std::string& name) {
@@ -90,8 +111,12 @@ VesselModel model_of(const BuiltSurface& built, const VolumeCase& asked, const U
 
 Made<SurfaceSummary> build_model(const CommandLine& command) {
   const StudyCase study = read_study(command.case_file);
-  const MadeOfFile made{"build-model", study.name, {}, {"model/case.yaml", "model/flow.csv"}, "model/quality.json"};
-  const fs::path folder = claim_for_made(command, made);
+  const MadeOfFile made{"build-model",
+                        study.name,
+                        {},
+                        {"model/case.yaml", "model/flow.csv", "model/centreline.csv"},
+                        "model/quality.json"};
+  const fs::path folder = hold_for_made(command, made);
   const fs::path places = folder / "places.vtp";
   fs::remove(places);
   const auto say = [&](const std::string& what) {
@@ -99,7 +124,8 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
   };
   const auto keep = [&](const std::string& step, const RawSurface& surface) {
     say(fmt::format("{}: {} triangles", step, surface.triangles.size()));
-    write_vtp(folder / (step + ".vtp"), surface.points, surface.triangles, surface.face_id);
+    write_beside(folder,
+                 [&] { write_vtp(folder / (step + ".vtp"), surface.points, surface.triangles, surface.face_id); });
   };
   try {
     BuiltSurface built = build_surface(study, keep, [&](const ImageVolume& image, const RawSurface& lumen) {
@@ -112,19 +138,29 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
       say("The surface is ready: tetrahedra, wall and regions");
       model = model_of(built, *study.model, units, command.case_file, places);
     }
+    const NewResults results(folder, names_of_results(model.has_value()));
+    write_beside(folder, [&] {
+      write_surface(results, built);
+      if (model) {
+        make_folder(results.beside("model"));
+        write_model(results.beside("model"), study.name + "_model", *model, built.tree, *study.model, units);
+      }
+      mark_made(folder, made.verb, command.case_file);
+      results.note(made.to_go_on_with);
+    });
     // nothing speaks against new results any more
-    if (!model) remove_model(folder / "model");  // it was of another surface
-    write_surface(folder, built);
+    if (model)
+      fs::remove(folder / "model/case.yaml");  // it comes last: where it is, the model is whole
+    else
+      remove_model(folder / "model");  // it was of another surface
+    results.put_in_place();
     for (const char* picture : {"1_read", "2_repaired", "3_opened", "4_closed", "surface"}) draw(folder, picture);
     std::string told =
         text_of(built.summary) + "In " + folder.string() + ": surface.vtp, centreline.vtp, surface.json, pictures\n";
-    if (model) {
-      write_model(folder / "model", study.name + "_model", *model, built.tree, *study.model, units);
-      note_just_made(folder, made.to_go_on_with);
+    if (model)
       told += model_text(model->quality) +
               fmt::format("In {0}: meshes, quality.json, case.yaml: tether simulate {0}/case.yaml\n",
                           (folder / "model").string());
-    }
     return {std::move(built.summary), std::move(told)};
   } catch (const PlacedError& error) {
     write_vtp(places, crosses(error.places));

@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *suggested_case = "suggested.yaml", *corrected_case = "corrected.yaml";
+
 /// The case and its coarser one with all candidates, and what makes their runs.
 class CandidateModels {
  public:
@@ -139,8 +141,11 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   };
   DiagnosisReport report = diagnose(given, effects, {runs, coarse.get(), refined.all(), extend}, settings);
   given.inputs.check();
-  if (write_corrected(output / "corrected.yaml", given, report)) report.corrected = "corrected.yaml";
-  if (write_suggested(output / "suggested.yaml", given, report)) report.suggested = "suggested.yaml";
+  const auto is_made = [&](const char* name, auto write) {
+    return make_to_go_on_with(output, name, [&](const fs::path& file) { write(file, given, report); });
+  };
+  if (is_made(corrected_case, write_corrected)) report.corrected = corrected_case;
+  if (is_made(suggested_case, write_suggested)) report.suggested = suggested_case;
   Diagnosis diagnosis = diagnosis_of(report);
   diagnosis.data = data_hashes(command.case_file);
   write_record(output / "diagnosis.json", diagnosis);
@@ -161,6 +166,7 @@ Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSett
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
+  if (!command.overwrite) check_unchanged(output, "diagnose", {suggested_case, corrected_case});
   std::vector<std::string> pictures;
   Diagnosis diagnosis = diagnosed(given, command, output, settings, pictures);
   std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 
 #include "common/base/error.hpp"
 #include "common/base/interruption.hpp"
@@ -69,6 +70,16 @@ std::string text_of(const Explanation& explanation, double millimetres, const fs
   return text;
 }
 
+/// model_0.yaml, ...: the last one is to go on with.
+std::vector<fs::path> models_in(const fs::path& output) {
+  const std::regex model("model_[0-9]+\\.yaml");
+  std::vector<fs::path> models;
+  for (const auto& entry : fs::directory_iterator(output))
+    if (std::regex_match(entry.path().filename().string(), model)) models.push_back(entry.path().filename());
+  std::sort(models.begin(), models.end());
+  return models;
+}
+
 /// Takes an earlier explanation away, unless this one would be refused: its diagnoses come late.
 void replace_old(const DiagnosedCase& given, const CommandLine& command, const fs::path& output) {
   const std::array<fs::path, 2> old{output / "explain.json", output / "report.html"};
@@ -87,6 +98,7 @@ Made<Explanation> explain(const CommandLine& command) {
   CommandLine own = command;
   if (own.output.empty()) own.output = fs::path("out") / (given.file.common().name + "_explain");
   const fs::path output = fs::absolute(claim_output(own, given.file));
+  if (!own.overwrite) check_unchanged(output, "explain", models_in(output));
   replace_old(given, own, output);
   mark_output(output, command.case_file);
   Verbs verbs(own);

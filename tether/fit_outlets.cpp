@@ -29,8 +29,8 @@ Made<FittedOutlets> fit_outlets(const CommandLine& command) {
   write_beat(results.beside("outlets.csv"), fit);
   if (fit.overlay) write_overlay(results.beside("case.yaml"), *fit.overlay);
   mark_made(folder, made.verb, command.case_file);  // nothing speaks against new results any more
+  results.note(made.to_go_on_with);
   results.put_in_place();
-  if (fit.overlay) note_just_made(folder, made.to_go_on_with);
   std::string told = text_of(fit.result) + fmt::format("In {}: outlets.json, outlets.csv", folder.string());
   if (draw_outlets(folder, fit)) told += ", plots/outlets.png";
   if (fit.overlay) told += fmt::format(", case.yaml: tether simulate {}", (folder / "case.yaml").string());

@@ -17,30 +17,33 @@ NewResults::~NewResults() {
 }
 
 fs::path NewResults::beside(const fs::path& name) const {
-  return folder_ / name.parent_path() / (".new_" + name.filename().string());
+  auto part = name.begin();
+  fs::path place = folder_ / (".new_" + part->string());
+  while (++part != name.end()) place /= *part;
+  return place;
+}
+
+void NewResults::note(const std::vector<fs::path>& to_go_on_with) const {
+  std::vector<ComingFile> coming;
+  for (const fs::path& name : to_go_on_with)
+    if (fs::exists(beside(name))) coming.push_back({name, beside(name)});
+  if (!coming.empty()) note_coming(folder_, coming);
 }
 
 void NewResults::put_in_place() const {
-  for (const fs::path& name : names_)
-    if (fs::exists(beside(name)))
-      ::tether::put_in_place(beside(name), folder_ / name);
-    else
+  for (const fs::path& name : names_) {
+    if (!fs::exists(beside(name))) {
       fs::remove(folder_ / name);
+      continue;
+    }
+    fs::create_directories((folder_ / name).parent_path());
+    ::tether::put_in_place(beside(name), folder_ / name);
+  }
 }
 
 void NewResults::remove() const {
   std::error_code none;
-  for (const fs::path& name : names_) fs::remove(beside(name), none);
-}
-
-void note_just_made(const fs::path& folder, const std::vector<fs::path>& files) {
-  try {
-    note_made(folder, files);
-  } catch (...) {
-    std::error_code none;
-    for (const fs::path& file : files) fs::remove(folder / file, none);
-    throw;
-  }
+  for (const fs::path& name : names_) fs::remove_all(beside(*name.begin()), none);
 }
 
 }  // namespace tether

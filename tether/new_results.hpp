@@ -14,8 +14,10 @@ class NewResults {
   NewResults(const NewResults&) = delete;
   NewResults& operator=(const NewResults&) = delete;
 
-  /// Where the new one of this name is to be written.
+  /// Where the new one of this name, or folder of such, is to be written: "model/case.yaml" in ".new_model".
   std::filesystem::path beside(const std::filesystem::path& name) const;
+  /// Notes what new files to go on with will hold (note_coming); before the old ones go.
+  void note(const std::vector<std::filesystem::path>& to_go_on_with) const;
   /// Of a name that is not written anew the old one goes.
   void put_in_place() const;
 
@@ -25,9 +27,5 @@ class NewResults {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> names_;
 };
-
-/// note_made of files to go on with that were just made. Where that cannot be they go, lest they be taken for a
-/// person's: the same command makes them again.
-void note_just_made(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files);
 
 }  // namespace tether

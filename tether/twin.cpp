@@ -11,7 +11,6 @@
 #include "common/io/vtp_writer.hpp"
 #include "diagnosis/comparison/finished_run.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
-#include "tether/new_results.hpp"
 #include "tether/verbs.hpp"
 #include "twin/answer.hpp"
 #include "twin/twin_data.hpp"
@@ -57,13 +56,30 @@ struct Truth {
   CsvTable series;
 };
 
-/// Held; what is in it is as it was.
+/// What has the names of a twin's frames.
+std::vector<fs::path> frames_in(const fs::path& folder) {
+  const std::regex frame("lumen_[0-9]+\\.vtp");
+  std::vector<fs::path> frames;
+  if (!fs::exists(folder / "data")) return frames;
+  for (const auto& entry : fs::directory_iterator(folder / "data"))
+    if (std::regex_match(entry.path().filename().string(), frame)) frames.push_back("data" / entry.path().filename());
+  return frames;
+}
+
+/// Held; what is in it is as it was. Data are measurements for whoever changes them: they are kept as a case is.
 fs::path hold_folder_of(const CommandLine& command, const CaseWithTwin& given) {
-  const fs::path folder = hold_for_made(
-      command, {twin_verb, given.file.common().name + "_twin", {given.twin.truth}, {case_name}, sealed_answer({})});
-  for (const char* made : {"data", "sealed"})
-    if (fs::exists(folder / made) && !fs::is_directory(folder / made))
-      throw input_error("{}: is not a folder", (folder / made).string());
+  MadeOfFile made{twin_verb,
+                  given.file.common().name + "_twin",
+                  {given.twin.truth},
+                  {case_name, "data/lumen.csv"},
+                  sealed_answer({})};
+  for (const auto& [name, trace] : given.twin.traces) made.to_go_on_with.push_back("data/" + name + ".csv");
+  const fs::path folder = hold_for_made(command, made);
+  for (const char* part : {"data", "sealed"})
+    if (fs::exists(folder / part) && !fs::is_directory(folder / part))
+      throw input_error("{}: is not a folder", (folder / part).string());
+  made.to_go_on_with = frames_in(folder);
+  check_keeps_work(folder, made, command.overwrite);
   return folder;
 }
 
@@ -71,11 +87,7 @@ fs::path hold_folder_of(const CommandLine& command, const CaseWithTwin& given) {
 void remove_twin(const fs::path& folder) {
   for (const fs::path& old : {folder / case_name, sealed_answer(folder), folder / "data/lumen.csv"}) fs::remove(old);
   fs::create_directories(folder / "data");
-  const std::regex frame("lumen_[0-9]+\\.vtp");
-  std::vector<fs::path> frames;
-  for (const auto& entry : fs::directory_iterator(folder / "data"))
-    if (std::regex_match(entry.path().filename().string(), frame)) frames.push_back(entry.path());
-  for (const fs::path& old : frames) fs::remove(old);
+  for (const fs::path& old : frames_in(folder)) fs::remove(folder / old);
 }
 
 /// What a twin consists of, written beside the one that is there: that one stays if this one cannot be made.
@@ -92,6 +104,13 @@ class NewTwin {
   fs::path data() const { return folder_ / ".new_twin"; }
   fs::path answer() const { return folder_ / ".new_twin.json"; }
   fs::path case_file() const { return folder_ / ".new_twin.yaml"; }
+  /// Before the one that is there goes.
+  void note() const {
+    std::vector<ComingFile> coming{{case_name, case_file()}};
+    for (const auto& entry : fs::directory_iterator(data()))
+      coming.push_back({"data" / entry.path().filename(), entry.path()});
+    note_coming(folder_, coming);
+  }
   /// The case last: where it is, the twin is whole.
   void put_in_place() const {
     for (const auto& entry : fs::directory_iterator(data()))
@@ -246,9 +265,9 @@ Made<std::filesystem::path> make_twin(const CommandLine& command) {
   const NewTwin beside(folder);
   write(beside, made, given, truth);
   mark_made(folder, twin_verb, command.case_file);
+  beside.note();
   remove_twin(folder);
   beside.put_in_place();
-  note_just_made(folder, {case_name});
   return {folder / "case.yaml", where_frames_are(folder, made.frames, given.file.units())};
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 
+#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/whole_file.hpp"
@@ -103,32 +104,46 @@ void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb
   if (is_empty_but_for_lock(folder)) write_mark(folder, mark);
 }
 
-/// A line of a mark behind its first: a file that was made for a person to go on with, and what it held then.
-std::string note_of(const fs::path& folder, const fs::path& file) {
-  return fmt::format("{:016x} {}", hash_content(folder / file), file.string());
+constexpr const char* mark_of_results = "results";  ///< first line where only files of a case's results are noted
+
+/// A line of a mark behind its first: a file that was made for a person to go on with, and what it held then; after a
+/// kill also what it was about to hold.
+struct Note {
+  std::string content;
+  fs::path file;
+
+  std::string line() const { return content + " " + file.string(); }
+  bool operator==(const Note&) const = default;
+};
+
+/// Of the file alone, not of those that it names: they are put in place one by one.
+Note note_of(const fs::path& file, const fs::path& written) {
+  std::ifstream from(written, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(from), {});
+  return {fmt::format("{:016x}", hash_bytes(bytes.data(), bytes.size())), file};
+}
+
+std::vector<Note> notes_in(const fs::path& folder) {
+  std::vector<Note> notes;
+  std::ifstream mark(folder / made_by);
+  std::string line;
+  for (std::getline(mark, line); std::getline(mark, line);)
+    if (const auto end = line.find(' '); end != std::string::npos)
+      notes.push_back({line.substr(0, end), line.substr(end + 1)});
+  return notes;
+}
+
+bool has(const std::vector<Note>& notes, const Note& note) {
+  return std::find(notes.begin(), notes.end(), note) != notes.end();
 }
 
 bool is_as_noted(const fs::path& folder, const std::string& verb, const fs::path& file) {
-  if (!first_line_of(folder / made_by).starts_with(verb + " ")) return false;
-  const std::string note = note_of(folder, file);
-  std::ifstream mark(folder / made_by);
-  for (std::string line; std::getline(mark, line);)
-    if (line == note) return true;
-  return false;
+  return first_line_of(folder / made_by).starts_with(verb + " ") && has(notes_in(folder), note_of(file, folder / file));
 }
 
-/// A case has a common name: one of the person's own is not replaced, nor what the person made of one.
-void check_is_nobodys(const fs::path& folder, const MadeOfFile& made, bool overwrite) {
-  for (const fs::path& file : made.to_go_on_with) {
-    if (!fs::exists(folder / file) || is_as_noted(folder, made.verb, file)) continue;
-    if (!fs::exists(folder / made.before_these))
-      throw input_error("{}: is not what tether {} made, and would be replaced; choose another folder with --output",
-                        (folder / file).string(), made.verb);
-    if (!overwrite)
-      throw input_error(
-          "{}: is not as tether {} made it, and would be replaced; keep it elsewhere, or give --overwrite",
-          (folder / file).string(), made.verb);
-  }
+[[noreturn]] void refuse_changed(const fs::path& file, const std::string& verb) {
+  throw input_error("{}: is not as tether {} made it, and would be replaced; keep it elsewhere, or give --overwrite",
+                    file.string(), verb);
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -218,7 +233,7 @@ fs::path hold_for_made(const CommandLine& command, const MadeOfFile& made) {
     for (const fs::path& file : made.also) check_keeps_inputs(folder, file);
   };
   hold_marked(folder, command.overwrite, made.verb, {command.case_file}, keeps_inputs,
-              [&] { check_is_nobodys(folder, made, command.overwrite); });
+              [&] { check_keeps_work(folder, made, command.overwrite); });
   return folder;
 }
 
@@ -227,11 +242,59 @@ void mark_made(const fs::path& folder, const std::string& verb, const fs::path& 
   if (first_line_of(folder / made_by) != mark) write_mark(folder, mark);
 }
 
-void note_made(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
+/// A case has a common name: one of the person's own is not replaced, nor what the person made of one.
+void check_keeps_work(const fs::path& folder, const MadeOfFile& made, bool overwrite) {
+  for (const fs::path& file : made.to_go_on_with) {
+    if (!fs::exists(folder / file) || is_as_noted(folder, made.verb, file)) continue;
+    if (!fs::exists(folder / made.before_these))
+      throw input_error("{}: is not what tether {} made, and would be replaced; choose another folder with --output",
+                        (folder / file).string(), made.verb);
+    if (!overwrite) refuse_changed(folder / file, made.verb);
+  }
+}
+
+void note_coming(const fs::path& folder, const std::vector<ComingFile>& coming) {
+  const std::vector<Note> before = notes_in(folder);
+  std::vector<Note> notes;
+  for (const Note& note : before) {
+    const bool is_coming =
+        std::any_of(coming.begin(), coming.end(), [&](const ComingFile& one) { return one.name == note.file; });
+    const bool stays = fs::exists(folder / note.file) && (!is_coming || note == note_of(note.file, folder / note.file));
+    if (stays) notes.push_back(note);
+  }
+  for (const auto& [name, written] : coming)
+    if (const Note note = note_of(name, written); !has(notes, note)) notes.push_back(note);
+  if (notes == before) return;
   std::string mark = first_line_of(folder / made_by);
-  for (const fs::path& file : to_go_on_with)
-    if (fs::exists(folder / file)) mark += "\n" + note_of(folder, file);
+  if (mark.empty()) mark = mark_of_results;
+  for (const Note& note : notes) mark += "\n" + note.line();
   write_mark(folder, mark);
+}
+
+bool make_to_go_on_with(const fs::path& folder, const fs::path& name,
+                        const std::function<void(const fs::path&)>& write) {
+  const fs::path beside = folder / (".new_" + name.string());
+  std::error_code none;
+  fs::remove(beside, none);
+  try {
+    write(beside);
+    if (!fs::exists(beside)) return false;
+    note_coming(folder, {{name, beside}});
+    put_in_place(beside, folder / name);
+    return true;
+  } catch (...) {
+    fs::remove(beside, none);
+    throw;
+  }
+}
+
+void check_unchanged(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& to_go_on_with) {
+  const std::vector<Note> notes = notes_in(folder);
+  for (const fs::path& file : to_go_on_with) {
+    const bool is_noted = std::any_of(notes.begin(), notes.end(), [&](const Note& note) { return note.file == file; });
+    if (is_noted && fs::exists(folder / file) && !has(notes, note_of(file, folder / file)))
+      refuse_changed(folder / file, verb);
+  }
 }
 
 fs::path claim_for_made(const CommandLine& command, const MadeOfFile& made) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <set>
 
 #include "common/config/case_file.hpp"
@@ -52,8 +53,27 @@ std::filesystem::path claim_for_made(const CommandLine& command, const MadeOfFil
 std::filesystem::path hold_for_made(const CommandLine& command, const MadeOfFile& made);
 void mark_made(const std::filesystem::path& folder, const std::string& verb, const std::filesystem::path& file);
 
-/// Notes what the files to go on with hold, when they are made.
-void note_made(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& to_go_on_with);
+/// Throws InputError as claim_for_made does for files to go on with: for those that are known only when it is held.
+void check_keeps_work(const std::filesystem::path& folder, const MadeOfFile& made, bool overwrite);
+
+/// A file to go on with, and where what it will hold is written.
+struct ComingFile {
+  std::filesystem::path name, written;
+};
+
+/// Notes what these files will hold, beside what they hold now if a verb made that, before the new ones take their
+/// places: whenever the process ends, the same command finds what it knows. Of other files the notes stay.
+void note_coming(const std::filesystem::path& folder, const std::vector<ComingFile>& coming);
+
+/// Makes a file to go on with in a folder of results: beside its place by `write`, noted, then put there. False if
+/// `write` wrote none: what is there stays.
+bool make_to_go_on_with(const std::filesystem::path& folder, const std::filesystem::path& name,
+                        const std::function<void(const std::filesystem::path&)>& write);
+
+/// Throws InputError if one of these files of a folder of results was made by make_to_go_on_with and changed since. One
+/// that nothing is noted of, of an earlier version, is taken for unchanged: a continuation must not stop at it.
+void check_unchanged(const std::filesystem::path& folder, const std::string& verb,
+                     const std::vector<std::filesystem::path>& to_go_on_with);
 
 /// The same as claim_for_made for what a verb makes of files none of which is a case, in this order.
 std::filesystem::path claim_for_made(const std::filesystem::path& folder, bool overwrite, const std::string& verb,

@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/named_path.hpp"
+#include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/comparison/finished_run.hpp"
 #include "diagnosis/evidence/stored_run.hpp"
@@ -102,10 +103,20 @@ class Explainer {
   PathModel& best() { return path_.models[path_.best]; }
   fs::path case_of(const std::string& name) const { return output_ / (name + ".yaml"); }
 
-  void write_case(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
+  Overlay overlay(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
     const CommonCase& common = given_.file.common();
     const std::string& of = common.title.empty() ? common.name : common.title;
-    write_overlay(case_of(name), {given_.file.path(), common.name + "_" + name, of + title, values});
+    return {given_.file.path(), common.name + "_" + name, of + title, values};
+  }
+  void write_case(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
+    write_overlay(case_of(name), overlay(name, title, values));
+  }
+  /// A person may go on with it.
+  void write_model(const PathModel& model) const {
+    const std::string name = model.folder();
+    make_to_go_on_with(output_, name + ".yaml", [&](const fs::path& file) {
+      write_overlay(file, overlay(name, ", " + model.told.name, model.values));
+    });
   }
 
   ExplanationTask task(const std::string& name, const std::string& folder, bool was_begun = false) const {
@@ -128,7 +139,7 @@ class Explainer {
   }
 
   void simulate_and_compare(const PathModel& model) {
-    write_case(model.folder(), ", " + model.told.name, model.values);
+    write_model(model);
     const fs::path compared = output_ / model.folder() / "comparison.json";
     if (fs::exists(compared) && damage_of(output_ / model.folder())) fs::remove(compared);  // the step is made again
     steps_.make(fmt::format("model {}, {}: against the data", model.told.number, model.told.name),

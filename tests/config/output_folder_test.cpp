@@ -273,7 +273,7 @@ TEST_F(MadeFolder, KeepsAFileToGoOnWithThatWasChanged) {
         << "what is made before it is not there";
   write_file("made/quality.json", "{}");
   write_file("made/case.yaml", "as made");
-  note_made(test_folder() / "made", {"case.yaml"});
+  note_coming(test_folder() / "made", {{"case.yaml", test_folder() / "made/case.yaml"}});
   EXPECT_EQ(claim("made"), "no error");
   EXPECT_EQ(claim("made"), "no error") << "the note is still there";
   write_file("made/case.yaml", "as a person wants it");
@@ -285,6 +285,49 @@ TEST_F(MadeFolder, KeepsAFileToGoOnWithThatWasChanged) {
   write_file("made/case.yaml", "as made");
   EXPECT_TRUE(claim("made", true, "fit-outlets").starts_with("made/case.yaml: is not what tether fit-outlets made, "))
       << "but what another verb made";
+}
+
+/// Whenever a verb is killed, its own command finds what it knows: what was there, or what was about to be.
+TEST_F(MadeFolder, KnowsWhatIsAboutToStandInIt) {
+  EXPECT_EQ(claim("made"), "no error");
+  const std::filesystem::path made = test_folder() / "made";
+  write_file("made/quality.json", "{}"), write_file("made/.new_case.yaml", "first");
+  note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+  EXPECT_EQ(claim("made"), "no error") << "not there yet";
+  std::filesystem::rename(made / ".new_case.yaml", made / "case.yaml");
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("made/.new_case.yaml", "second");
+  note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+  EXPECT_EQ(claim("made"), "no error") << "still the first one";
+  std::filesystem::rename(made / ".new_case.yaml", made / "case.yaml");
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("made/case.yaml", "mine"), write_file("made/.new_case.yaml", "third");
+  note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+  EXPECT_NE(claim("made"), "no error") << "what a person made is not taken for the verb's";
+}
+
+/// Of a folder of results: several verbs leave theirs there.
+TEST_F(MadeFolder, OfResultsKeepsAFileToGoOnWithThatWasChanged) {
+  const std::filesystem::path run = test_folder() / "run";
+  std::filesystem::create_directories(run);
+  const auto make = [&](const char* name, const std::string& text) {
+    return make_to_go_on_with(run, name, [&](const std::filesystem::path& file) { std::ofstream(file) << text; });
+  };
+  const auto checked = [&] { return input_error_of([&] { check_unchanged(run, "diagnose", {"suggested.yaml"}); }); };
+  write_file("run/suggested.yaml", "of an earlier version");
+  EXPECT_EQ(checked(), "no error");
+  EXPECT_TRUE(make("suggested.yaml", "made"));
+  EXPECT_EQ(checked(), "no error");
+  write_file("run/suggested.yaml", "mine");
+  EXPECT_TRUE(make("identified.yaml", "another verb's"));
+  EXPECT_EQ(checked(),
+            "run/suggested.yaml: is not as tether diagnose made it, and would be replaced; keep it elsewhere, or give "
+            "--overwrite");
+  EXPECT_FALSE(make_to_go_on_with(run, "suggested.yaml", [](const std::filesystem::path&) {}));
+  std::ifstream kept(run / "suggested.yaml");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "mine") << "where nothing is suggested";
+  EXPECT_TRUE(make("suggested.yaml", "made anew"));
+  EXPECT_EQ(checked(), "no error");
 }
 
 /// A folder of surfaces is read as a file is.

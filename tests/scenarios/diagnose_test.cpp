@@ -101,6 +101,13 @@ TEST_F(Diagnose, FindsTheHiddenSupport) {
   const Json kept = again();
   EXPECT_EQ(kept["verdict"], "missing");
   EXPECT_EQ(kept["cost"]["runs_made"], 0) << "all runs are there";
+  const std::string made = content_of(output() / "suggested.yaml");
+  std::ofstream(output() / "suggested.yaml", std::ios::app) << "# mine\n";
+  const ChildEnd refused = tether({"diagnose", (folder / "twin/case.yaml").string(), "--output", output().string()});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("suggested.yaml: is not as tether diagnose made it"), std::string::npos)
+      << refused.errors;
+  std::ofstream(output() / "suggested.yaml") << made;
 
   make_twin("held", spring, "tissue_mass, contact", 0.1);
   const Json alike = again();  // until 0.12 s the wall moves outward only, where a contact is a spring

@@ -122,6 +122,16 @@ TEST_F(Identify, FindsWhatTheDataWereMadeWith) {
   const ChildEnd again = tether("simulate", folder / "one/identified.yaml", "identified", {});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
 
+  fs::copy(folder / "one", folder / "changed", fs::copy_options::recursive);
+  std::ofstream(folder / "changed/identified.yaml", std::ios::app) << "# mine\n";
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--resume"}}) {
+    const ChildEnd refused = tether("identify", case_file, "changed", more);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.errors.find("changed/identified.yaml: is not as tether identify made it"), std::string::npos)
+        << refused.errors;
+    EXPECT_TRUE(fs::exists(folder / "changed/estimate.json"));
+  }
+
   ASSERT_EQ(tether("identify", case_file, "three", {"--processes", "3"}).exit_code, 0);
   EXPECT_EQ(estimate("three")["cost"]["groups"], 3);
   expect_same("one", "three");

@@ -203,6 +203,32 @@ TEST_F(Twin, ReplacesNothingThatItDidNotMake) {
             std::string::npos);
 }
 
+/// Its data are measurements for whoever changes them.
+TEST_F(Twin, KeepsDataThatAPersonMadeOrChanged) {
+  const std::string section =
+      std::string(exact) + nothing +
+      "  traces: {p: {observable: fluid.outlet.pressure, quantity: pressure, interval: 4 ms, noise: {deviation: 2 "
+      "mmHg}}}\n";
+  const fs::path twin = made("same", section).parent_path();
+  const auto again = [&](const char* option) {
+    return tether({"twin", (folder / "twin.yaml").string(), "--output", twin.string(), option});
+  };
+  for (const char* name : {"data/lumen.csv", "data/p.csv", "data/lumen_01.vtp", "data/lumen_77.vtp"}) {
+    const std::string before = fs::exists(twin / name) ? content_of(twin / name) : "";
+    std::ofstream(twin / name) << "mine";
+    const ChildEnd refused = again("--quiet");
+    EXPECT_EQ(refused.exit_code, 2) << name;
+    EXPECT_EQ(refused.errors, (twin / name).string() +
+                                  ": is not as tether twin made it, and would be replaced; keep it elsewhere, or give "
+                                  "--overwrite\n");
+    EXPECT_EQ(content_of(twin / name), "mine");
+    const ChildEnd replaced = again("--overwrite");
+    EXPECT_EQ(replaced.exit_code, 0) << replaced.errors;
+    EXPECT_TRUE(before.empty() ? !fs::exists(twin / name) : content_of(twin / name) == before) << name;
+  }
+  EXPECT_EQ(again("--quiet").exit_code, 0);
+}
+
 TEST_F(Twin, TellsWhatIsWrong) {
   const auto error_of = [&](const std::string& section) {
     const fs::path file = folder.file("wrong.yaml", "base: model.yaml\nname: wrong\n" + section);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -115,6 +116,14 @@ TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
   EXPECT_TRUE(fs::exists(folder / "out/data/lumen_03.vtp"));
   EXPECT_EQ(twin(5, "tether:write:.made_by:1:ENOSPC").exit_code, 1);
   EXPECT_EQ(twin(5, "none:write:none:1:ENOSPC").exit_code, 0) << "its case was nobody's";
+  int frames = 5;
+  for (const char* moment : {"write:.made_by", "rename:.made_by", "rename:lumen_00.vtp", "rename:lumen_03.vtp",
+                             "rename:lumen.csv", "rename:sealed/answer", "rename:case.yaml"}) {
+    frames = 9 - frames;
+    EXPECT_EQ(twin(frames, fmt::format("tether:{}:1:KILL", moment)).exit_code, 128 + SIGKILL) << moment;
+    const ChildEnd again = twin(frames, "none:write:none:1:ENOSPC");
+    EXPECT_EQ(again.exit_code, 0) << moment << ": " << again.errors;
+  }
 }
 
 /// What a verb makes of a file, which stays until all of it is made anew.
@@ -157,6 +166,46 @@ TEST_F(UnwritableMade, OutletsStayAndTheirCaseIsNobodys) {
   const ChildEnd again = made("fit-outlets", outlets(45), no_fault);
   EXPECT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_NE(held(files), before);
+}
+
+TEST_F(UnwritableMade, ASurfaceAndItsModelStay) {
+  testing::write_stl(folder_ / "tube.stl", testing::bent_tube());
+  const auto study = [&](int longest) {
+    return folder_.file("study.yaml",
+                        fmt::format("name: tube\nsurface: {{file: tube.stl, unit: cm}}\nopenings:\n"
+                                    "  in: {{near: [4, 0, 0]}}\n  out: {{near: [-2, 3.46, 0]}}\ninlet: in\n"
+                                    "edges: {{longest: {} mm}}\nmodel: {{wall: {{thickness: 1 mm}}}}\n",
+                                    longest));
+  };
+  const ChildEnd first = made("build-model", study(4), no_fault);
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const std::vector<const char*> files{"surface.vtp",          "surface.json",   "centreline.csv",
+                                       "model/quality.json",   "model/flow.csv", "model/lumen.vtu",
+                                       "model/centreline.csv", "model/case.yaml"};
+  const std::string before = held(files);
+  for (const char* fault :
+       {"tether:write:lumen_faces.vtu:1:ENOSPC", "tether:write:surface.json:1:ENOSPC", "tether:write:5_ready:1:ENOSPC",
+        "tether:write:case.yaml:1:ENOSPC", "tether:write:.made_by:1:ENOSPC"}) {
+    const ChildEnd end = made("build-model", study(3), fault);
+    EXPECT_EQ(end.exit_code, 1) << fault;
+    EXPECT_NE(end.errors.find("; the surface and the model that were there are as they were\n"), std::string::npos)
+        << end.errors;
+    EXPECT_TRUE(held(files) == before) << fault;
+    EXPECT_FALSE(fs::exists(folder_ / "out/.new_model")) << fault;
+  }
+  EXPECT_EQ(made("build-model", study(3), "tether:rename:lumen.vtu:1:KILL").exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(fs::exists(folder_ / "out/model/case.yaml")) << "of one surface, its meshes of another";
+  EXPECT_EQ(made("build-model", study(3), "tether:rename:case.yaml:1:KILL").exit_code, 128 + SIGKILL);
+  const ChildEnd again = made("build-model", study(3), no_fault);
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_FALSE(held(files) == before);
+  EXPECT_FALSE(fs::exists(folder_ / "out/.new_model"));
+
+  folder_.file("out/model/centreline.csv", "mine");
+  const ChildEnd refused = made("build-model", study(4), no_fault);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("model/centreline.csv: is not as tether build-model made it"), std::string::npos)
+      << refused.errors;
 }
 
 TEST_F(UnwritableMade, ARingStays) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 
 #include "vessel/centreline/tree.hpp"
@@ -29,6 +30,10 @@ struct VesselModel {
 /// `units`. Throws InputError with the place of what cannot be meshed.
 VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tree, const VolumeCase& study,
                         const UnitSystem& units);
+
+/// What write_model writes; the case last.
+inline constexpr std::array model_files{"quality.json",   "lumen.vtu",      "lumen_faces.vtu", "wall.vtu",
+                                        "wall_faces.vtu", "centreline.csv", "flow.csv",        "case.yaml"};
 
 /// Writes FOLDER/lumen.vtu, lumen_faces.vtu, wall.vtu (with the arrays asked_thickness and thickness), wall_faces.vtu,
 /// centreline.csv, quality.json, and case.yaml with flow.csv: a case of that name that runs (see `ready_case`). Throws

@@ -106,9 +106,9 @@ void write_model(const fs::path& folder, const std::string& name, const VesselMo
 
 void remove_model(const fs::path& folder) {
   if (!fs::exists(folder / "quality.json")) return;
-  for (const char* name : {"case.yaml", "flow.csv", "lumen.vtu", "lumen_faces.vtu", "wall.vtu", "wall_faces.vtu",
-                           "centreline.csv", "quality.json"})  // the last says whose the first are
-    fs::remove(folder / name);
+  for (auto name = model_files.rbegin(); name != model_files.rend();
+       ++name)  // the first file says whose the others are
+    fs::remove(folder / *name);
   if (fs::is_directory(folder) && fs::is_empty(folder)) fs::remove(folder);
 }
 
