@@ -1,11 +1,15 @@
 #include "batch/job_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
 #include "batch/job_status.hpp"
 #include "batch/slurm.hpp"
 #include "common/base/error.hpp"
+#include "common/base/whole_file.hpp"
+#include "common/base/write_error.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 
@@ -15,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* record_name = "job.json";
+constexpr const char* aside_name = ".job_before";  ///< no case's: no name begins with a dot
 constexpr const char* way_out = "choose another folder with --output";
 
 /// A folder without a job. Nothing is lost with one that is empty.
@@ -48,6 +53,11 @@ std::optional<Job> job_to_replace(const fs::path& folder, bool overwrite) {
 void check_replaced(const fs::path& folder, bool overwrite) {
   if (!fs::exists(folder / job_files / record_name)) return check_is_nobodys(folder);
   const std::optional<Job> job = job_to_replace(folder, overwrite);
+  if (job && is_perhaps_submitted(*job, folder)) {
+    if (overwrite) return;
+    throw input_error("{}: holds a job that was {}; scancel ends it, --output makes another, --overwrite replaces it",
+                      folder.string(), perhaps_submitted(*job, folder));
+  }
   if (!job || job->number.empty()) return;
   if (!overwrite)
     throw input_error(
@@ -69,15 +79,90 @@ void check_keeps_read(const fs::path& folder, const std::vector<JobCase>& cases,
   for (const JobCase& one : cases) check_keeps_inputs(folder / one.name, one.case_file);
 }
 
-void begin_job(const fs::path& folder, const Job& job) {
+namespace {
+
+/// Whether the new job was given to sbatch, or may have been.
+bool is_in_its_place(const fs::path& folder) {
   const fs::path files = folder / job_files;
-  fs::create_directories(files);
-  write_record(files / record_name, job);
-  std::vector<fs::path> old{folder / results_table};
-  for (const auto& entry : fs::directory_iterator(files))
-    if (entry.path().filename() != record_name) old.push_back(entry.path());
-  for (const fs::path& one : old) fs::remove_all(one);
-  fs::create_directories(files / "ended");
+  if (!fs::exists(files / record_name)) return false;
+  try {
+    return fs::exists(files / submission_begun) || !read_job(folder).number.empty();
+  } catch (const InputError&) {  // damaged since
+    return true;
+  }
+}
+
+}  // namespace
+
+void put_back_job(const fs::path& folder) {
+  const fs::path aside = folder / aside_name, files = folder / job_files;
+  if (!fs::exists(aside / job_files) || is_in_its_place(folder)) return;
+  fs::remove_all(files);
+  for (const char* name : {job_files, results_table})
+    if (fs::exists(aside / name)) put_in_place(aside / name, folder / name);
+  fs::remove_all(aside);
+}
+
+NewJob::NewJob(fs::path folder, const Job& job) : folder_(std::move(folder)) {
+  const fs::path aside = folder_ / aside_name, files = folder_ / job_files;
+  fs::remove_all(aside);  // of one that was replaced
+  has_old_ = fs::exists(files / record_name);
+  if (has_old_) {
+    make_folder(aside);
+    if (fs::exists(folder_ / results_table)) put_in_place(folder_ / results_table, aside / results_table);
+    put_in_place(files, aside / job_files);
+  }
+  try {
+    fs::create_directories(files / "ended");
+    write_record(files / record_name, job);
+  } catch (...) {
+    put_back_job(folder_);
+    throw;
+  }
+}
+
+NewJob::~NewJob() {
+  if (is_kept_ || !has_old_) return;
+  std::error_code none;
+  fs::remove(folder_ / job_files / record_name, none);
+  try {
+    put_back_job(folder_);
+  } catch (const std::exception& error) {  // the next submission tries again
+    fmt::print(stderr, "{}: the job that was there is in {}: {}\n", folder_.string(), aside_name, error.what());
+  }
+}
+
+void NewJob::keep() {
+  is_kept_ = true;
+  std::error_code none;
+  fs::remove_all(folder_ / aside_name, none);
+}
+
+std::string NewJob::submit(const fs::path& script) {
+  const fs::path mark = folder_ / job_files / submission_begun;
+  write_whole(mark, "sbatch was asked, and its answer is not recorded\n");
+  try {
+    std::string number = slurm::submit(script);
+    keep();
+    return number;
+  } catch (const InputError& error) {
+    fs::remove(mark);
+    throw input_error("{}{}", error.what(), has_old_ ? "; the job that was there is kept" : "");
+  } catch (const RunError& error) {
+    keep();
+    const Job job = read_job(folder_);
+    throw run_error("{}; the job was {}", error.what(), perhaps_submitted(job, folder_));
+  }
+}
+
+void NewJob::record(const Job& job) const {
+  const fs::path files = folder_ / job_files;
+  try {
+    write_record(files / record_name, job);
+  } catch (const RunError& error) {
+    throw run_error("{}; job {} is submitted: scancel {} ends it", error.what(), job.number, job.number);
+  }
+  fs::remove(files / submission_begun);
 }
 
 }  // namespace tether

@@ -15,8 +15,7 @@ std::string option(const std::string& name, const std::string& value) {
 std::string header(const Job& job, const std::filesystem::path& folder) {
   const JobResources& r = job.resources;
   const bool is_array = job.cases.size() > 1;
-  const std::string title = is_array ? folder.filename().string() : job.cases.front().name;
-  std::string text = option("job-name", "tether-" + title) + option("nodes", std::to_string(r.nodes)) +
+  std::string text = option("job-name", job_name(job, folder)) + option("nodes", std::to_string(r.nodes)) +
                      option("ntasks-per-node", std::to_string(r.tasks_per_node)) + option("mem", r.memory) +
                      option("time", r.time) + option("account", r.account) + option("partition", r.partition);
   if (is_array) text += option("array", fmt::format("0-{}", job.cases.size() - 1));
@@ -92,6 +91,10 @@ exit "$code"
 )";
 
 }  // namespace
+
+std::string job_name(const Job& job, const std::filesystem::path& folder) {
+  return "tether-" + (job.cases.size() == 1 ? job.cases.front().name : folder.filename().string());
+}
 
 std::string job_script(const Job& job, const std::filesystem::path& folder) {
   if (folder.string().find_first_of(" \t\n\"'\\%$`") != std::string::npos)

@@ -11,6 +11,9 @@ namespace tether {
 /// are interrupted (end_limit), one for Slurm, which looks at its clock once a minute, and one to end in.
 inline constexpr int seconds_to_end = 240;
 
+/// By which squeue finds it: of its case, or of the folder of several.
+std::string job_name(const Job& job, const std::filesystem::path& folder);
+
 /// The script that sbatch gets, for people to read and change: what is asked for, then one case, or for each task of an
 /// array its own. Told to end (limit of time, preemption) it lets the programs save their state, and asks to be started
 /// again where it ends with more saved than it began with; a job that a person cancels stays so.

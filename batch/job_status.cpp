@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "batch/job_script.hpp"
 #include "common/base/error.hpp"
 #include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
@@ -101,6 +102,14 @@ Job read_job(const fs::path& folder) {
   return job;
 }
 
+bool is_perhaps_submitted(const Job& job, const fs::path& folder) {
+  return job.number.empty() && fs::exists(folder / job_files / submission_begun);
+}
+
+std::string perhaps_submitted(const Job& job, const fs::path& folder) {
+  return fmt::format("perhaps submitted: squeue --me --name={} tells", job_name(job, folder));
+}
+
 std::vector<CaseStatus> status_of(const Job& job, const fs::path& folder,
                                   const std::optional<std::vector<slurm::Task>>& tasks) {
   std::vector<CaseStatus> all;
@@ -110,7 +119,9 @@ std::vector<CaseStatus> status_of(const Job& job, const fs::path& folder,
     if (tasks)
       for (const slurm::Task& other : *tasks)
         if (other.index == static_cast<int>(k)) task = &other;
-    if (job.number.empty())
+    if (is_perhaps_submitted(job, folder))
+      all.push_back({one.name, CaseState::unknown, perhaps_submitted(job, folder)});
+    else if (job.number.empty())
       all.push_back({one.name, CaseState::unsubmitted, ""});
     else
       all.push_back(status_of(one, folder / job_files, task, tasks.has_value()));

@@ -34,6 +34,14 @@ struct CaseStatus {
 /// names are those of folders in this one, and are shown.
 Job read_job(const std::filesystem::path& folder);
 
+/// In a job's folder of files while sbatch is asked, until its answer is recorded.
+inline constexpr const char* submission_begun = "submission_begun";
+
+/// Whether its submission was begun and no number is known of it, by nobody.
+bool is_perhaps_submitted(const Job& job, const std::filesystem::path& folder);
+/// "perhaps submitted: squeue --me --name=tether-tube tells"
+std::string perhaps_submitted(const Job& job, const std::filesystem::path& folder);
+
 /// What became of each case of a job, from what the scheduler says (nothing: it cannot be asked) and the job's folder.
 std::vector<CaseStatus> status_of(const Job& job, const std::filesystem::path& folder,
                                   const std::optional<std::vector<slurm::Task>>& tasks);

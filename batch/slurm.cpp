@@ -12,9 +12,9 @@ namespace tether::slurm {
 namespace {
 
 /// Nothing if there is no such program.
-std::optional<ChildEnd> asked(const Command& command) {
+std::optional<ChildEnd> asked(const Command& command, ChildEnd (*run)(const Command&) = capture) {
   try {
-    return capture(command);
+    return run(command);
   } catch (const RunError&) {
     return std::nullopt;
   }
@@ -44,10 +44,12 @@ Task read_task(const std::string& line) {
 }  // namespace
 
 std::string submit(const std::filesystem::path& script) {
-  const std::optional<ChildEnd> end = asked({{"sbatch", "--parsable", script.string()}, {}});
+  // in a process group of its own, which Ctrl-C does not reach
+  const std::optional<ChildEnd> end = asked({{"sbatch", "--parsable", script.string()}, {}}, capture_in_foreground);
   if (!end)
     throw input_error("there is no sbatch: is this a machine of a Slurm cluster? --dry-run only writes {}",
                       script.string());
+  if (end->exit_code > 128) throw run_error("{}: sbatch {}", script.string(), how_it_ended(end->exit_code));
   if (end->exit_code != 0) throw input_error("{}: {}", script.string(), said(*end));
   const std::string number = end->output.substr(0, end->output.find_first_of(";\n"));
   if (number.empty()) throw run_error("{}: sbatch gave it no number: {}", script.string(), end->output);

@@ -9,7 +9,7 @@
 namespace tether::slurm {
 
 /// Gives a script to sbatch; returns the job's number. Throws InputError with what sbatch says against it, or
-/// if there is none.
+/// if there is none; RunError if it ended without an answer: nobody knows whether it has submitted it.
 std::string submit(const std::filesystem::path& script);
 
 /// What squeue says of a task of a job.

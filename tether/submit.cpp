@@ -14,6 +14,7 @@
 #include "batch/job_script.hpp"
 #include "batch/job_status.hpp"
 #include "common/base/error.hpp"
+#include "common/base/interruption.hpp"
 #include "common/base/process.hpp"
 #include "common/base/temporary_folder.hpp"
 #include "common/base/whole_file.hpp"
@@ -28,6 +29,8 @@ namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* script_name = "script.sh";
 
 struct Typed {
   std::string verb;
@@ -150,6 +153,25 @@ std::optional<PlannedRuns> plan(const Typed& typed, Job& job) {
   }
 }
 
+/// Writes the job's script and, unless that is all that is wanted, gives it to sbatch. An interruption waits until it
+/// is known whether the job is submitted, and tells its number.
+void place_job(const Typed& typed, const fs::path& folder, Job& job, const std::string& text) {
+  static std::string way_on;  // lives as long as the program
+  way_on = fmt::format("tether status {} says whether the job is submitted", folder.string());
+  std::optional<WhenInterrupted> told(way_on.c_str());
+  const InterruptionsWait until_recorded;
+  NewJob made(folder, job);
+  cases_of(typed, folder / job_files / "cases");
+  const fs::path script = folder / job_files / script_name;
+  write_text(script, text);
+  if (typed.dry_run) return made.keep();
+  job.number = made.submit(script);
+  told.reset();
+  way_on = fmt::format("job {} is submitted: scancel {} ends it", job.number, job.number);
+  told.emplace(way_on.c_str());
+  made.record(job);
+}
+
 /// All that can be refused is refused before anything in the folder is touched: a job that is there stays as it is.
 int act(const Typed& typed) {
   const fs::path folder = job_folder(typed), files = folder / job_files;
@@ -165,18 +187,12 @@ int act(const Typed& typed) {
     for (JobCase& one : job.cases) one.case_file = files / "cases" / fs::path(one.case_file).filename();
   const std::string text = job_script(job, folder);
   hold_output(folder);
+  put_back_job(folder);                     // of a submission that was killed
   check_replaced(folder, typed.overwrite);  // another may have been there until now
-  begin_job(folder, job);
-  cases_of(typed, files / "cases");
-  const fs::path script = files / "script.sh";
-  write_text(script, text);
-  if (!typed.dry_run) {
-    job.number = slurm::submit(script);
-    write_record(files / "job.json", job);
-  }
+  place_job(typed, folder, job, text);
   std::cout << plan_text(job, planned);
   if (typed.dry_run)
-    std::cout << fmt::format("In {}, not submitted:\n\n{}", script.string(), text);
+    std::cout << fmt::format("In {}, not submitted:\n\n{}", (files / script_name).string(), text);
   else
     std::cout << fmt::format("Job {}, results in {}: tether status {}\n", job.number, folder.string(), folder.string());
   return exit_done;
@@ -199,9 +215,13 @@ int with_job(const char* name, const char* purpose, int argc, char** argv,
   });
 }
 
-void show_status(const Job& job, const fs::path&, const std::vector<CaseStatus>& states) {
-  std::cout << fmt::format("job {}, {}, ", job.number.empty() ? "not submitted" : job.number, word_of(job.verb))
-            << text_of(states);
+std::string number_or_why_none(const Job& job, const fs::path& folder) {
+  if (!job.number.empty()) return job.number;
+  return is_perhaps_submitted(job, folder) ? "perhaps submitted" : "not submitted";
+}
+
+void show_status(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {
+  std::cout << fmt::format("job {}, {}, ", number_or_why_none(job, folder), word_of(job.verb)) << text_of(states);
 }
 
 void show_results(const Job& job, const fs::path& folder, const std::vector<CaseStatus>& states) {

@@ -47,4 +47,15 @@ WhenInterrupted::~WhenInterrupted() {
   if (tells_) told_way_on = nullptr;
 }
 
+InterruptionsWait::InterruptionsWait() {
+  sigset_t waiting;
+  sigemptyset(&waiting);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&waiting, signal);
+  pthread_sigmask(SIG_BLOCK, &waiting, &before_);
+}
+
+InterruptionsWait::~InterruptionsWait() {
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
 }  // namespace tether

@@ -389,11 +389,61 @@ TEST_F(Jobs, AreReplacedWhole) {
   write_record(folder_ / "job/job.json", unsubmitted);
   fs::remove(folder_ / "job/number");
   check_replaced(folder_, false);
-  begin_job(folder_, unsubmitted);
+  NewJob(folder_, unsubmitted).keep();
   for (const char* old : {"results.csv", "job/ended/old", "job/old.log"})
     EXPECT_FALSE(fs::exists(folder_ / old)) << old;
   EXPECT_TRUE(fs::is_directory(folder_ / "job/ended"));
   EXPECT_EQ(read_job(folder_).cases.size(), 1U);
+}
+
+/// Until the new one is kept, and after a kill in between.
+TEST_F(Jobs, ComeBackWhereTheNewOneIsNotKept) {
+  write("results.csv", "old"), write("job/ended/case_0", "0"), write("job/number", "9");
+  write_record(folder_ / "job/job.json", job(JobVerb::simulate, 1));
+  Job other = job(JobVerb::simulate, 2);
+  other.number.clear();
+  const auto is_old = [&] {
+    return read_job(folder_).number == "9" && fs::exists(folder_ / "job/ended/case_0") &&
+           fs::exists(folder_ / "results.csv") && !fs::exists(folder_ / ".job_before");
+  };
+  {
+    const NewJob made(folder_, other);
+    EXPECT_EQ(read_job(folder_).cases.size(), 2U);
+    EXPECT_FALSE(fs::exists(folder_ / "results.csv"));
+  }
+  EXPECT_TRUE(is_old());
+  fs::create_directories(folder_ / ".job_before");
+  for (const char* name : {"results.csv", "job"}) fs::rename(folder_ / name, folder_ / ".job_before" / name);
+  put_back_job(folder_);
+  EXPECT_TRUE(is_old());
+  fs::create_directories(folder_ / ".job_before");
+  fs::rename(folder_ / "job", folder_ / ".job_before/job"),
+      fs::rename(folder_ / "results.csv", folder_ / ".job_before/results.csv");
+  fs::create_directories(folder_ / "job");
+  write_record(folder_ / "job/job.json", other);
+  write("job/submission_begun", "");
+  put_back_job(folder_);
+  EXPECT_EQ(read_job(folder_).cases.size(), 2U) << "perhaps submitted";
+  fs::remove(folder_ / "job/submission_begun");
+  put_back_job(folder_);
+  EXPECT_TRUE(is_old());
+}
+
+TEST_F(Jobs, ThatArePerhapsSubmittedAreNotSubmittedAgain) {
+  Job one = job(JobVerb::simulate, 1);
+  one.number.clear();
+  write("job/submission_begun", "");
+  write_record(folder_ / "job/job.json", one);
+  const std::string refused = refusal([&] { check_replaced(folder_, false); });
+  EXPECT_NE(refused.find(": holds a job that was perhaps submitted: squeue --me --name=tether-case_0 tells; scancel "
+                         "ends it, --output makes another, --overwrite replaces it"),
+            std::string::npos)
+      << refused;
+  EXPECT_NO_THROW(check_replaced(folder_, true));
+  EXPECT_EQ(status_of(one, folder_, std::nullopt).front().state, CaseState::unknown);
+  write("job/number", "12\n");
+  EXPECT_EQ(status_of(read_job(folder_), folder_, std::vector<slurm::Task>()).front().state, CaseState::gone)
+      << "its script has told the number";
 }
 
 TEST_F(Jobs, AreReplacedWhereTheirRecordIsDamagedIfThatIsWanted) {
