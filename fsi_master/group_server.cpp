@@ -72,6 +72,18 @@ std::string recorded_points(const Points& points) {
   return fmt::format(R"({{"recorded": {{"velocity_points": "{:x}"}}}})", hash_values(points, 0));
 }
 
+/// Where a run's folder is below that of the case, as in a diagnosis, the latter is not made: it may have been removed,
+/// and in what is made in its place nobody would find whose it is.
+void make_run_folder(const std::filesystem::path& of_case, const std::filesystem::path& folder) {
+  const std::filesystem::path below = std::filesystem::absolute(folder).lexically_relative(of_case);
+  if (below.empty() || *below.begin() == "..") {
+    std::filesystem::create_directories(folder);
+    return;
+  }
+  std::filesystem::path made = of_case;
+  for (const std::filesystem::path& part : below) make_folder(made /= part);
+}
+
 }  // namespace
 
 GroupServer::GroupServer(std::unique_ptr<MasterCase> master, RunPlan plan, std::span<Partner> processes)
@@ -223,22 +235,6 @@ void GroupServer::observe(double time, protocol::Advanced& reply) {
   reply.distances = std::move(seen.distances);
   reply.weights = std::move(seen.weights);
 }
-
-namespace {
-
-/// Where a run's folder is below that of the case, as in a diagnosis, the latter is not made: it may have been removed,
-/// and in what is made in its place nobody would find whose it is.
-void make_run_folder(const std::filesystem::path& of_case, const std::filesystem::path& folder) {
-  const std::filesystem::path below = std::filesystem::absolute(folder).lexically_relative(of_case);
-  if (below.empty() || *below.begin() == "..") {
-    std::filesystem::create_directories(folder);
-    return;
-  }
-  std::filesystem::path made = of_case;
-  for (const std::filesystem::path& part : below) make_folder(made /= part);
-}
-
-}  // namespace
 
 protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   loop_->restore(initial_);
