@@ -72,18 +72,6 @@ std::string recorded_points(const Points& points) {
   return fmt::format(R"({{"recorded": {{"velocity_points": "{:x}"}}}})", hash_values(points, 0));
 }
 
-/// Where a run's folder is below that of the case, as in a diagnosis, the latter is not made: it may have been removed,
-/// and in what is made in its place nobody would find whose it is.
-void make_run_folder(const std::filesystem::path& of_case, const std::filesystem::path& folder) {
-  const std::filesystem::path below = std::filesystem::absolute(folder).lexically_relative(of_case);
-  if (below.empty() || *below.begin() == "..") {
-    std::filesystem::create_directories(folder);
-    return;
-  }
-  std::filesystem::path made = of_case;
-  for (const std::filesystem::path& part : below) make_folder(made /= part);
-}
-
 }  // namespace
 
 GroupServer::GroupServer(std::unique_ptr<MasterCase> master, RunPlan plan, std::span<Partner> processes)
@@ -243,7 +231,7 @@ protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   plan.output = m.output;
   plan.write_series = false;  // the codes of all groups have one folder
   plan.last_step = m.steps;
-  make_run_folder(std::filesystem::absolute(master_->file.path()).parent_path(), plan.output);
+  make_folders_below(std::filesystem::absolute(master_->file.path()).parent_path(), plan.output);  // as in a diagnosis
   const auto guide = guide_of(m, plan.dt);
   codes_->coupling().follow(guide.get());
   Simulation simulation(plan, codes_->crew(), master_->coupling.halvings);

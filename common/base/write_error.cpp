@@ -38,6 +38,17 @@ void make_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::create_directory(folder, error) && error) throw write_error(folder);
 }
 
+void make_folders_below(const std::filesystem::path& there, const std::filesystem::path& folder) {
+  const std::filesystem::path root = std::filesystem::absolute(there);
+  const std::filesystem::path below = std::filesystem::absolute(folder).lexically_relative(root);
+  if (below.empty() || *below.begin() == "..") {
+    std::filesystem::create_directories(folder);
+    return;
+  }
+  std::filesystem::path made = root;
+  for (const std::filesystem::path& part : below) make_folder(made /= part);
+}
+
 void refuse_folder(const std::filesystem::path& folder, const char* what, int error_number) {
   const bool is_of_disk = error_number == ENOSPC || error_number == EDQUOT || error_number == EIO;
   const std::string text = fmt::format("{}: {}: {}", folder.string(), what, std::strerror(error_number));

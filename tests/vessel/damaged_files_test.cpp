@@ -19,70 +19,13 @@
 #include "common/base/error.hpp"
 #include "tests/io/less_memory.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "tests/vessel/good_files.hpp"
 #include "vessel/mesh_file.hpp"
 #include "vessel/readers.hpp"
 
 /// Whatever is wrong with a file: it is read, or refused with one InputError.
 namespace tether {
 namespace damaged_files_test {
-
-const std::string ply =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
-    "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0.5\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n";
-const std::string surface_vtk =
-    "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0\n1 0 0.5\n0 1 0\n1 1 0\n"
-    "POLYGONS 2 8\n3 0 1 2\n3 1 3 2\nCELL_DATA 2\nSCALARS part int 1\nLOOKUP_TABLE default\n7\n8\nFIELD more 1\n"
-    "face 1 2 int\n1 2\nPOINT_DATA 4\nVECTORS v float\n0 0 0 1 1 1 2 2 2 3 3 3\n";
-const std::string grid_vtk =
-    "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-    "METADATA\nINFORMATION 0\n\nCELLS 3 7\nOFFSETS vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3\n0 2 1\n"
-    "CELL_TYPES 2\n10\n5\nPOINT_DATA 4\nGLOBAL_IDS GlobalNodeID vtkIdType\n1 2 3 4\n";
-const std::string vtp =
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-    "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"4\" NumberOfPolys=\"2\">\n<CellData>\n"
-    "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">\n7 8\n</DataArray>\n</CellData>\n<Points>\n"
-    "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n0 0 0\n1 0 0.5\n0 1 0\n1 1 "
-    "0\n</DataArray>\n"
-    "</Points>\n<Polys>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n0 1 2\n1 3 "
-    "2\n</DataArray>\n"
-    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n3 6\n</DataArray>\n</Polys>\n</Piece>\n</PolyData>\n"
-    "</VTKFile>\n";
-const std::string vtu =
-    "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"4\" "
-    "NumberOfCells=\"2\">\n<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n"
-    "0 0 0 1 0 0 0 1 0 0 0 1\n</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int32\" Name=\"connectivity\" "
-    "format=\"ascii\">\n0 1 2 3 0 2 1\n</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n4 "
-    "7\n"
-    "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n10 5\n</DataArray>\n</Cells>\n</Piece>\n"
-    "</UnstructuredGrid>\n</VTKFile>\n";
-
-/// What becomes of a good file, and what is said of it.
-struct Damage {
-  std::string is, becomes, message;
-};
-
-void expect_messages(const std::string& name, const std::string& good, const std::vector<Damage>& damages) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(message_of([&] { read_mesh_file(folder.file(name, good)); }), "accepted");
-  for (const Damage& damage : damages) {
-    SCOPED_TRACE(damage.is + " -> " + damage.becomes);
-    const std::size_t place = good.find(damage.is);
-    ASSERT_NE(place, std::string::npos);
-    std::string bad = good;
-    // "...": the file ends here
-    bad.replace(place, damage.becomes == "..." ? std::string::npos : damage.is.size(),
-                damage.becomes == "..." ? "" : damage.becomes);
-    folder.file(name, bad);
-    try {
-      read_mesh_file(folder / name);
-      ADD_FAILURE() << "accepted";
-    } catch (const InputError& error) {
-      const std::string said = error.what();
-      EXPECT_TRUE(said.starts_with((folder / name).string() + ":")) << said;
-      EXPECT_NE(said.find(damage.message), std::string::npos) << said << "\nhas not: " << damage.message;
-    }
-  }
-}
 
 /// As broken downloads leave them: their length is there, and zeros.
 TEST(DamagedFiles, LargerThanAnyVesselAreNotRead) {
@@ -481,46 +424,6 @@ TEST(DamagedFiles, ChangedAnywhereAreReadOrRefused) {
     EXPECT_LT(read, mutations) << sample.name;
     RecordProperty(sample.name + " read", read);
   }
-}
-
-/// `one` with the numbers from 0 on in place of #.
-std::string numbered(int count, const std::string& one) {
-  std::string all;
-  for (int i = 0; i < count; ++i) all += std::string(one).replace(one.find('#'), 1, std::to_string(i));
-  return all;
-}
-
-/// Short files of which the parsers, VTK's and ours, would take minutes: each name is looked for among the others.
-TEST(DamagedFiles, WithMoreNamesThanAnyProgramWritesAreRefused) {
-  const std::string in_head = numbered(1001, "property float p#\n"), elements = numbered(1001, "element e# 0\n");
-  expect_messages("a.ply", ply,
-                  {{"element face", in_head + "element face", "has more than 1000 elements and properties"},
-                   {"element face", elements + "element face", "has more than 1000 elements and properties"}});
-  std::string entities;
-  for (int i = 0; i < 20'000; ++i) entities += "&amp;";
-  const std::string arrays =
-      numbered(1001, "<DataArray type=\"Int8\" Name=\"a#\" format=\"ascii\" NumberOfTuples=\"1\">7 8</DataArray>\n");
-  expect_messages(
-      "a.vtp", vtp,
-      {{"<PolyData>", "<PolyData" + numbered(101, " a#=\"1\"") + ">", "a.vtp:3: a tag has more than 100 attributes"},
-       {"<PolyData>", "<PolyData a=\"" + entities + "\">", "a.vtp:3: the value of a has more than 65536 bytes"},
-       {"<PolyData>", "<PolyData>" + numbered(250'000, "<X# />"), "a.vtp:3: has more than 250000 tags"},
-       {"<CellData>", "<CellData>" + arrays, "CellData has more than 1000 arrays"},
-       {"<PolyData>", "<PolyData><FieldData>" + arrays + "</FieldData>", "FieldData has more than 1000 arrays"}});
-}
-
-/// Photogrammetry writes tens of properties, solvers tens of arrays.
-TEST(DamagedFiles, WithManyNamesAreRead) {
-  const TemporaryFolder folder;
-  std::string many = ply;
-  many.replace(many.find("element face"), 0, numbered(90, "property float p#\n"));
-  for (const std::string point : {"0 0 0\n", "1 0 0.5\n", "0 1 0\n", "1 1 0\n"})
-    many.replace(many.find("\n" + point) + point.size(), 0, numbered(90, " #"));
-  EXPECT_EQ(message_of([&] { read_mesh_file(folder.file("a.ply", many)); }), "accepted");
-  many = vtp;
-  const std::string arrays = numbered(900, "<DataArray type=\"Int8\" Name=\"a#\" format=\"ascii\">7 8</DataArray>\n");
-  many.replace(many.find("</CellData>"), 0, arrays);
-  EXPECT_EQ(message_of([&] { read_mesh_file(folder.file("a.vtp", many)); }), "accepted");
 }
 
 }  // namespace damaged_files_test
