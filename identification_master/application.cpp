@@ -10,7 +10,7 @@
 #include "identification_master/checkpoint.hpp"
 #include "identification_master/groups.hpp"
 #include "identification_master/identification_job.hpp"
-#include "identification_master/identified_case.hpp"
+#include "identification_master/results/estimate.hpp"
 #include "identification_master/serve_runs.hpp"
 
 namespace tether {
@@ -32,7 +32,7 @@ std::size_t groups_for(const IdentifiedCase& given, int wanted, const protocol::
 void run_identification(const CommandLine& command, protocol::Session& session) {
   IdentifiedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  if (!command.overwrite) check_unchanged(output, "identify", {identified_case});
+  check_replaceable(output, "identify", {identified_file}, command.overwrite);
   const InputWatch inputs(command.case_file);
   const std::vector<Partner*> groups = launch_groups(groups_for(given, wanted_groups(given, command, output), session),
                                                      command.case_file, output, session);

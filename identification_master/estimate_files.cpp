@@ -7,10 +7,10 @@
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
 #include "common/base/whole_file.hpp"
+#include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "identification_master/checkpoint.hpp"
 #include "identification_master/identifiability.hpp"
-#include "identification_master/identified_case.hpp"
 #include "identification_master/results/estimate.hpp"
 #include "identification_master/sensitivity_tables.hpp"
 
@@ -105,7 +105,8 @@ EstimateCost cost_of(const IdentificationFacts& facts, Eigen::Index parameters) 
 }  // namespace
 
 void remove_old_estimates(const std::filesystem::path& output) {
-  for (const char* name : {"estimate.json", "estimate.csv", identified_case, "plots/estimate.png",
+  check_not_changed_meanwhile(output, {identified_file});
+  for (const char* name : {"estimate.json", "estimate.csv", identified_file, "plots/estimate.png",
                            SensitivityTables::by_region, SensitivityTables::by_datum})
     std::filesystem::remove(output / name);
   remove_identification_checkpoints(output);

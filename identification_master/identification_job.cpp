@@ -16,6 +16,7 @@
 #include "identification_master/checkpoint.hpp"
 #include "identification_master/estimate_files.hpp"
 #include "identification_master/identified_case.hpp"
+#include "identification_master/results/estimate.hpp"
 #include "identification_master/sensitivity_tables.hpp"
 
 namespace tether {
@@ -126,7 +127,7 @@ class Job {
     }
     save();
     if (plan_.corrects)
-      make_to_go_on_with(output_, identified_case, [this](const fs::path& file) {
+      make_to_go_on_with(output_, identified_file, [this](const fs::path& file) {
         write_identified_case(file, given_.file, parameters_, filter_.last().mean);
       });
     const std::vector<std::string> notices = notices_of(filter_.state());

@@ -6,9 +6,6 @@
 
 namespace tether {
 
-/// In the folder of an identification, to go on with.
-inline constexpr const char* identified_case = "identified.yaml";
-
 /// Writes a case that builds on the one identified, with the values of theta [p] in it: ready to simulate.
 void write_identified_case(const std::filesystem::path& path, const CaseFile& from,
                            const IdentifiedParameters& parameters, const VectorXd& theta);

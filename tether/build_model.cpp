@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* build_model_verb = "build-model";
+
 /// A cross of three lines at each place, a hundredth of an aorta's length wide.
 std::vector<Points> crosses(const std::vector<Vec3>& places) {
   constexpr double arm = 0.2;  // [cm]
@@ -51,12 +53,26 @@ void write_tree(const fs::path& table_file, const fs::path& lines_file, const Ce
   write_vtp(lines_file, lines, "radius", radii);
 }
 
-/// What a study's surface and model are, in the order in which new ones take the places of old ones.
+const std::vector<fs::path> surface_files{"surface.vtp", "centreline.vtp", "centreline.csv", "surface.json"};
+
+/// What a study's surface and model are, in the order in which new ones take the places of old ones. A person may go on
+/// with any of them: a surface is smoothed, a mesh repaired.
 std::vector<fs::path> names_of_results(bool has_model) {
-  std::vector<fs::path> names{"surface.vtp", "centreline.vtp", "centreline.csv", "surface.json"};
+  std::vector<fs::path> names = surface_files;
   if (!has_model) return names;
   for (const char* name : model_files) names.push_back(fs::path("model") / name);
   return names;
+}
+
+/// Held; what is in it is as it was.
+fs::path hold_folder_of(const CommandLine& command, const StudyCase& study) {
+  const std::vector<fs::path> all = names_of_results(true);
+  const auto model = all.begin() + static_cast<long>(surface_files.size());
+  const fs::path folder =
+      hold_for_made(command, {build_model_verb, study.name, {}, {model, all.end()}, "model/quality.json"});
+  check_keeps_work(folder, {build_model_verb, study.name, {}, surface_files, "surface.json"}, command.overwrite);
+  if (command.overwrite) note_as_they_are(folder, surface_files);
+  return folder;
 }
 
 void write_surface(const NewResults& results, const BuiltSurface& built) {
@@ -111,12 +127,7 @@ VesselModel model_of(const BuiltSurface& built, const VolumeCase& asked, const U
 
 Made<SurfaceSummary> build_model(const CommandLine& command) {
   const StudyCase study = read_study(command.case_file);
-  const MadeOfFile made{"build-model",
-                        study.name,
-                        {},
-                        {"model/case.yaml", "model/flow.csv", "model/centreline.csv"},
-                        "model/quality.json"};
-  const fs::path folder = hold_for_made(command, made);
+  const fs::path folder = hold_folder_of(command, study);
   const fs::path places = folder / "places.vtp";
   fs::remove(places);
   const auto say = [&](const std::string& what) {
@@ -145,8 +156,8 @@ Made<SurfaceSummary> build_model(const CommandLine& command) {
         make_folder(results.beside("model"));
         write_model(results.beside("model"), study.name + "_model", *model, built.tree, *study.model, units);
       }
-      mark_made(folder, made.verb, command.case_file);
-      results.note(made.to_go_on_with);
+      mark_made(folder, build_model_verb, command.case_file);
+      results.note(names_of_results(true));
     });
     // nothing speaks against new results any more
     if (model)

@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *suggested_case = "suggested.yaml", *corrected_case = "corrected.yaml";
-
 /// The case and its coarser one with all candidates, and what makes their runs.
 class CandidateModels {
  public:
@@ -144,8 +142,8 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   const auto is_made = [&](const char* name, auto write) {
     return make_to_go_on_with(output, name, [&](const fs::path& file) { write(file, given, report); });
   };
-  if (is_made(corrected_case, write_corrected)) report.corrected = corrected_case;
-  if (is_made(suggested_case, write_suggested)) report.suggested = suggested_case;
+  if (is_made(corrected_file, write_corrected)) report.corrected = corrected_file;
+  if (is_made(suggested_file, write_suggested)) report.suggested = suggested_file;
   Diagnosis diagnosis = diagnosis_of(report);
   diagnosis.data = data_hashes(command.case_file);
   write_record(output / "diagnosis.json", diagnosis);
@@ -166,7 +164,7 @@ Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSett
   check_case(command);
   const DiagnosedCase given(command.case_file);
   const fs::path output = fs::absolute(claim_output(command, given.file));
-  if (!command.overwrite) check_unchanged(output, "diagnose", {suggested_case, corrected_case});
+  check_replaceable(output, "diagnose", {suggested_file, corrected_file}, command.overwrite);
   std::vector<std::string> pictures;
   Diagnosis diagnosis = diagnosed(given, command, output, settings, pictures);
   std::string told = text_of(diagnosis) + where_evidence_is(output, diagnosis, pictures);

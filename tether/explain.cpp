@@ -10,6 +10,7 @@
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/explanation/explainer.hpp"
+#include "identification_master/results/estimate.hpp"
 #include "report/report.hpp"
 #include "tether/diagnosed.hpp"
 #include "tether/verbs.hpp"
@@ -80,6 +81,20 @@ std::vector<fs::path> models_in(const fs::path& output) {
   return models;
 }
 
+/// What identifications and diagnoses on the way made for a person to go on with.
+void check_steps_unchanged(const fs::path& output) {
+  const std::regex step("(identification|diagnosis)_[0-9]+|(force)");
+  for (const auto& entry : fs::directory_iterator(output)) {
+    std::smatch found;
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_directory() || !std::regex_match(name, found, step)) continue;
+    if (found[1] != "identification")
+      check_unchanged(entry.path(), "diagnose", {suggested_file, corrected_file});
+    else
+      check_unchanged(entry.path(), "identify", {identified_file});
+  }
+}
+
 /// Takes an earlier explanation away, unless this one would be refused: its diagnoses come late.
 void replace_old(const DiagnosedCase& given, const CommandLine& command, const fs::path& output) {
   const std::array<fs::path, 2> old{output / "explain.json", output / "report.html"};
@@ -98,7 +113,8 @@ Made<Explanation> explain(const CommandLine& command) {
   CommandLine own = command;
   if (own.output.empty()) own.output = fs::path("out") / (given.file.common().name + "_explain");
   const fs::path output = fs::absolute(claim_output(own, given.file));
-  if (!own.overwrite) check_unchanged(output, "explain", models_in(output));
+  check_replaceable(output, "explain", models_in(output), own.overwrite);
+  if (!own.overwrite) check_steps_unchanged(output);
   replace_old(given, own, output);
   mark_output(output, command.case_file);
   Verbs verbs(own);

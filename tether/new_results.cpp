@@ -24,6 +24,7 @@ fs::path NewResults::beside(const fs::path& name) const {
 }
 
 void NewResults::note(const std::vector<fs::path>& to_go_on_with) const {
+  check_not_changed_meanwhile(folder_, to_go_on_with);  // also those that go
   std::vector<ComingFile> coming;
   for (const fs::path& name : to_go_on_with)
     if (fs::exists(beside(name))) coming.push_back({name, beside(name)});

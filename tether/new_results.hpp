@@ -16,7 +16,8 @@ class NewResults {
 
   /// Where the new one of this name, or folder of such, is to be written: "model/case.yaml" in ".new_model".
   std::filesystem::path beside(const std::filesystem::path& name) const;
-  /// Notes what new files to go on with will hold (note_coming); before the old ones go.
+  /// Notes what new files to go on with will hold (note_coming); before the old ones go. Throws RunError if one of the
+  /// old ones was changed meanwhile.
   void note(const std::vector<std::filesystem::path>& to_go_on_with) const;
   /// Of a name that is not written anew the old one goes.
   void put_in_place() const;

@@ -80,6 +80,7 @@ fs::path hold_folder_of(const CommandLine& command, const CaseWithTwin& given) {
       throw input_error("{}: is not a folder", (folder / part).string());
   made.to_go_on_with = frames_in(folder);
   check_keeps_work(folder, made, command.overwrite);
+  if (command.overwrite) note_as_they_are(folder, made.to_go_on_with);
   return folder;
 }
 

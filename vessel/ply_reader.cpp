@@ -69,6 +69,7 @@ class PlyReader {
     }
     source_.line();
     if (!has_format) source_.fail("the header states no format");
+    if (elements_.empty()) source_.fail("the header states no elements");
     source_.set_encoding(encoding);
   }
 

@@ -21,11 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view case_file_key = "# case_file: ";  ///< first line of a mark
+constexpr std::string_view from_here_key = "# from here: ";  ///< second line: the same file as seen from the folder
 constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
 
-bool is_empty_but_for_lock(const fs::path& folder) {
-  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                     [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
+/// A verb that refused its file leaves no more than a mark.
+bool holds_nothing(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+    return entry.path().filename() == folder_lock_name || entry.path().filename() == made_by;
+  });
 }
 
 constexpr int levels_looked_at = 3;  ///< results of an explanation's runs stand two below, their checkpoints three
@@ -54,57 +57,48 @@ bool is_in(const fs::path& path, const fs::path& place) {
   return !from_it.empty() && *from_it.begin() != "..";
 }
 
-/// As long as a path may be.
-std::string first_line_of(const fs::path& mark) {
-  std::string begin(8192, '\0');
+/// Whose a folder is, in two lines: by the absolute paths of files, and by those from the folder, which are right still
+/// when both are moved or copied.
+struct Owner {
+  std::string line, from_here;
+
+  bool is(const Owner& other) const {
+    return line == other.line || (!from_here.empty() && from_here == other.from_here);
+  }
+};
+
+/// As long as paths may be.
+Owner owner_in(const fs::path& mark) {
+  std::string begin(16384, '\0');
   std::ifstream file(mark, std::ios::binary);
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(file.gcount()));
-  return begin.substr(0, begin.find('\n'));
+  const std::size_t end = std::min(begin.find('\n'), begin.size());
+  Owner owner{begin.substr(0, end), ""};
+  if (const std::string rest = begin.substr(std::min(end + 1, begin.size())); rest.starts_with(from_here_key))
+    owner.from_here = rest.substr(0, rest.find('\n'));
+  return owner;
 }
 
-/// What a mark says: "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and /home/ada/two.stl".
-std::string mark_of(const std::string& verb, const std::vector<fs::path>& files) {
-  std::string mark = verb;
-  std::for_each(files.begin(), files.end(), check_path);
-  for (const fs::path& file : files) mark += (mark == verb ? " " : " and ") + place_of(file).string();
-  return mark;
+/// `before`: what the first line begins with. "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and
+/// /home/ada/two.stl".
+Owner owner_by(const std::string& before, const fs::path& folder, const std::vector<fs::path>& files) {
+  Owner owner{before, std::string(from_here_key)};
+  const fs::path here = fs::weakly_canonical(fs::absolute(folder));
+  const char* between = "";
+  for (const fs::path& file : files) {
+    check_path(file);
+    const fs::path place = place_of(file);
+    owner.line += between + place.string();
+    owner.from_here += between + place.lexically_relative(here).string();
+    between = " and ";
+  }
+  return owner;
 }
 
-void check_made_by(const fs::path& folder, const std::string& verb, const std::string& mark) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
-  check_writable_through(folder);
-  if (is_empty_but_for_lock(folder)) return;
-  const std::string maker = first_line_of(folder / made_by);
-  if (maker == mark) return;
-  if (maker.starts_with(verb + " "))
-    throw input_error("{}: holds what tether {} made of {}; {}", folder.string(), verb, maker.substr(verb.size() + 1),
-                      way_out);
-  throw input_error("{}: holds files that are not what tether {} made; {}", folder.string(), verb, way_out);
+Owner maker(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& files) {
+  return owner_by(verb + " ", folder, files);
 }
-
-void write_mark(const fs::path& folder, const std::string& mark) {
-  write_whole(folder / made_by, mark + "\n");
-}
-
-/// Makes and holds the folder of what a verb makes of these files, and marks it if it is empty; `keeps_inputs` throws
-/// if one that is read would be replaced, `keeps_work` if a person's own would.
-void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb, const std::vector<fs::path>& files,
-                 const std::function<void()>& keeps_inputs, const std::function<void()>& keeps_work) {
-  const std::string mark = mark_of(verb, files);
-  const auto check = [&] {
-    keeps_inputs();
-    if (!overwrite) check_made_by(folder, verb, mark);
-    keeps_work();
-  };
-  check();
-  hold_output(folder);
-  check();  // another may have been there until now
-  if (is_empty_but_for_lock(folder)) write_mark(folder, mark);
-}
-
-constexpr const char* mark_of_results = "results";  ///< first line where only files of a case's results are noted
 
 /// A line of a mark behind its first: a file that was made for a person to go on with, and what it held then; after a
 /// kill also what it was about to hold.
@@ -115,6 +109,45 @@ struct Note {
   std::string line() const { return content + " " + file.string(); }
   bool operator==(const Note&) const = default;
 };
+
+void check_made_by(const fs::path& folder, const std::string& verb, const Owner& wanted) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
+  check_writable_through(folder);
+  if (holds_nothing(folder)) return;
+  const Owner owner = owner_in(folder / made_by);
+  const bool is_of_verb = owner.line.starts_with(verb + " ");
+  if (is_of_verb && owner.is(wanted)) return;
+  if (is_of_verb)
+    throw input_error("{}: holds what tether {} made of {}; {}", folder.string(), verb,
+                      owner.line.substr(verb.size() + 1), way_out);
+  throw input_error("{}: holds files that are not what tether {} made; {}", folder.string(), verb, way_out);
+}
+
+void write_mark(const fs::path& folder, const Owner& owner, const std::vector<Note>& notes = {}) {
+  std::string mark = owner.line + "\n";
+  if (!owner.from_here.empty()) mark += owner.from_here + "\n";
+  for (const Note& note : notes) mark += note.line() + "\n";
+  write_whole(folder / made_by, mark);
+}
+
+/// Makes and holds the folder of what a verb makes of these files, and marks it if it is empty; `keeps_inputs` throws
+/// if one that is read would be replaced, `keeps_work` if a person's own would.
+void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb, const std::vector<fs::path>& files,
+                 const std::function<void()>& keeps_inputs, const std::function<void()>& keeps_work) {
+  const Owner owner = maker(folder, verb, files);
+  const auto check = [&] {
+    keeps_inputs();
+    if (!overwrite) check_made_by(folder, verb, owner);
+    keeps_work();
+  };
+  check();
+  hold_output(folder);
+  check();  // another may have been there until now
+  if (holds_nothing(folder)) write_mark(folder, owner);
+}
+
+constexpr const char* mark_of_results = "results";  ///< first line where only files of a case's results are noted
 
 /// Of the file alone, not of those that it names: they are put in place one by one.
 Note note_of(const fs::path& file, const fs::path& written) {
@@ -128,7 +161,7 @@ std::vector<Note> notes_in(const fs::path& folder) {
   std::ifstream mark(folder / made_by);
   std::string line;
   for (std::getline(mark, line); std::getline(mark, line);)
-    if (const auto end = line.find(' '); end != std::string::npos)
+    if (const auto end = line.find(' '); end != std::string::npos && !line.starts_with(from_here_key))
       notes.push_back({line.substr(0, end), line.substr(end + 1)});
   return notes;
 }
@@ -137,8 +170,28 @@ bool has(const std::vector<Note>& notes, const Note& note) {
   return std::find(notes.begin(), notes.end(), note) != notes.end();
 }
 
+bool is_noted(const std::vector<Note>& notes, const fs::path& file) {
+  return std::any_of(notes.begin(), notes.end(), [&](const Note& note) { return note.file == file; });
+}
+
+/// Of these files those that are there, but not as it was noted.
+std::vector<fs::path> changed_of(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
+  const std::vector<Note> notes = notes_in(folder);
+  std::vector<fs::path> changed;
+  for (const fs::path& file : to_go_on_with)
+    if (is_noted(notes, file) && fs::exists(folder / file) && !has(notes, note_of(file, folder / file)))
+      changed.push_back(file);
+  return changed;
+}
+
+void write_notes(const fs::path& folder, const std::vector<Note>& notes) {
+  Owner owner = owner_in(folder / made_by);
+  if (owner.line.empty()) owner.line = mark_of_results;
+  write_mark(folder, owner, notes);
+}
+
 bool is_as_noted(const fs::path& folder, const std::string& verb, const fs::path& file) {
-  return first_line_of(folder / made_by).starts_with(verb + " ") && has(notes_in(folder), note_of(file, folder / file));
+  return owner_in(folder / made_by).line.starts_with(verb + " ") && has(notes_in(folder), note_of(file, folder / file));
 }
 
 [[noreturn]] void refuse_changed(const fs::path& file, const std::string& verb) {
@@ -153,16 +206,17 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
   check_writable_through(folder);
   if (!fs::exists(folder / case_as_run)) {
-    if (is_empty_but_for_lock(folder)) return;
+    if (holds_nothing(folder)) return;
     throw input_error("{}: holds files that are not the results of a run; {}", folder.string(), way_out);
   }
   if (goes_on) return;
   const YamlNode marker = read_yaml(folder / case_as_run);
   const YamlNode* owner = marker.find("name");
   const std::optional<fs::path> whose = owner_of(folder);
+  const Owner wanted = owner_by(std::string(case_file_key), folder, {case_file});
   std::error_code none;
   if (owner && owner->text == name && whose &&
-      (*whose == place_of(case_file) || fs::equivalent(*whose, case_file, none)))
+      (owner_in(folder / case_as_run).is(wanted) || fs::equivalent(*whose, case_file, none)))
     return;
   if (owner && owner->text == name)
     throw input_error("{}: holds the results of another case file of the name '{}'{}; {}", folder.string(), name,
@@ -190,7 +244,7 @@ void check_writable_through(const fs::path& folder) {
 
 std::optional<fs::path> owner_of(const fs::path& folder) {
   if (!fs::is_regular_file(folder / case_as_run)) return std::nullopt;
-  const std::string first = first_line_of(folder / case_as_run);
+  const std::string first = owner_in(folder / case_as_run).line;
   if (!first.starts_with(case_file_key)) return std::nullopt;
   return first.substr(case_file_key.size());
 }
@@ -234,12 +288,15 @@ fs::path hold_for_made(const CommandLine& command, const MadeOfFile& made) {
   };
   hold_marked(folder, command.overwrite, made.verb, {command.case_file}, keeps_inputs,
               [&] { check_keeps_work(folder, made, command.overwrite); });
+  if (command.overwrite) note_as_they_are(folder, made.to_go_on_with);
   return folder;
 }
 
 void mark_made(const fs::path& folder, const std::string& verb, const fs::path& file) {
-  const std::string mark = mark_of(verb, {file});
-  if (first_line_of(folder / made_by) != mark) write_mark(folder, mark);
+  const Owner owner = maker(folder, verb, {file}), before = owner_in(folder / made_by);
+  if (before.line == owner.line && before.from_here == owner.from_here) return;
+  const bool is_moved = before.line.starts_with(verb + " ") && before.is(owner);
+  write_mark(folder, owner, is_moved ? notes_in(folder) : std::vector<Note>{});
 }
 
 /// A case has a common name: one of the person's own is not replaced, nor what the person made of one.
@@ -253,7 +310,20 @@ void check_keeps_work(const fs::path& folder, const MadeOfFile& made, bool overw
   }
 }
 
+void note_as_they_are(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
+  if (!fs::exists(folder / made_by)) return;
+  std::vector<Note> notes = notes_in(folder);
+  const std::size_t before = notes.size();
+  for (const fs::path& file : to_go_on_with)
+    if (fs::exists(folder / file))
+      if (const Note note = note_of(file, folder / file); !has(notes, note)) notes.push_back(note);
+  if (notes.size() > before) write_notes(folder, notes);
+}
+
 void note_coming(const fs::path& folder, const std::vector<ComingFile>& coming) {
+  std::vector<fs::path> names;
+  for (const ComingFile& one : coming) names.push_back(one.name);
+  check_not_changed_meanwhile(folder, names);
   const std::vector<Note> before = notes_in(folder);
   std::vector<Note> notes;
   for (const Note& note : before) {
@@ -264,11 +334,14 @@ void note_coming(const fs::path& folder, const std::vector<ComingFile>& coming) 
   }
   for (const auto& [name, written] : coming)
     if (const Note note = note_of(name, written); !has(notes, note)) notes.push_back(note);
-  if (notes == before) return;
-  std::string mark = first_line_of(folder / made_by);
-  if (mark.empty()) mark = mark_of_results;
-  for (const Note& note : notes) mark += "\n" + note.line();
-  write_mark(folder, mark);
+  if (notes != before) write_notes(folder, notes);
+}
+
+void check_not_changed_meanwhile(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
+  for (const fs::path& file : changed_of(folder, to_go_on_with))
+    throw run_error(
+        "{}: was changed while its next version was made, and is kept; keep it elsewhere, and give the same command",
+        (folder / file).string());
 }
 
 bool make_to_go_on_with(const fs::path& folder, const fs::path& name,
@@ -279,6 +352,12 @@ bool make_to_go_on_with(const fs::path& folder, const fs::path& name,
   try {
     write(beside);
     if (!fs::exists(beside)) return false;
+    if (!changed_of(folder, {name}).empty()) {
+      const fs::path other = (folder / name).replace_extension(".new" + name.extension().string());
+      put_in_place(beside, other);
+      throw run_error("{}: was changed while its next version was made, and is kept; the new one is {}",
+                      (folder / name).string(), other.filename().string());
+    }
     note_coming(folder, {{name, beside}});
     put_in_place(beside, folder / name);
     return true;
@@ -289,12 +368,23 @@ bool make_to_go_on_with(const fs::path& folder, const fs::path& name,
 }
 
 void check_unchanged(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& to_go_on_with) {
-  const std::vector<Note> notes = notes_in(folder);
-  for (const fs::path& file : to_go_on_with) {
-    const bool is_noted = std::any_of(notes.begin(), notes.end(), [&](const Note& note) { return note.file == file; });
-    if (is_noted && fs::exists(folder / file) && !has(notes, note_of(file, folder / file)))
-      refuse_changed(folder / file, verb);
+  for (const fs::path& file : changed_of(folder, to_go_on_with)) refuse_changed(folder / file, verb);
+}
+
+void check_replaceable(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& to_go_on_with,
+                       bool overwrite) {
+  if (overwrite) {
+    note_as_they_are(folder, to_go_on_with);
+    return;
   }
+  check_unchanged(folder, verb, to_go_on_with);
+  const std::vector<Note> notes = notes_in(folder);
+  for (const fs::path& file : to_go_on_with)
+    if (fs::exists(folder / file) && !is_noted(notes, file))
+      throw input_error(
+          "{}: nothing says that tether {} made it ({} is missing or of an earlier version), and it "
+          "would be replaced; keep it elsewhere, or give --overwrite",
+          (folder / file).string(), verb, made_by);
 }
 
 fs::path claim_for_made(const CommandLine& command, const MadeOfFile& made) {
@@ -309,14 +399,15 @@ fs::path claim_for_made(const fs::path& folder, bool overwrite, const std::strin
   for (const fs::path& file : files) read.merge(files_named_in(file));
   hold_marked(
       folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); }, [] {});
-  write_mark(folder, mark_of(verb, files));
+  write_mark(folder, maker(folder, verb, files));
   return folder;
 }
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {
+  const Owner owner = owner_by(std::string(case_file_key), folder, {case_file});
   write_whole(
       folder / case_as_run,
-      std::string(case_file_key) + place_of(case_file).string() +
+      owner.line + "\n" + owner.from_here +
           "\n# A copy of it as it was when the run started, with what it builds on; paths are relative to it.\n" +
           case_text(case_file));
 }

@@ -145,6 +145,7 @@ class Explainer {
     steps_.make(fmt::format("model {}, {}: against the data", model.told.number, model.told.name),
                 case_of(model.folder()), model.folder(), "comparison.json",
                 [&](bool was_begun) { return work_.compare(task(model.folder(), model.folder(), was_begun)); });
+    check_unchanged(output_, "explain", {model.folder() + ".yaml"});  // the run read it after it was made
   }
 
   void set_misfit(PathModel& model, const VectorXd& residual) const {
@@ -219,7 +220,9 @@ class Explainer {
     model.told.number = path_.models.back().told.number + 1;
     model.values = best().values;
     model.told.name = name_with(accepted);
-    for (const auto& value : values_of_overlay(output_ / best().diagnosis_folder() / "suggested.yaml"))
+    const fs::path diagnosis = output_ / best().diagnosis_folder();
+    check_unchanged(diagnosis, "diagnose", {suggested_file});
+    for (const auto& value : values_of_overlay(diagnosis / suggested_file))
       set_value(value.field.starts_with("observations.") ? of_data_ : model.values, value);
     identify_into(model);
     const auto estimate = read_record<Estimate>(output_ / model.identification_folder() / "estimate.json");
@@ -269,7 +272,8 @@ class Explainer {
     steps_.make(fmt::format("model {}, {}: its parameters", model.told.number, model.told.name), case_of(folder),
                 folder, "estimate.json",
                 [&](bool was_begun) { return work_.identify(task(folder, folder, was_begun)); });
-    for (const auto& value : values_of_overlay(output_ / folder / "identified.yaml")) set_value(model.values, value);
+    check_unchanged(output_ / folder, "identify", {identified_file});
+    for (const auto& value : values_of_overlay(output_ / folder / identified_file)) set_value(model.values, value);
     model.told.identification = folder;
   }
 

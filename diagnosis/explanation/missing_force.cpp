@@ -9,7 +9,9 @@
 
 #include "common/base/csv.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/output_folder.hpp"
 #include "diagnosis/explanation/force_law.hpp"
+#include "diagnosis/results/diagnosis.hpp"
 
 namespace tether {
 namespace {
@@ -205,15 +207,16 @@ ForceFound MissingForce::laws() const {
     if (!traction.law.terms.empty() && traction.law.is_expression) {
       place(values, traction.parameter, traction.region);
       values.push_back({effect_path(traction.parameter) + ".normal", traction.law.text});
-      found.suggested_case = "suggested.yaml";
+      found.suggested_case = suggested_file;
     }
     found.regions.push_back(std::move(traction));
   }
   const CommonCase& common = given_.file.common();
   if (found.suggested_case)
-    write_overlay(folder_ / *found.suggested_case,
-                  {given_.file.path(), common.name + "_with_law",
-                   common.title + ", with laws suggested for a missing force", values});
+    make_to_go_on_with(folder_, suggested_file, [&](const std::filesystem::path& file) {
+      write_overlay(file, {given_.file.path(), common.name + "_with_law",
+                           common.title + ", with laws suggested for a missing force", values});
+    });
   return found;
 }
 

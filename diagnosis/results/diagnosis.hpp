@@ -18,6 +18,9 @@
 
 namespace tether {
 
+/// Beside a diagnosis, to go on with: the case with what was accepted, and with corrected data.
+inline constexpr const char *suggested_file = "suggested.yaml", *corrected_file = "corrected.yaml";
+
 /// The smallest value of a candidate that these data would show with 80 % probability.
 struct Detectable {
   static constexpr const char* type_name = "detectable";

@@ -10,6 +10,9 @@
 /// What an identification found, as estimate.json has it (docs/identification.md). Other rooms read it by this.
 namespace tether {
 
+/// Beside it, to go on with: the case with what was found.
+inline constexpr const char* identified_file = "identified.yaml";
+
 struct EstimateRange {
   static constexpr const char* type_name = "estimate_range";
   double value = 0, lower = 0, upper = 0;

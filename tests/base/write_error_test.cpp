@@ -23,7 +23,7 @@ TEST(FoldersBelow, DoNotMakeOneAnewThatWasRemoved) {
   for (const std::string of : {"case/runs/a", "case"}) {
     const fs::path wanted = folder / of;
     EXPECT_EQ(message_of([&] { make_folders_below(folder / "case", wanted); }),
-              (folder / "case" / (of == "case" ? "" : "runs")).string() + ": cannot be written: its folder is gone");
+              (folder / "case" / (of == "case" ? "." : "runs")).string() + ": cannot be written: its folder is gone");
     EXPECT_FALSE(fs::exists(folder / "case"));
   }
 }

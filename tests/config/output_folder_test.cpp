@@ -3,15 +3,18 @@
 #include <sys/stat.h>
 
 #include "common/base/folder_lock.hpp"
+#include "common/base/input_stream.hpp"
 #include "tests/config/case_text.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 namespace {
 
-std::string claim(const std::string& name, bool overwrite = false, const std::string& file = "case.yaml") {
+std::string claim(const std::string& name, bool overwrite = false, const std::string& file = "case.yaml",
+                  const std::string& folder = "results") {
   const auto path = write_file(file, "name: " + name + "\nunits: cgs\ntime: {step: 0.1, end: 1}\n");
   CommandLine command;
-  command.output = test_folder() / "results";
+  command.output = test_folder() / folder;
   command.overwrite = overwrite;
   return input_error_of([&] { claim_and_mark_output(command, CaseFile(path)); });
 }
@@ -62,6 +65,23 @@ TEST_F(OutputFolder, IsRefusedToAnotherFileOfTheSameName) {
   EXPECT_TRUE(claim("tube", false, "copy.yaml")
                   .starts_with("results: holds the results of another case file of the name 'tube' ("));
   EXPECT_EQ(claim("tube", true, "copy.yaml"), "no error");
+}
+
+/// A project that was moved or copied is the same one.
+TEST_F(OutputFolder, IsOfACaseThatWasMovedWithIt) {
+  std::filesystem::create_directories(test_folder() / "project");
+  EXPECT_EQ(claim("tube", false, "project/case.yaml", "project/results"), "no error");
+  std::filesystem::copy(test_folder() / "project", test_folder() / "copy", std::filesystem::copy_options::recursive);
+  EXPECT_EQ(claim("tube", false, "copy/case.yaml", "copy/results"), "no error");
+  EXPECT_NE(claim("tube", false, "project/case.yaml", "copy/results"), "no error") << "that of the copy's case";
+  const auto put = [](const std::filesystem::path& from, const std::filesystem::path& to) {  // this process holds it
+    std::filesystem::copy(from, to, std::filesystem::copy_options::recursive);
+    std::filesystem::remove_all(from);
+  };
+  put(test_folder() / "copy", test_folder() / "moved");
+  EXPECT_EQ(claim("tube", false, "moved/case.yaml", "moved/results"), "no error");
+  put(test_folder() / "moved/results", test_folder() / "elsewhere");
+  EXPECT_EQ(claim("tube", false, "moved/case.yaml", "elsewhere"), "no error") << "its case is where it was";
 }
 
 /// A case is the same by whatever way it is called, and none by a way that only looks like another's.
@@ -249,6 +269,29 @@ TEST_F(MadeFolder, IsNotTakenFromOtherFiles) {
   EXPECT_FALSE(std::filesystem::exists(test_folder() / "mine" / made_by));
 }
 
+/// A project that was moved or copied is the same one, and what a person changed in it is known still.
+TEST_F(MadeFolder, IsOfAFileThatWasMovedWithIt) {
+  std::filesystem::create_directories(test_folder() / "project");
+  write_file("project/study.yaml", "name: arch\n");
+  EXPECT_EQ(claim("project/made", false, "build-model", "project/study.yaml"), "no error");
+  write_file("project/made/quality.json", "{}"), write_file("project/made/case.yaml", "as made");
+  note_coming(test_folder() / "project/made", {{"case.yaml", test_folder() / "project/made/case.yaml"}});
+  std::filesystem::copy(test_folder() / "project", test_folder() / "copy", std::filesystem::copy_options::recursive);
+  EXPECT_EQ(claim("copy/made", false, "build-model", "copy/study.yaml"), "no error");
+  write_file("copy/made/case.yaml", "mine");
+  EXPECT_NE(claim("copy/made", false, "build-model", "copy/study.yaml").find("is not as tether build-model made it"),
+            std::string::npos);
+}
+
+TEST_F(MadeFolder, HoldsNothingWhereTheFileWasRefused) {
+  EXPECT_EQ(claim("made"), "no error");
+  write_file("other.yaml", "name: arch\n");
+  EXPECT_EQ(claim("made", false, "build-model", "other.yaml"), "no error") << "a mark is no result";
+  write_file("made/surface.vtp", "");
+  EXPECT_EQ(claim("made", false, "build-model", "other.yaml"), "no error") << "it is the other one's now";
+  EXPECT_NE(claim("made"), "no error");
+}
+
 /// Not with --overwrite either: what is made of a file cannot stand in its place.
 TEST_F(MadeFolder, IsNotWhereTheFilesAreThatAreRead) {
   EXPECT_EQ(claim(".", true),
@@ -302,8 +345,21 @@ TEST_F(MadeFolder, KnowsWhatIsAboutToStandInIt) {
   std::filesystem::rename(made / ".new_case.yaml", made / "case.yaml");
   EXPECT_EQ(claim("made"), "no error");
   write_file("made/case.yaml", "mine"), write_file("made/.new_case.yaml", "third");
-  note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+  EXPECT_EQ(message_of([&] {
+              note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+            }),
+            (made / "case.yaml").string() +
+                ": was changed while its next version was made, and is kept; keep it elsewhere, and give the same "
+                "command");
   EXPECT_NE(claim("made"), "no error") << "what a person made is not taken for the verb's";
+  EXPECT_EQ(claim("made", true), "no error");
+  note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+  write_file("made/case.yaml", "mine again");
+  EXPECT_NE(message_of([&] {
+              note_coming(made, {{"case.yaml", made / ".new_case.yaml"}});
+            }),
+            "accepted")
+      << "--overwrite means what was there when the command began";
 }
 
 /// Of a folder of results: several verbs leave theirs there.
@@ -314,9 +370,17 @@ TEST_F(MadeFolder, OfResultsKeepsAFileToGoOnWithThatWasChanged) {
     return make_to_go_on_with(run, name, [&](const std::filesystem::path& file) { std::ofstream(file) << text; });
   };
   const auto checked = [&] { return input_error_of([&] { check_unchanged(run, "diagnose", {"suggested.yaml"}); }); };
+  const auto replaceable = [&](bool overwrite) {
+    return input_error_of([&] { check_replaceable(run, "diagnose", {"suggested.yaml"}, overwrite); });
+  };
   write_file("run/suggested.yaml", "of an earlier version");
   EXPECT_EQ(checked(), "no error");
+  EXPECT_EQ(replaceable(false),
+            "run/suggested.yaml: nothing says that tether diagnose made it (made_by.txt is missing or of an earlier "
+            "version), and it would be replaced; keep it elsewhere, or give --overwrite");
+  EXPECT_EQ(replaceable(true), "no error");
   EXPECT_TRUE(make("suggested.yaml", "made"));
+  EXPECT_EQ(replaceable(false), "no error");
   EXPECT_EQ(checked(), "no error");
   write_file("run/suggested.yaml", "mine");
   EXPECT_TRUE(make("identified.yaml", "another verb's"));
@@ -326,6 +390,12 @@ TEST_F(MadeFolder, OfResultsKeepsAFileToGoOnWithThatWasChanged) {
   EXPECT_FALSE(make_to_go_on_with(run, "suggested.yaml", [](const std::filesystem::path&) {}));
   std::ifstream kept(run / "suggested.yaml");
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "mine") << "where nothing is suggested";
+  EXPECT_EQ(message_of([&] { make("suggested.yaml", "made anew"); }),
+            (run / "suggested.yaml").string() +
+                ": was changed while its next version was made, and is kept; the new one is suggested.new.yaml");
+  EXPECT_EQ(content_of(run / "suggested.yaml"), "mine");
+  EXPECT_EQ(content_of(run / "suggested.new.yaml"), "made anew");
+  EXPECT_EQ(replaceable(true), "no error");
   EXPECT_TRUE(make("suggested.yaml", "made anew"));
   EXPECT_EQ(checked(), "no error");
 }

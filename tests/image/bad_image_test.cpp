@@ -216,6 +216,9 @@ TEST(BadImage, HeadersThatStateTooMuchAreRefused) {
   EXPECT_EQ(refusal_of_nrrd(head + keys.substr(0, keys.find("k9000:"))).find("lines"), std::string::npos);
   for (int i = 0; i < 11; ++i) keys.insert(0, "l:=" + std::string(1'000'000, 'v') + "\n");
   expect_said(refusal_of_nrrd(head + keys), {"the header has more than 10 MB"});
+  const std::string name(1000, 'n');  // teem would write it beyond the end of its stack
+  expect_said(refusal_of_nrrd(head + name + ": 1\n"), {"a field of no more than 500 characters was expected"});
+  EXPECT_EQ(refusal_of_nrrd(head + name + ":=1\n").find("500"), std::string::npos) << "3D Slicer tells much so";
   folder.text("a.mha", fields);
   expect_said(folder.refusal("file: a.mha, threshold: {above: 1}"), {"a.mha:10001: the header has more than 10000"});
 

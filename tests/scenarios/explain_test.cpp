@@ -114,13 +114,18 @@ TEST_F(Explain, AddsWhatIsMissingAndTheErrorFalls) {
   EXPECT_TRUE(fs::exists(output() / "model_1/comparison.json"));
   EXPECT_EQ(again["effects"], found["effects"]);
   EXPECT_EQ(again["sentences"], found["sentences"]);
-  std::ofstream(suggested, std::ios::app) << "# mine\n";
-  const ChildEnd refused = tether({"explain", (folder / "twin/case.yaml").string(), "--output", output().string()});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.errors, suggested.string() +
-                                ": is not as tether explain made it, and would be replaced; keep it elsewhere, or "
-                                "give --overwrite\n");
-  EXPECT_TRUE(content_of(suggested).ends_with("# mine\n"));
+  for (const auto& [file, verb] :
+       {std::pair{output() / "identification_1/identified.yaml", "identify"}, std::pair{suggested, "explain"}}) {
+    const std::string made = content_of(file);
+    std::ofstream(file, std::ios::app) << "# mine\n";
+    const ChildEnd refused = tether({"explain", (folder / "twin/case.yaml").string(), "--output", output().string()});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.errors, fmt::format("{}: is not as tether {} made it, and would be replaced; keep it elsewhere, "
+                                          "or give --overwrite\n",
+                                          file.string(), verb));
+    EXPECT_EQ(content_of(file), made + "# mine\n");
+    std::ofstream(file) << made;
+  }
 }
 
 /// Broken off, the run of a model goes on from its checkpoint. It has steps for more than the half second that a

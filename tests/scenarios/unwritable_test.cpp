@@ -114,10 +114,10 @@ TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
   }
   EXPECT_EQ(twin(4, "none:write:none:1:ENOSPC").exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/data/lumen_03.vtp"));
-  EXPECT_EQ(twin(5, "tether:write:.made_by:1:ENOSPC").exit_code, 1);
+  EXPECT_EQ(twin(5, "tether:write:made_by.txt:1:ENOSPC").exit_code, 1);
   EXPECT_EQ(twin(5, "none:write:none:1:ENOSPC").exit_code, 0) << "its case was nobody's";
   int frames = 5;
-  for (const char* moment : {"write:.made_by", "rename:.made_by", "rename:lumen_00.vtp", "rename:lumen_03.vtp",
+  for (const char* moment : {"write:made_by.txt", "rename:made_by.txt", "rename:lumen_00.vtp", "rename:lumen_03.vtp",
                              "rename:lumen.csv", "rename:sealed/answer", "rename:case.yaml"}) {
     frames = 9 - frames;
     EXPECT_EQ(twin(frames, fmt::format("tether:{}:1:KILL", moment)).exit_code, 128 + SIGKILL) << moment;
@@ -162,7 +162,7 @@ TEST_F(UnwritableMade, OutletsStayAndTheirCaseIsNobodys) {
     EXPECT_EQ(made("fit-outlets", outlets(45), fault).exit_code, 1) << fault;
     EXPECT_EQ(held(files), before) << fault;
   }
-  EXPECT_EQ(made("fit-outlets", outlets(45), "tether:write:.made_by:1:ENOSPC").exit_code, 1);
+  EXPECT_EQ(made("fit-outlets", outlets(45), "tether:write:made_by.txt:1:ENOSPC").exit_code, 1);
   const ChildEnd again = made("fit-outlets", outlets(45), no_fault);
   EXPECT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_NE(held(files), before);
@@ -185,7 +185,7 @@ TEST_F(UnwritableMade, ASurfaceAndItsModelStay) {
   const std::string before = held(files);
   for (const char* fault :
        {"tether:write:lumen_faces.vtu:1:ENOSPC", "tether:write:surface.json:1:ENOSPC", "tether:write:5_ready:1:ENOSPC",
-        "tether:write:case.yaml:1:ENOSPC", "tether:write:.made_by:1:ENOSPC"}) {
+        "tether:write:case.yaml:1:ENOSPC", "tether:write:made_by.txt:1:ENOSPC"}) {
     const ChildEnd end = made("build-model", study(3), fault);
     EXPECT_EQ(end.exit_code, 1) << fault;
     EXPECT_NE(end.errors.find("; the surface and the model that were there are as they were\n"), std::string::npos)

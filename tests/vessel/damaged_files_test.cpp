@@ -43,6 +43,8 @@ TEST(DamagedFiles, OfPlyAreNamed) {
   expect_messages(
       "a.ply", ply,
       {{"ply\n", "plx\n", "a.ply:1: is no PLY file"},
+       {ply.substr(ply.find("element"), ply.find("end_header") - ply.find("element")), "",
+        "a.ply:3: the header states no elements"},
        {"ply\n", "...", "a.ply:1: is no PLY file"},
        {"format ascii 1.0\n", "", "states no format"},
        {"ascii", "asci", "a.ply:2: \"asci\" found where ascii, binary_little_endian or binary_big_endian was expected"},

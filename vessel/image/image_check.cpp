@@ -208,6 +208,9 @@ void check_meta(const fs::path& file) {
   require_all(voxels.file, wanted, inflated_size(voxels), "");
 }
 
+/// teem's messages of fields that it does not know overwrite its stack from about a thousand characters on.
+constexpr std::size_t longest_nrrd_field = 500;
+
 /// teem takes "Data File" for "datafile".
 std::string nrrd_name(std::string name) {
   std::erase(name, ' ');
@@ -228,6 +231,8 @@ TextHeader nrrd_header(const fs::path& file) {
     const auto colon = line->find(':');
     if (line->starts_with('#') || line->substr(colon == std::string::npos ? 0 : colon).starts_with(":=")) continue;
     if (colon == std::string::npos) header.fail("name: value was expected");
+    if (line->size() > longest_nrrd_field)
+      header.fail(fmt::format("a field of no more than {} characters was expected", longest_nrrd_field));
     const std::string name = nrrd_name(line->substr(0, colon));
     if (needs_space(name) && !header.has("space") && !header.has("spacedimension"))
       header.fail(fmt::format("{} stands before a space: must be behind one", line->substr(0, colon)));
