@@ -86,10 +86,12 @@ struct Job {
   std::vector<JobCase> cases;
   std::optional<MeasuredSteps> measured;
   JobResources resources;
+  std::optional<std::string> cluster = std::nullopt;
 
   static void fields(auto& self, auto&& field) {
     field("verb", self.verb, "what is done with each case");
     field("number", self.number, "the scheduler's; empty: not submitted");
+    field("cluster", self.cluster, "whose number it is; null: that of the machine where it was submitted");
     field("program", self.program, "path of tether");
     field("cases", self.cases, "in the order of the tasks of a job array");
     field("measured", self.measured, "of the first case; null: nothing was measured");

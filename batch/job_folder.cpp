@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "batch/job_status.hpp"
-#include "batch/slurm.hpp"
 #include "common/base/error.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
@@ -63,11 +62,12 @@ void check_replaced(const fs::path& folder, bool overwrite) {
     throw input_error(
         "{0}: holds a job; tether status {0} tells of it, --output makes another, --overwrite replaces it",
         folder.string());
-  const auto tasks = slurm::tasks_of(job->number);
-  if (!tasks) throw input_error("{}: whether its job {} still runs Slurm does not say", folder.string(), job->number);
+  const auto tasks = slurm::tasks_of(job->number, job->cluster);
+  if (!tasks)
+    throw input_error("{}: whether its job {} still runs Slurm does not say", folder.string(), told_number(*job));
   if (!std::all_of(tasks->begin(), tasks->end(), slurm::has_ended))
-    throw input_error("{}: its job {} still waits or runs: scancel {} ends it", folder.string(), job->number,
-                      job->number);
+    throw input_error("{}: its job {} still waits or runs: {} ends it", folder.string(), told_number(*job),
+                      way_to_end(*job));
 }
 
 void check_keeps_read(const fs::path& folder, const std::vector<JobCase>& cases, const std::set<fs::path>& files) {
@@ -138,20 +138,21 @@ void NewJob::keep() {
   fs::remove_all(folder_ / aside_name, none);
 }
 
-std::string NewJob::submit(const fs::path& script) {
+slurm::Submitted NewJob::submit(const fs::path& script) {
   const fs::path mark = folder_ / job_files / submission_begun;
   write_whole(mark, "sbatch was asked, and its answer is not recorded\n");
   try {
-    std::string number = slurm::submit(script);
+    slurm::Submitted submitted = slurm::submit(script);
     keep();
-    return number;
+    return submitted;
   } catch (const InputError& error) {
     fs::remove(mark);
     throw input_error("{}{}", error.what(), has_old_ ? "; the job that was there is kept" : "");
   } catch (const RunError& error) {
     keep();
     const Job job = read_job(folder_);
-    throw run_error("{}; the job was {}", error.what(), perhaps_submitted(job, folder_));
+    throw run_error("{}; the job was {}, and if there is none, --overwrite submits it", error.what(),
+                    perhaps_submitted(job, folder_));
   }
 }
 
@@ -160,7 +161,7 @@ void NewJob::record(const Job& job) const {
   try {
     write_record(files / record_name, job);
   } catch (const RunError& error) {
-    throw run_error("{}; job {} is submitted: scancel {} ends it", error.what(), job.number, job.number);
+    throw run_error("{}; job {} is submitted: {} ends it", error.what(), told_number(job), way_to_end(job));
   }
   fs::remove(files / submission_begun);
 }

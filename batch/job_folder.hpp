@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "batch/job.hpp"
+#include "batch/slurm.hpp"
 
 /// The folder that a job is written into: what stands there already, and what of it may go.
 namespace tether {
@@ -34,9 +35,9 @@ class NewJob {
 
   /// The old one goes.
   void keep();
-  /// Gives the job's script to sbatch and returns its number: to be recorded, and kept then, as is one of which nobody
-  /// knows whether it was submitted: is_perhaps_submitted. Throws as slurm::submit does.
-  std::string submit(const std::filesystem::path& script);
+  /// Gives the job's script to sbatch. The number is to be recorded, and the job is kept then, as is one of which
+  /// nobody knows whether it was submitted: is_perhaps_submitted. Throws as slurm::submit does.
+  slurm::Submitted submit(const std::filesystem::path& script);
   /// With its number. Throws RunError with the number where it cannot be recorded.
   void record(const Job& job) const;
 

@@ -41,7 +41,8 @@ begun=$folder/job/ended/$name.begun
 resume=$(go_on)
 rm -f "$folder/job/ended/$name"
 touch "$begun"
-echo "${SLURM_ARRAY_JOB_ID:-$SLURM_JOB_ID}" >"$folder/job/number"  # for tether status
+# For tether status: the job's number, and the cluster where that is not the one of who submits.
+echo "${SLURM_ARRAY_JOB_ID:-$SLURM_JOB_ID}${clusters:+;$SLURM_CLUSTER_NAME}" >"$folder/job/number"
 
 # What programs leave of the state that they have come to.
 saved() {
@@ -96,6 +97,14 @@ std::string job_name(const Job& job, const std::filesystem::path& folder) {
   return "tether-" + (job.cases.size() == 1 ? job.cases.front().name : folder.filename().string());
 }
 
+std::string asked_clusters(const JobResources& resources) {
+  std::string asked;
+  for (const std::string& more : resources.more)
+    for (const std::string option : {"clusters=", "cluster="})
+      if (more.starts_with(option)) asked = more.substr(option.size());
+  return asked;
+}
+
 std::string job_script(const Job& job, const std::filesystem::path& folder) {
   if (folder.string().find_first_of(" \t\n\"'\\%$`") != std::string::npos)
     throw input_error(
@@ -109,6 +118,8 @@ std::string job_script(const Job& job, const std::filesystem::path& folder) {
   text += fmt::format("options={}\n", makes_many_runs(job.verb)
                                           ? shell_quoted(fmt::format("--processes {}", job.resources.processes))
                                           : "");
+  const std::string clusters = asked_clusters(job.resources);
+  text += "clusters=" + (clusters.empty() ? "${SBATCH_CLUSTERS:-$SLURM_CLUSTERS}" : shell_quoted(clusters)) + "\n";
   text += list("names", job.cases, &JobCase::name) + list("cases", job.cases, &JobCase::case_file);
   const char* saved = job.verb == JobVerb::identify ? "identification" : "master";  // one folder may have both
   text +=

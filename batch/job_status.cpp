@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool runs(const slurm::Task& task) {
-  return task.state == "RUNNING" || task.state == "COMPLETING";
-}
-
 /// Whether a line only tells how to go on, which the job's script knows.
 bool is_about_going_on(const std::string& line) {
   constexpr std::array beginnings{"To continue: ", "The state after ", "No state is saved"};
@@ -62,17 +58,25 @@ std::string joined(const std::string& first, const std::string& second) {
   return first + (first.empty() || second.empty() ? "" : ": ") + second;
 }
 
+/// Where it is no more than that the task waits, or runs.
+std::string told_state(const slurm::Task& task) {
+  return task.state == "PENDING" || task.state == "RUNNING" ? "" : task.state;
+}
+
 CaseStatus status_of(const JobCase& one, const fs::path& files, const slurm::Task* task, bool answers) {
   const std::string said = last_said_in(files / (one.name + ".log"));
-  if (task != nullptr && runs(*task))
-    return {one.name, CaseState::running, joined(fmt::format("{} on {}", task->time, task->nodes), said)};
-  if (task != nullptr && !has_ended(*task)) return {one.name, CaseState::waiting, task->reason};
+  const auto is = [&](slurm::Stage stage) { return task != nullptr && stage_of(*task) == stage; };
+  if (is(slurm::Stage::runs))
+    return {one.name, CaseState::running,
+            joined(told_state(*task), joined(fmt::format("{} on {}", task->time, task->nodes), said))};
+  if (is(slurm::Stage::waits)) return {one.name, CaseState::waiting, joined(told_state(*task), task->reason)};
   try {
     if (const auto code = word_in(files / "ended" / one.name))
       return {one.name, *code == "0" ? CaseState::done : CaseState::failed, *code == "0" ? "" : said};
   } catch (const InputError& error) {  // the others are told
     return {one.name, CaseState::unknown, error.what()};
   }
+  if (is(slurm::Stage::unknown)) return {one.name, CaseState::unknown, joined(task->state, said)};
   if (!answers) return {one.name, CaseState::unknown, said};
   return {one.name, CaseState::gone, joined(task == nullptr ? "" : task->state, said)};
 }
@@ -87,6 +91,16 @@ void check_record(const Job& job, const std::string& file) {
   for (std::size_t k = 0; k < job.cases.size(); ++k)
     check_job_name(file, fmt::format("cases[{}].name", k), job.cases[k].name);
   if (!job.number.empty()) check_job_name(file, "number", job.number);
+  if (job.cluster) check_job_name(file, "cluster", *job.cluster);
+}
+
+/// "4711", or "4711;other". Without a cluster it is of the one that is known with that number.
+void take_number(Job& job, const std::string& given) {
+  const std::size_t end = std::min(given.find(';'), given.size());
+  const std::string number = given.substr(0, end), cluster = given.substr(std::min(end + 1, given.size()));
+  if (number != job.number) job.cluster.reset();
+  if (!cluster.empty()) job.cluster = cluster;
+  job.number = number;
 }
 
 }  // namespace
@@ -97,7 +111,7 @@ Job read_job(const fs::path& folder) {
   auto job = read_record<Job>(record);
   check_record(job, record.string());
   const fs::path number = folder / job_files / "number";  // by the script, whoever submitted it
-  if (auto given = word_in(number)) job.number = std::move(*given);
+  if (const auto given = word_in(number)) take_number(job, *given);
   check_record(job, number.string());
   return job;
 }
@@ -107,7 +121,17 @@ bool is_perhaps_submitted(const Job& job, const fs::path& folder) {
 }
 
 std::string perhaps_submitted(const Job& job, const fs::path& folder) {
-  return fmt::format("perhaps submitted: squeue --me --name={} tells", job_name(job, folder));
+  const std::string clusters = asked_clusters(job.resources);
+  return fmt::format("perhaps submitted: squeue {}--me --name={} tells", clusters.empty() ? "" : "-M " + clusters + " ",
+                     job_name(job, folder));
+}
+
+std::string told_number(const Job& job) {
+  return job.number + (job.cluster ? " of cluster " + *job.cluster : "");
+}
+
+std::string way_to_end(const Job& job) {
+  return "scancel " + (job.cluster ? "-M " + *job.cluster + " " : "") + job.number;
 }
 
 std::vector<CaseStatus> status_of(const Job& job, const fs::path& folder,

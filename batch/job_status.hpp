@@ -21,7 +21,7 @@ inline constexpr auto words_of<CaseState> = std::to_array<WordOf<CaseState>>({
     {CaseState::failed, "failed", "its log says why"},
     {CaseState::gone, "gone", "it left the scheduler before its end: cancelled, or its node was lost"},
     {CaseState::unknown, "unknown",
-     "it has not ended, and the scheduler does not answer, or how it ended cannot be read"},
+     "it has not ended, and the scheduler does not answer, or what it says of it or left of it cannot be read"},
 });
 
 struct CaseStatus {
@@ -41,6 +41,10 @@ inline constexpr const char* submission_begun = "submission_begun";
 bool is_perhaps_submitted(const Job& job, const std::filesystem::path& folder);
 /// "perhaps submitted: squeue --me --name=tether-tube tells"
 std::string perhaps_submitted(const Job& job, const std::filesystem::path& folder);
+/// "4711", "4711 of cluster other"
+std::string told_number(const Job& job);
+/// "scancel 4711", "scancel -M other 4711"
+std::string way_to_end(const Job& job);
 
 /// What became of each case of a job, from what the scheduler says (nothing: it cannot be asked) and the job's folder.
 std::vector<CaseStatus> status_of(const Job& job, const std::filesystem::path& folder,

@@ -165,11 +165,16 @@ void place_job(const Typed& typed, const fs::path& folder, Job& job, const std::
   const fs::path script = folder / job_files / script_name;
   write_text(script, text);
   if (typed.dry_run) return made.keep();
-  job.number = made.submit(script);
+  const slurm::Submitted submitted = made.submit(script);
+  job.number = submitted.number;
+  job.cluster = submitted.cluster;
   told.reset();
-  way_on = fmt::format("job {} is submitted: scancel {} ends it", job.number, job.number);
+  way_on = fmt::format("job {} is submitted: {} ends it", told_number(job), way_to_end(job));
   told.emplace(way_on.c_str());
   made.record(job);
+  if (!submitted.doubt.empty())
+    throw run_error("{}; job {} was perhaps submitted: tether status {} tells, {} ends it", submitted.doubt,
+                    told_number(job), folder.string(), way_to_end(job));
 }
 
 /// All that can be refused is refused before anything in the folder is touched: a job that is there stays as it is.
@@ -194,7 +199,8 @@ int act(const Typed& typed) {
   if (typed.dry_run)
     std::cout << fmt::format("In {}, not submitted:\n\n{}", (files / script_name).string(), text);
   else
-    std::cout << fmt::format("Job {}, results in {}: tether status {}\n", job.number, folder.string(), folder.string());
+    std::cout << fmt::format("Job {}, results in {}: tether status {}\n", told_number(job), folder.string(),
+                             folder.string());
   return exit_done;
 }
 
@@ -207,7 +213,7 @@ int with_job(const char* name, const char* purpose, int argc, char** argv,
   return run_app(app, argc, argv, [&] {
     const fs::path folder = whole(given);
     const Job job = read_job(folder);
-    const auto tasks = job.number.empty() ? std::nullopt : slurm::tasks_of(job.number);
+    const auto tasks = job.number.empty() ? std::nullopt : slurm::tasks_of(job.number, job.cluster);
     if (!job.number.empty() && !tasks)
       std::cerr << "Slurm does not answer: what follows is by the job's folder alone\n";
     show(job, folder, status_of(job, folder, tasks));
@@ -216,7 +222,7 @@ int with_job(const char* name, const char* purpose, int argc, char** argv,
 }
 
 std::string number_or_why_none(const Job& job, const fs::path& folder) {
-  if (!job.number.empty()) return job.number;
+  if (!job.number.empty()) return told_number(job);
   return is_perhaps_submitted(job, folder) ? "perhaps submitted" : "not submitted";
 }
 

@@ -262,6 +262,53 @@ TEST_F(Jobs, TellWhatBecameOfEachCase) {
   EXPECT_EQ(status_of(unsubmitted, folder_, std::nullopt).front().state, CaseState::unsubmitted);
 }
 
+/// JOB STATE CODES of squeue's manual.
+TEST_F(Jobs, HaveAllStatesThatSlurmHas) {
+  const Job one = job(JobVerb::simulate, 1);
+  const auto told = [&](const char* state) {
+    return status_of(one, folder_, std::vector<slurm::Task>{{0, state, "why", "0:12", "n1"}}).front();
+  };
+  for (const char* ended : {"BOOT_FAIL", "CANCELLED", "COMPLETED", "DEADLINE", "FAILED", "NODE_FAIL", "OUT_OF_MEMORY",
+                            "PREEMPTED", "REVOKED", "TIMEOUT"}) {
+    EXPECT_EQ(told(ended).state, CaseState::gone) << ended;
+    EXPECT_EQ(told(ended).note, ended);
+    EXPECT_TRUE(slurm::has_ended({0, ended, "", "", ""})) << ended;
+  }
+  for (const char* waits :
+       {"CONFIGURING", "REQUEUED", "REQUEUE_FED", "REQUEUE_HOLD", "RESV_DEL_HOLD", "SPECIAL_EXIT"}) {
+    EXPECT_EQ(told(waits).state, CaseState::waiting) << waits;
+    EXPECT_EQ(told(waits).note, std::string(waits) + ": why");
+  }
+  for (const char* runs : {"COMPLETING", "RESIZING", "SIGNALING", "STAGE_OUT", "STOPPED", "SUSPENDED"}) {
+    EXPECT_EQ(told(runs).state, CaseState::running) << runs;
+    EXPECT_EQ(told(runs).note, std::string(runs) + ": 0:12 on n1");
+  }
+  EXPECT_EQ(told("PENDING").note, "why");
+  EXPECT_EQ(told("RUNNING").note, "0:12 on n1");
+  EXPECT_EQ(told("OF_A_LATER_SLURM").state, CaseState::unknown);
+  EXPECT_EQ(told("OF_A_LATER_SLURM").note, "OF_A_LATER_SLURM");
+  EXPECT_FALSE(slurm::has_ended({0, "OF_A_LATER_SLURM", "", "", ""}));
+}
+
+/// By the script itself, whoever gives it to sbatch.
+TEST_F(Jobs, TellTheirNumberAndTheClusterThatWasAskedFor) {
+  Job one = job(JobVerb::diagnose, 1);
+  one.program = "/bin/true";
+  const auto told = [&](const std::vector<std::string>& more, const std::string& environment) {
+    one.resources.more = more;
+    fs::create_directories(folder_ / "job/ended");
+    const fs::path script = write("job/script.sh", job_script(one, folder_));
+    write_record(folder_ / "job/job.json", one);
+    capture({{"env", "-u", "SLURM_ARRAY_JOB_ID", "-u", "SBATCH_CLUSTERS", "SLURM_CLUSTERS=" + environment,
+              "SLURM_JOB_ID=4711", "SLURM_CLUSTER_NAME=other", "bash", script.string()},
+             {}});
+    return told_number(read_job(folder_));
+  };
+  EXPECT_EQ(told({"qos=high"}, ""), "4711");
+  EXPECT_EQ(told({"clusters=other,third"}, ""), "4711 of cluster other");
+  EXPECT_EQ(told({}, "all"), "4711 of cluster other");
+}
+
 /// To open a pipe waits without end, and a device has none.
 TEST_F(Jobs, AreToldWhateverStandsInThePlaceOfTheirFiles) {
   const Job two = job(JobVerb::simulate, 2);
@@ -349,6 +396,9 @@ TEST_F(Jobs, AreReadBackAsTheyWereWritten) {
   written.resources = {2, 8, 4, "3G", "1:00:00", "lab", "long", {"qos=high"}};
   write_record(folder_ / "job.json", written);
   EXPECT_EQ(json_of(read_record<Job>(folder_ / "job.json")), json_of(written));
+  written.cluster = "other";
+  write_record(folder_ / "job.json", written);
+  EXPECT_EQ(read_record<Job>(folder_ / "job.json").cluster, "other");
 }
 
 TEST_F(Jobs, AreNotReadWithNamesThatNoneHas) {
@@ -366,6 +416,13 @@ TEST_F(Jobs, AreNotReadWithNamesThatNoneHas) {
   changed = job(JobVerb::simulate, 2);
   changed.number = "12\n13";
   EXPECT_EQ(refused().substr(0, 26), "job/job.json: number: '12?");
+  changed = job(JobVerb::simulate, 2);
+  changed.cluster = "a\nb";
+  EXPECT_EQ(refused().substr(0, 26), "job/job.json: cluster: 'a?");
+  changed.cluster.reset();
+  EXPECT_EQ(refused(), "no error");
+  write("job/number", "12;a/b\n");
+  EXPECT_EQ(refused().substr(0, 27), "job/number: cluster: 'a/b':");
 }
 
 TEST_F(Jobs, ReplaceNothingThatIsNotAJob) {

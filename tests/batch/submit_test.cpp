@@ -2,6 +2,7 @@
 /// end. With a scheduler: slurm_test.py.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "common/base/child_process.hpp"
@@ -98,6 +99,126 @@ TEST_F(Submit, RefusedItLeavesTheJobThatIsThere) {
   EXPECT_EQ(status(), before);
   EXPECT_TRUE(before.starts_with("job 7, simulate, 1 case: 1 done")) << before;
   EXPECT_TRUE(fs::exists(folder_ / "out/results.csv"));
+}
+
+/// What a site has wrapped around sbatch may write more than sbatch does.
+TEST_F(Submit, TakesTheOneLineThatIsANumber) {
+  is_answered_by("sbatch", "echo 'Welcome to Lab cluster, 2 messages'; echo 4712; echo; echo 'Bye: 7 jobs'");
+  const ChildEnd end = submit();
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.output.find("Job 4712, results in "), std::string::npos) << end.output;
+  is_answered_by("squeue", "echo 'N/A|RUNNING|None|0:12|n1'");
+  EXPECT_TRUE(status().starts_with("job 4712, simulate, 1 case: 1 running")) << status();
+  const ChildEnd again = submit({}, {"--overwrite"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.errors.find("its job 4712 still waits or runs: scancel 4712 ends it"), std::string::npos)
+      << again.errors;
+}
+
+TEST_F(Submit, WithoutOneNumberItIsPerhapsSubmitted) {
+  const std::string many(2000, 'x');
+  for (const std::string& said : {std::string("Welcome to Lab cluster"), std::string("4711\n4712"), many,
+                                  std::string("Submitted batch job 4711"), std::string("4711;a/b"), std::string()}) {
+    fs::remove_all(job());
+    is_answered_by("sbatch", "printf '%s\\n' '" + said + "'");
+    const ChildEnd end = submit();
+    EXPECT_EQ(end.exit_code, 1) << said;
+    const std::string words = said == "4711\n4712" ? "4711 4712" : said.substr(0, 100);
+    for (const std::string& told :
+         {words, std::string("perhaps submitted: squeue --me --name=tether-model tells"), std::string("--overwrite")})
+      EXPECT_NE(end.errors.find(told), std::string::npos) << end.errors;
+    EXPECT_EQ(std::count(end.errors.begin(), end.errors.end(), '\n'), 1) << end.errors;
+    EXPECT_LT(end.errors.size(), 1000U);
+    EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << said << ": " << status();
+    EXPECT_EQ(submit().exit_code, 2) << said;
+  }
+}
+
+/// The words of slurm_errno.c.
+TEST_F(Submit, ThatLostTheSchedulerHasPerhapsSubmitted) {
+  for (const char* error : {"Socket timed out on send/recv operation", "Zero Bytes were transmitted or received",
+                            "Unable to contact slurm controller (send failure)",
+                            "Unable to contact slurm controller (receive failure)", "Unexpected message received"}) {
+    fs::remove_all(job());
+    is_answered_by("sbatch", fmt::format("echo 'sbatch: error: Batch job submission failed: {}' >&2; exit 1", error));
+    const ChildEnd end = submit();
+    EXPECT_EQ(end.exit_code, 1) << error;
+    EXPECT_NE(end.errors.find(error), std::string::npos) << end.errors;
+    EXPECT_NE(end.errors.find("perhaps submitted: squeue --me --name=tether-model tells, and if there is none, "
+                              "--overwrite submits it"),
+              std::string::npos)
+        << end.errors;
+    EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << status();
+    EXPECT_EQ(submit().exit_code, 2) << error;
+  }
+  is_answered_by("sbatch", "exit 124");  // of a `timeout` around it
+  EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 1);
+  EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << status();
+  for (const char* error : {"Invalid partition name specified", "Unable to contact slurm controller (connect failure)",
+                            "Invalid account or account/partition combination specified"}) {
+    fs::remove_all(job());
+    is_answered_by("sbatch", fmt::format("echo 'sbatch: error: Batch job submission failed: {}' >&2; exit 1", error));
+    EXPECT_EQ(submit().exit_code, 2) << error;
+    EXPECT_TRUE(status().starts_with("job not submitted, simulate, ")) << status();
+  }
+}
+
+TEST_F(Submit, KeepsANumberThatWasToldBeforeSbatchFailed) {
+  for (const char* end_of_sbatch : {"echo 'sbatch: error: Socket timed out on send/recv operation' >&2; exit 1",
+                                    "echo 'a plugin failed' >&2; exit 3", "kill -9 $$"}) {
+    fs::remove_all(job());
+    is_answered_by("sbatch", std::string("echo 4712; ") + end_of_sbatch);
+    is_answered_by("squeue", "exit 0");
+    const ChildEnd end = submit();
+    EXPECT_EQ(end.exit_code, 1) << end.errors;
+    EXPECT_NE(end.errors.find("; job 4712 was perhaps submitted: tether status "), std::string::npos) << end.errors;
+    EXPECT_NE(end.errors.find(" tells, scancel 4712 ends it"), std::string::npos) << end.errors;
+    is_answered_by("squeue", "echo 'N/A|PENDING|Resources|0:00|'");
+    EXPECT_TRUE(status().starts_with("job 4712, simulate, 1 case: 1 waiting")) << status();
+    EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 2);
+  }
+}
+
+TEST_F(Submit, ReplacesAJobThatWasPreemptedForGood) {
+  is_answered_by("sbatch", "echo 7");
+  ASSERT_EQ(submit().exit_code, 0);
+  is_answered_by("squeue", "echo 'N/A|PREEMPTED|None|0:12|n1'");
+  EXPECT_TRUE(status().starts_with("job 7, simulate, 1 case: 1 gone")) << status();
+  is_answered_by("sbatch", "echo 8");
+  EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 0);
+  EXPECT_TRUE(status().starts_with("job 8, ")) << status();
+}
+
+/// A number is one of its cluster: another may have a job of the same.
+TEST_F(Submit, AsksTheClusterWhoseNumberItIs) {
+  is_answered_by("sbatch", "echo '4711;other'");
+  is_answered_by("squeue",
+                 "case \"$*\" in *--clusters=other*) echo CLUSTER: other; echo 'N/A|RUNNING|None|0:12|n1';; "
+                 "*) echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1;; esac");
+  const ChildEnd end = submit({}, {"--sbatch", "clusters=other"});
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.output.find("Job 4711 of cluster other, results in "), std::string::npos) << end.output;
+  EXPECT_TRUE(status().starts_with("job 4711 of cluster other, simulate, 1 case: 1 running")) << status();
+  const auto refuses_another = [&] {
+    const ChildEnd again = submit({}, {"--overwrite"});
+    EXPECT_EQ(again.exit_code, 2);
+    EXPECT_NE(again.errors.find("its job 4711 of cluster other still waits or runs: scancel -M other 4711 ends it"),
+              std::string::npos)
+        << again.errors;
+  };
+  refuses_another();
+  for (const char* by_the_script : {"4711\n", "4711;\n", "4711;other\n"}) {
+    folder_.file("out/job/number", by_the_script);
+    refuses_another();
+  }
+  folder_.file("out/job/number", "12\n");
+  EXPECT_TRUE(status().starts_with("job 12, simulate, ")) << "given to sbatch again, here: " << status();
+}
+
+TEST_F(Submit, NamesTheClusterWhereItIsPerhapsSubmitted) {
+  is_answered_by("sbatch", "kill -9 $$");
+  const ChildEnd end = submit({}, {"--sbatch", "clusters=other"});
+  EXPECT_NE(end.errors.find("squeue -M other --me --name=tether-model tells"), std::string::npos) << end.errors;
 }
 
 }  // namespace submit_test
