@@ -7,6 +7,7 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/base/name.hpp"
+#include "common/base/shortened.hpp"
 #include "common/config/named_path.hpp"
 #include "common/config/overlay.hpp"
 #include "common/config/yaml_tree.hpp"
@@ -44,7 +45,8 @@ void check_names(const std::vector<JobCase>& cases, const std::string& place) {
   for (const JobCase& one : cases) {
     const std::string& here = one.row.empty() ? place : one.row;
     if (!is_file_name(one.name))
-      throw input_error("{}: '{}' is to be a folder of results: its name {}", here, one.name, file_name_rule);
+      throw input_error("{}: '{}' is to be a folder of results: its name {}", here, shortened(one.name),
+                        file_name_rule);
     if (one.name == job_files || one.name == results_table)
       throw input_error("{}: no case may have the name '{}'", here, one.name);
     if (!names.insert(one.name).second) throw input_error("{}: two cases have the name '{}'", here, one.name);
@@ -55,6 +57,8 @@ void check_columns(const CsvTable& rows, const std::string& table) {
   if (!rows.has("name")) throw input_error("{}: has no column `name`, one for each case", table);
   if (rows.has("base"))
     throw input_error("{}: has a column `base`: all its cases build on the case that is given", table);
+  constexpr std::size_t most = 10'000;  // each becomes a file, and a job
+  if (rows.rows() > most) throw input_error("{}: has {} cases: must be at most {}", table, rows.rows(), most);
 }
 
 bool is_bracketed(const std::string& cell) {
@@ -81,8 +85,9 @@ std::string quoted(const std::string& cell) {
 /// A cell as the text of a value in a case file.
 std::string value_text(const std::string& cell, const std::string& unit) {
   if (!is_bracketed(cell)) return quoted(unit.empty() ? cell : cell + " " + unit);
-  if (!unit.empty()) throw input_error("'{}': must be one number: the column has a unit, {}", cell, unit);
-  if (!is_list_or_section(cell)) throw input_error("'{}': must be a list or a section, and nothing beside it", cell);
+  if (!unit.empty()) throw input_error("'{}': must be one number: the column has a unit, {}", shortened(cell), unit);
+  if (!is_list_or_section(cell))
+    throw input_error("'{}': must be a list or a section, and nothing beside it", shortened(cell));
   return cell;
 }
 

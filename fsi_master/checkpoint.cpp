@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/base/checked_file.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/protocol/packet.hpp"
@@ -35,12 +36,6 @@ CheckedContent unpack(const fs::path& path, Fields&... fields) {
   return content;
 }
 
-/// Which states belong together: those of another run may be of the same step.
-std::int64_t hash_of_states(const Bytes& fluid, const Bytes& solid) {
-  return static_cast<std::int64_t>(
-      hash_bytes(solid.data(), solid.size(), hash_bytes(fluid.data(), fluid.size(), fluid.size())));
-}
-
 Checkpoint read_folder(const fs::path& folder) {
   Checkpoint c;
   std::vector<double> numbers;
@@ -57,14 +52,14 @@ Checkpoint read_folder(const fs::path& folder) {
     const CheckedContent content = unpack(folder / name, *state);
     if (content.step != c.step) throw input_error("{}: is of another step than master.bin", (folder / name).string());
   }
-  if (states != hash_of_states(packed(c.snapshot.fluid), packed(c.snapshot.solid)))
+  if (static_cast<std::uint64_t>(states) != hash_of_states(packed(c.snapshot.fluid), packed(c.snapshot.solid)))
     throw input_error("{}: holds states of different runs: fluid.bin and solid.bin are not those of its master.bin",
                       folder.string());
   return c;
 }
 
-constexpr const char *newest = "checkpoint", *before = "checkpoint.previous";
-constexpr const char* fresh = "checkpoint.new";  ///< not put in its place yet; whole if the run was killed just then
+constexpr const char *newest = newest_checkpoint, *before = earlier_checkpoint;
+constexpr const char* fresh = fresh_checkpoint;  ///< whole if the run was killed before it put it in its place
 constexpr std::array files{"master.bin", "fluid.bin", "solid.bin"};
 
 /// Whether a run has saved one there, and not an identification alone.
@@ -75,14 +70,14 @@ bool holds_state(const fs::path& folder) {
 /// The newest that is whole.
 Checkpoint newest_in(const fs::path& output) {
   std::string damage;
-  for (const char* name : {fresh, newest, before}) {
-    if (!fs::exists(output / name)) continue;
+  for (const fs::path& folder : {newest_state(output), output / newest, output / before}) {
+    if (!fs::exists(folder)) continue;
     try {
-      Checkpoint checkpoint = read_folder(output / name);
+      Checkpoint checkpoint = read_folder(folder);
       checkpoint.refused = damage;
       return checkpoint;
     } catch (const InputError& error) {
-      if (name != fresh && damage.empty()) damage = error.what();
+      if (damage.empty()) damage = error.what();
     }
   }
   if (damage.empty() || !(holds_state(output / newest) || holds_state(output / before)))
@@ -94,15 +89,6 @@ void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
   if (!checkpoint.without_state.empty())
     throw input_error("{}: cannot be continued: {} announced no state to be saved", output.string(),
                       checkpoint.without_state);
-}
-
-bool is_whole(const fs::path& folder) {
-  try {
-    read_folder(folder);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
 }
 
 /// What others than runs have saved: an identification, whose job may be in the same folder.
@@ -152,7 +138,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   RunStatistics statistics = checkpoint.statistics;
   statistics.numbers([&](double& value) { numbers.push_back(value); });
   const Snapshot& s = checkpoint.snapshot;
-  if (is_whole(next)) put_fresh_in_place(output);  // it may be the only one that is
+  if (is_whole_state(next)) put_fresh_in_place(output);  // it may be the only one that is
   fs::remove_all(next);
   make_folder(next);
   const auto write = [&](const char* name, const Bytes& bytes) {
@@ -161,7 +147,7 @@ void write_checkpoint(const fs::path& output, const Checkpoint& checkpoint) {
   const Bytes fluid = packed(s.fluid), solid = packed(s.solid);
   write("master.bin", packed(s.displacement, s.velocity, s.method, s.coupling, numbers, checkpoint.without_state,
                              checkpoint.coupling, checkpoint.origin, checkpoint.table, checkpoint.motion,
-                             checkpoint.velocity, hash_of_states(fluid, solid)));
+                             checkpoint.velocity, static_cast<std::int64_t>(hash_of_states(fluid, solid))));
   write("fluid.bin", fluid);
   write("solid.bin", solid);
   flush_to_disk(next);

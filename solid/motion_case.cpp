@@ -10,6 +10,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 #include "common/config/columns.hpp"
 
 namespace tether {
@@ -61,7 +62,7 @@ std::vector<Points> marks_of(const CsvTable& table, const std::vector<std::strin
   std::map<std::string, Eigen::Index> place;
   for (const std::size_t row : rows.front())
     if (!place.emplace(names[row], static_cast<Eigen::Index>(place.size())).second)
-      throw input_error("{}: the point {} is there twice at this time", table.where(row), names[row]);
+      throw input_error("{}: the point {} is there twice at this time", table.where(row), shortened(names[row]));
   if (place.size() < 3) throw input_error("{}: {} points at a time; a pose needs three", table.where(0), place.size());
   std::vector<Points> result;
   for (const auto& at_time : rows) {
@@ -69,7 +70,7 @@ std::vector<Points> marks_of(const CsvTable& table, const std::vector<std::strin
     for (const std::size_t row : at_time) {
       const auto found = place.find(names[row]);
       if (found == place.end())
-        throw input_error("{}: the point {} is not there at the first time", table.where(row), names[row]);
+        throw input_error("{}: the point {} is not there at the first time", table.where(row), shortened(names[row]));
       marks.col(found->second) = positions.col(static_cast<Eigen::Index>(row));
     }
     if (at_time.size() != place.size() || marks.hasNaN())

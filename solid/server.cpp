@@ -116,7 +116,9 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
 
 protocol::Ready SolidServer::operator()(const protocol::Write& m) {
   const auto rest = output_ / "rest.json";
-  if (m.step == 0 || !std::filesystem::exists(rest)) write_record(rest, rest_);  // a run that goes on may lack it
+  // A run that goes on may lack it, or find one that was changed.
+  if (m.step == 0 || !rest_is_written_ || !std::filesystem::exists(rest)) write_record(rest, rest_);
+  rest_is_written_ = true;
   series_->write(*model_, *solver_, static_cast<int>(m.step), m.time);
   return {};
 }

@@ -51,6 +51,7 @@ class SolidServer {
   std::string effective_case_;
   std::vector<std::string> notices_;
   RestState rest_;
+  bool rest_is_written_ = false;
   std::filesystem::path output_;
   std::unique_ptr<WallSeries> series_;
 };

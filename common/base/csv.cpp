@@ -5,22 +5,22 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 #include "common/base/error.hpp"
 #include "common/base/given_number.hpp"
 #include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
+#include "common/base/shortened.hpp"
 
 namespace tether {
 namespace {
 
-std::string trimmed(std::string_view text) {
+std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r\"";
   const auto first = text.find_first_not_of(blank);
   if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
 /// Without any, or with one at each end.
@@ -32,32 +32,16 @@ bool has_right_quotes(std::string_view cell) {
   return first == cell.find_first_not_of(blank) && second == cell.find_last_not_of(blank);
 }
 
-/// Throws InputError "where: ..." for a cell whose quotation marks are not around it.
-std::vector<std::string> split(const std::string& line, const std::string& where) {
-  std::vector<std::string> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::string_view cell = std::string_view(line).substr(begin, end - begin);
-    if (!has_right_quotes(cell))
-      throw input_error(
-          "{}: cell {} has a quotation mark that does not stand around it: must have none, or one at each "
-          "end and no comma between",
-          where, cells.size() + 1);
-    cells.push_back(trimmed(cell));
-    begin = end + 1;
-  }
-  return cells;
-}
-
 /// "flow [ml/s]" -> "flow", "ml/s"
-std::pair<std::string, std::string> name_and_unit(const std::string& heading) {
+std::pair<std::string, std::string> name_and_unit(std::string_view heading) {
   const auto open = heading.find('[');
-  if (open == std::string::npos || heading.back() != ']') return {heading, ""};
-  return {trimmed(heading.substr(0, open)), trimmed(heading.substr(open + 1, heading.size() - open - 2))};
+  if (open == std::string_view::npos || heading.back() != ']') return {std::string(heading), ""};
+  return {std::string(trimmed(heading.substr(0, open))),
+          std::string(trimmed(heading.substr(open + 1, heading.size() - open - 2)))};
 }
 
-bool skipped(const std::string& line) {
-  const std::string content = trimmed(line);
+bool skipped(std::string_view line) {
+  const std::string_view content = trimmed(line);
   return content.empty() || content.front() == '#';
 }
 
@@ -65,12 +49,15 @@ bool skipped(const std::string& line) {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 constexpr std::uintmax_t largest_table = 100'000'000;  // bytes
+constexpr std::size_t longest_line = 1'000'000;        // bytes
+constexpr std::size_t most_columns = 10'000;
+constexpr std::size_t most_cells = 20'000'000;  // of velocities: thousands of points at hundreds of times
 
 /// One column whose heading has semicolons is a table of another dialect.
-void check_separator(const std::string& file, int line, const std::vector<std::string>& headings) {
-  if (headings.size() == 1 && headings.front().find_first_of(";\t") != std::string::npos)
+void check_separator(const std::string& file, int line, std::string_view only_heading) {
+  if (only_heading.find_first_of(";\t") != std::string_view::npos)
     throw input_error("{}:{}: columns are separated by {}: must be commas, and numbers have points (0.5)", file, line,
-                      headings.front().find(';') != std::string::npos ? "semicolons" : "tabulators");
+                      only_heading.find(';') != std::string_view::npos ? "semicolons" : "tabulators");
 }
 
 /// Up to the digits that a table is written with.
@@ -83,37 +70,85 @@ bool agree(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& file, TableOf by) : file_(file.string()), by_(by) {
-  std::ifstream in = input_stream(file, std::ios::in, largest_table);
-  std::string text;
-  for (int line = 1; std::getline(in, text); ++line) {
-    if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
-    if (skipped(text)) continue;
-    if (!is_utf8(text)) throw input_error("{}:{}: is not UTF-8; save the file in that encoding", file_, line);
-    auto cells = split(text, fmt::format("{}:{}", file_, line));
-    if (columns_.empty()) {
-      take_headings(cells, line);
-      continue;
-    }
-    if (cells.size() != columns_.size())
-      throw input_error("{}:{}: cells in this row: {}, columns: {}{}", file_, line, cells.size(), columns_.size(),
-                        cells.size() > columns_.size() ? " (numbers have points, not commas: 0.5)" : "");
-    lines_.push_back(line);
-    cells_.push_back(std::move(cells));
+CsvTable::CsvTable(const std::filesystem::path& file, TableOf by)
+    : file_(file.string()), by_(by), text_(content_of(file, largest_table)) {
+  std::size_t begin = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  for (int line = 1; begin < text_.size(); ++line) {
+    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
+    take_line(begin, end, line);
+    begin = end + 1;
   }
-  if (cells_.empty()) throw input_error("{}: has no rows", file_);
+  if (lines_.empty()) throw input_error("{}: has no rows", file_);
 }
 
-void CsvTable::take_headings(const std::vector<std::string>& cells, int line) {
-  check_separator(file_, line, cells);
+void CsvTable::take_line(std::size_t begin, std::size_t end, int line) {
+  const std::string_view text = std::string_view(text_).substr(begin, end - begin);
+  if (skipped(text)) return;
+  if (text.size() > longest_line)
+    throw input_error("{}:{}: the line has {} bytes: must be at most {}", file_, line, text.size(), longest_line);
+  if (!is_utf8(text)) throw input_error("{}:{}: is not UTF-8; save the file in that encoding", file_, line);
+  const std::size_t cells = split(begin, end, line);
+  if (columns_.empty())
+    take_headings(line);
+  else
+    take_row(cells, line);
+}
+
+std::size_t CsvTable::split(std::size_t begin, std::size_t end, int line) {
+  std::size_t cells = 0;
+  for (const std::string_view all = std::string_view(text_).substr(0, end); begin <= end; ++cells) {
+    const std::size_t next = std::min(all.find(',', begin), end);
+    if (!has_right_quotes(all.substr(begin, next - begin)))
+      throw input_error(
+          "{}:{}: cell {} has a quotation mark that does not stand around it: must have none, or one at each "
+          "end and no comma between",
+          file_, line, cells + 1);
+    begins_.push_back(static_cast<std::uint32_t>(begin));
+    begin = next + 1;
+  }
+  begins_.push_back(static_cast<std::uint32_t>(begin));
+  return cells;
+}
+
+void CsvTable::take_headings(int line) {
+  const std::size_t count = begins_.size() - 1;
+  if (count > most_columns)
+    throw input_error("{}:{}: has {} columns: must be at most {}", file_, line, count, most_columns);
+  if (count == 1) check_separator(file_, line, cell(0, 0));
   std::set<std::pair<std::string, std::string>> seen;
-  for (const auto& heading : cells) {
+  for (std::size_t column = 0; column < count; ++column) {
+    const std::string_view heading = cell(0, column);
     auto [name, unit] = name_and_unit(heading);
     if (!name.empty() && !seen.emplace(name, unit).second)
-      throw input_error("{}:{}: has two columns '{}': leave one of them out", file_, line, heading);
+      throw input_error("{}:{}: has two columns '{}': leave one of them out", file_, line, shortened(heading));
     columns_.push_back(std::move(name));
     units_.push_back(std::move(unit));
   }
+  begins_.clear();
+  const std::size_t most = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
+  lines_.reserve(std::min(most, most_cells / count + 1));
+  begins_.reserve(lines_.capacity() * (count + 1));
+}
+
+void CsvTable::take_row(std::size_t cells, int line) {
+  if (cells != columns_.size())
+    throw input_error("{}:{}: cells in this row: {}, columns: {}{}", file_, line, cells, columns_.size(),
+                      cells > columns_.size() ? " (numbers have points, not commas: 0.5)" : "");
+  lines_.push_back(line);
+  if (lines_.size() * columns_.size() > most_cells)
+    throw input_error("{}:{}: the table has more than {} cells up to here: must be at most so many", file_, line,
+                      most_cells);
+}
+
+std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
+  const std::size_t columns = columns_.empty() ? begins_.size() - 1 : columns_.size();
+  const std::uint32_t* begin = begins_.data() + row * (columns + 1) + column;
+  return trimmed(std::string_view(text_).substr(begin[0], begin[1] - 1 - begin[0]));
+}
+
+std::string CsvTable::listed_columns() const {
+  constexpr std::size_t most = 500;
+  return shortened(fmt::format("{}", fmt::join(columns_, ", ")), most);
 }
 
 bool CsvTable::has(std::string_view column) const {
@@ -131,7 +166,7 @@ std::string CsvTable::where(std::size_t row) const {
 std::size_t CsvTable::index(std::string_view column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end())
-    throw input_error("{}: has no column '{}'; its columns are {}", file_, column, fmt::join(columns_, ", "));
+    throw input_error("{}: has no column '{}'; its columns are {}", file_, shortened(column), listed_columns());
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
@@ -152,7 +187,8 @@ std::size_t CsvTable::single(std::string_view column) const {
 std::vector<std::string> CsvTable::texts(std::string_view column) const {
   const std::size_t at = single(column);
   std::vector<std::string> values;
-  for (const auto& row : cells_) values.push_back(row[at]);
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row) values.emplace_back(cell(row, at));
   return values;
 }
 
@@ -160,7 +196,7 @@ std::vector<std::string> CsvTable::names(std::string_view column) const {
   std::vector<std::string> values = texts(column);
   for (std::size_t row = 0; row < values.size(); ++row)
     if (!values[row].empty() && !is_name(values[row]))
-      throw input_error("{}: {}: '{}': {}", where(row), column, values[row], name_rule);
+      throw input_error("{}: {}: '{}': {}", where(row), column, shortened(values[row]), name_rule);
   return values;
 }
 
@@ -184,11 +220,11 @@ void CsvTable::check_stated(std::size_t column, const UnitSystem& units, Dimensi
   try {
     stated = units.quantity("1 " + heading, dimension), asked = units.quantity("1 " + unit, dimension);
   } catch (const InputError& error) {
-    throw input_error("{}: column '{}': {}", where(0), columns_[column], error.what());
+    throw input_error("{}: column '{}': {}", where(0), columns_[column], shortened(error.what(), 200));
   }
   if (std::abs(stated - asked) > rounding * std::abs(stated))
     throw input_error("{}: column '{}': is in {} by its heading, in {} by the case: must be the same, or stated once",
-                      where(0), columns_[column], heading, unit);
+                      where(0), columns_[column], shortened(heading), unit);
 }
 
 std::vector<double> CsvTable::quantities_at(std::size_t column, const UnitSystem& units, Dimension dimension,
@@ -198,7 +234,7 @@ std::vector<double> CsvTable::quantities_at(std::size_t column, const UnitSystem
     const double one = unit.empty() ? 1.0 : units.quantity("1 " + unit, dimension);
     for (double& value : values) value *= one;
   } catch (const InputError& error) {
-    throw input_error("{}: column '{}': {}", where(0), columns_[column], error.what());
+    throw input_error("{}: column '{}': {}", where(0), columns_[column], shortened(error.what(), 200));
   }
   return values;
 }
@@ -209,15 +245,16 @@ std::vector<double> CsvTable::numbers(std::string_view column) const {
 
 std::vector<double> CsvTable::numbers_at(std::size_t column) const {
   std::vector<double> values;
-  for (const auto& row : cells_) {
-    const std::string& text = row[column];
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const std::string_view text = cell(row, column);
     double value = 0.0;
     const char* end = text.data() + text.size();
     const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
     if (error != std::errc{} || last != end || !std::isfinite(value) || text.starts_with("+-"))
-      throw input_error("{}: {}: '{}' is not a number", where(values.size()), columns_[column], text);
+      throw input_error("{}: {}: '{}' is not a number", where(row), columns_[column], shortened(text));
     if (by_ == TableOf::person && std::abs(value) > largest_given)
-      throw input_error("{}: {}: {}: must be from -{:g} to {:g}", where(values.size()), columns_[column], text,
+      throw input_error("{}: {}: {}: must be from -{:g} to {:g}", where(row), columns_[column], shortened(text),
                         largest_given, largest_given);
     values.push_back(value);
   }

@@ -1,6 +1,6 @@
 #include "common/base/input_stream.hpp"
 
-#include <iterator>
+#include <array>
 
 #include "common/base/error.hpp"
 
@@ -20,7 +20,15 @@ std::ifstream input_stream(const std::filesystem::path& file, std::ios::openmode
 
 std::string content_of(const std::filesystem::path& file, std::uintmax_t most) {
   std::ifstream stream = input_stream(file, std::ios::binary, most);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::error_code unknown;
+  std::string content;
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+  if (!unknown) content.reserve(size);  // growing by doubling takes three times as much
+  for (std::array<char, 1 << 16> block{}; stream;) {
+    stream.read(block.data(), block.size());
+    content.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return content;
 }
 
 }  // namespace tether

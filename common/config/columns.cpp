@@ -1,9 +1,8 @@
 #include "common/config/columns.hpp"
 
-#include <fmt/ranges.h>
-
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 
 namespace tether {
 namespace {
@@ -24,8 +23,8 @@ void check_column(Fields& f, Fields::Text field, const std::string& column, cons
   const std::optional<CsvTable> table = table_in(file);
   if (!table || table->has(column)) return;
   f.check(false, field,
-          fmt::format("{} has no column '{}'; its columns are {}", file.string(), column,
-                      fmt::join(table->columns(), ", ")));
+          fmt::format("{} has no column '{}'; its columns are {}", file.string(), shortened(column),
+                      table->listed_columns()));
 }
 
 }  // namespace tether

@@ -8,11 +8,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <unordered_set>
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/hash_file.hpp"
 #include "common/base/lower_case.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/named_path.hpp"
 #include "common/config/output_folder.hpp"
@@ -23,7 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t begin_of_hash = 14695981039346656037ull;
-constexpr int folders_deep = 1;  ///< those of meshes have their surfaces one below
+constexpr std::size_t most_names = 100'000;  ///< that a list is searched for: of 5,000 surfaces, each in some ways
+constexpr std::size_t longest_path = 4096;   ///< bytes, of the system
+constexpr int folders_deep = 1;              ///< those of meshes have their surfaces one below
 
 std::uint64_t hash_text(std::string_view text, std::uint64_t seed) {
   return hash_bytes(text.data(), text.size(), hash_bytes("|", 1, seed));
@@ -89,8 +93,8 @@ constexpr std::string_view initial_state = "initial_state";  ///< the section th
 /// A mesh may stand beside its case, with its surfaces in a folder below.
 std::uint64_t content_for(const fs::path& path, const std::string& field, const fs::path& case_folder) {
   std::error_code none;
-  if (field.starts_with(initial_state) && fs::is_directory(path / "checkpoint", none))
-    return hash_state(path / "checkpoint");
+  if (field.starts_with(initial_state))
+    if (const fs::path state = newest_state(path); fs::is_directory(state, none)) return hash_state(state);
   const fs::path from_it = fs::canonical(case_folder, none).lexically_relative(fs::canonical(path, none));
   const bool is_mesh = field == "mesh" || field.starts_with("mesh.");
   const bool holds_case = fs::is_directory(path, none) && !from_it.empty() && *from_it.begin() != "..";
@@ -161,26 +165,32 @@ std::string essence(const std::string& effective_case) {
 
 }  // namespace
 
-/// Whatever text between two of some marks is the name of a file counts. A name may hold the other marks.
+/// Whatever text between two of some marks is the name of a file counts. A name may hold the other marks. Each is
+/// looked for once, and so many as no list of surfaces has that is read: a table of a million rows may be text in all
+/// of them.
 std::set<fs::path> files_named_in(const fs::path& list) {
   const std::string kind = lower_case(list.extension().string());
   if (kind != ".csv" && kind != ".pvd") return {};
   std::set<fs::path> found;
+  std::unordered_set<std::string> seen;
   const auto add_if_file = [&](const std::string& name) {
     std::error_code none;
-    if (!name.empty() && !is_number(name) && fs::is_regular_file(list.parent_path() / name, none))
+    if (!name.empty() && name.size() <= longest_path && !is_number(name) && seen.insert(name).second &&
+        fs::is_regular_file(list.parent_path() / name, none))
       found.insert(list.parent_path() / name);
   };
   std::ifstream file(list);
-  for (std::string line; std::getline(file, line);)
+  for (std::string line, before; seen.size() < most_names && std::getline(file, line); std::swap(line, before)) {
+    if (line == before) continue;
     for (const std::string_view marks : {",;\t\r", "\"", "'", ",\"'\t\r"})
-      for (std::size_t begin = 0; begin < line.size();) {
+      for (std::size_t begin = 0; begin < line.size() && seen.size() < most_names;) {
         const std::size_t end = std::min(line.find_first_of(marks, begin), line.size());
         const std::string text = bare(std::string_view(line).substr(begin, end - begin));
         add_if_file(text);
         if (text.find('&') != std::string::npos) add_if_file(with_xml_entities_read(text));
         begin = end + 1;
       }
+  }
   return found;
 }
 

@@ -55,6 +55,12 @@ double time_of(vtkXMLDataElement& element, const std::filesystem::path& path, in
   return time;
 }
 
+/// A file that a series names.
+bool is_there(const std::filesystem::path& series, const std::string& file) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(series.parent_path() / file, none);
+}
+
 }  // namespace
 
 PvdSeries PvdSeries::resumed(std::filesystem::path path, double last_time) {
@@ -75,16 +81,20 @@ PvdSeries PvdSeries::resumed(std::filesystem::path path, double last_time) {
 
 PvdSeries PvdSeries::rescued(const std::filesystem::path& path, double last_time) {
   try {
-    return resumed(path, last_time);
+    PvdSeries series = resumed(path, last_time);
+    const std::size_t gone =
+        std::erase_if(series.entries_, [&](const auto& entry) { return !is_there(path, entry.second); });
+    if (gone > 0)
+      fmt::print(stderr, "{}: {} of the files that it lists are gone: written anew without them\n", path.string(),
+                 gone);
+    return series;
   } catch (const InputError& error) {
     PvdSeries series(path);
     std::ifstream file(path);
     const std::regex entry("<DataSet timestep=\"([-+.e0-9]+)\" part=\"0\" file=\"([^\"]+)\"/>");
     std::smatch found;
-    std::error_code none;
     for (std::string line; std::getline(file, line);)
-      if (std::regex_match(line, found, entry) && std::stod(found[1]) <= last_time &&
-          std::filesystem::is_regular_file(path.parent_path() / found[2].str(), none))
+      if (std::regex_match(line, found, entry) && std::stod(found[1]) <= last_time && is_there(path, found[2]))
         series.entries_.emplace_back(std::stod(found[1]), found[2]);
     fmt::print(stderr, "{}; it is written anew, with the {} files that it still names\n", error.what(),
                series.entries_.size());

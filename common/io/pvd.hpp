@@ -15,7 +15,8 @@ class PvdSeries {
   /// The series found at `path`, cut after `last_time`; empty if there is none. Throws InputError if the file is no
   /// series, or one of its entries has no time or no file.
   static PvdSeries resumed(std::filesystem::path path, double last_time);
-  /// The same of a series that this class wrote; of a damaged one what it still names, which is told on stderr.
+  /// The same of a series that this class wrote, without files that are gone, and of a damaged one what it still
+  /// names; both are told on stderr.
   static PvdSeries rescued(const std::filesystem::path& path, double last_time);
 
   /// file: as seen from the series' folder. Throws RunError if the series cannot be written.

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/base/name.hpp"
+#include "common/base/shortened.hpp"
 #include "observation_manager/measurements/stated_unit.hpp"
 
 namespace tether {
@@ -21,6 +23,9 @@ struct Drawn {
   bool closed = true;
   Points points;
 };
+
+/// Of one frame: the model's lumen is cut for each of them.
+constexpr std::size_t most_contours = 2000;
 
 class Table {
  public:
@@ -167,23 +172,24 @@ void add(ContourTrack& track, const Drawn& one, const SlicesCase& given, int& re
   track.held_out.push_back(std::find(out.begin(), out.end(), one.frame) != out.end());
 }
 
-/// Each of them once, in their order.
+/// Each of them once, as messages list them.
 template <class Get>
-auto different(const std::vector<Drawn>& drawn, const Get& get) {
-  std::vector<std::decay_t<decltype(get(drawn.front()))>> all;
-  for (const Drawn& one : drawn)
-    if (std::find(all.begin(), all.end(), get(one)) == all.end()) all.push_back(get(one));
-  return all;
+std::string different(const std::vector<Drawn>& drawn, const Get& get) {
+  constexpr std::size_t most = 500;
+  std::set<std::decay_t<decltype(get(drawn.front()))>> all;
+  for (const Drawn& one : drawn) all.insert(get(one));
+  return shortened(fmt::format("{}", fmt::join(all, ", ")), most);
 }
 
 void check_frames(const std::vector<Drawn>& drawn, const SlicesCase& given) {
-  std::vector<double> frames = different(drawn, [](const Drawn& one) { return one.frame; });
-  std::sort(frames.begin(), frames.end());
+  const auto frame_of = [](const Drawn& one) { return one.frame; };
+  std::set<double> frames;
+  for (const Drawn& one : drawn) frames.insert(frame_of(one));
   for (const auto& [field, numbers] : {std::pair{"held_out", &given.data.held_out}, {"left_out", &given.data.left_out}})
     for (const double number : *numbers)
-      if (std::find(frames.begin(), frames.end(), number) == frames.end())
-        throw input_error("{}: {}: there is no frame {:g}; its frames are {:g}", given.file.string(), field, number,
-                          fmt::join(frames, ", "));
+      if (!frames.contains(number))
+        throw input_error("{}: {}: there is no frame {:g}; its frames are {}", given.file.string(), field, number,
+                          different(drawn, frame_of));
 }
 
 /// Only the frames that the case does not leave out, where they should be.
@@ -199,8 +205,8 @@ void keep_wanted(std::vector<Drawn>& drawn, const SlicesCase& given) {
   if (given.slices.empty()) return;
   for (const std::string& name : given.slices)
     if (std::none_of(drawn.begin(), drawn.end(), [&](const Drawn& one) { return one.slice == name; }))
-      throw input_error("{}: has no slice {}; it has {}", given.file.string(), name,
-                        fmt::join(different(drawn, [](const Drawn& one) { return one.slice; }), ", "));
+      throw input_error("{}: has no slice {}; it has {}", given.file.string(), shortened(name),
+                        different(drawn, [](const Drawn& one) { return one.slice; }));
   std::erase_if(drawn, [&](const Drawn& one) {
     return std::find(given.slices.begin(), given.slices.end(), one.slice) == given.slices.end();
   });
@@ -220,12 +226,17 @@ std::vector<ContourTrack> read_contour_tracks(const SlicesCase& given, const Uni
   for (const auto& [slice, its] : of_slice) planes.emplace(slice, plane_of(slice, its));
 
   std::vector<ContourTrack> tracks;
+  std::map<std::string, std::size_t> places;  ///< of tracks, by their names
   int repeated = 0;
   for (const Drawn& one : drawn) {
     const std::string name = "slice " + one.slice + (one.contour.empty() ? "" : ", " + one.contour);
-    auto track = std::find_if(tracks.begin(), tracks.end(), [&](const ContourTrack& t) { return t.name == name; });
-    if (track == tracks.end()) track = tracks.insert(tracks.end(), {name, planes.at(one.slice), {}, {}, {}});
-    add(*track, one, given, repeated);
+    const auto [place, is_new] = places.emplace(name, tracks.size());
+    if (is_new && tracks.size() == most_contours)
+      throw input_error(
+          "{}: has more than {} slices and contours: must be at most so many, each in any number of frames",
+          given.file.string(), most_contours);
+    if (is_new) tracks.push_back({name, planes.at(one.slice), {}, {}, {}});
+    add(tracks[place->second], one, given, repeated);
   }
   if (repeated > 0) notes.push_back({"", fmt::format("{} points that repeat the one before are left out", repeated)});
   return tracks;

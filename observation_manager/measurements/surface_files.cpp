@@ -9,6 +9,7 @@
 #include "common/base/error.hpp"
 #include "common/base/given_number.hpp"
 #include "common/base/lower_case.hpp"
+#include "common/base/shortened.hpp"
 #include "common/config/input_files.hpp"
 #include "common/io/pvd.hpp"
 #include "observation_manager/measurements/stated_unit.hpp"
@@ -21,9 +22,22 @@ bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
+/// More than any series has: each of them would be read.
+void check_number(std::size_t files, const std::filesystem::path& list) {
+  constexpr std::size_t most = 5000;
+  if (files > most) throw input_error("{}: has {} surfaces: must be at most {}", list.string(), files, most);
+}
+
+/// As messages name it: longer than any that there can be, it is the list that is wrong.
+std::string shown(const std::filesystem::path& file) {
+  constexpr std::size_t most = 1000;
+  return shortened(file.string(), most);
+}
+
 std::vector<TimedFile> listed_in_table(const std::filesystem::path& list, const UnitSystem& units) {
   const CsvTable table(list);
   check_unit_of_time(table, false);
+  check_number(table.rows(), list);
   const std::vector<std::string> names = table.texts("file");
   const std::vector<double> times = table.quantities("time", units, dimension::time);
   std::vector<TimedFile> files;
@@ -60,31 +74,25 @@ std::vector<TimedFile> found_in_folder(const SurfacesCase& given) {
   return files;
 }
 
-/// More than any series has: each of them would be read.
-void check_number(const std::vector<TimedFile>& files, const std::filesystem::path& list) {
-  constexpr std::size_t most = 5000;
-  if (files.size() > most)
-    throw input_error("{}: has {} surfaces: must be at most {}", list.string(), files.size(), most);
-}
-
 void check_is_file(const TimedFile& given) {
-  const std::filesystem::file_status status = std::filesystem::status(given.file);
-  if (!std::filesystem::exists(status)) throw input_error("{}: {} does not exist", given.where, given.file.string());
+  std::error_code unknown;  // its name may be too long for the system
+  const std::filesystem::file_status status = std::filesystem::status(given.file, unknown);
+  if (!std::filesystem::exists(status)) throw input_error("{}: {} does not exist", given.where, shown(given.file));
   if (!std::filesystem::is_regular_file(status))
-    throw input_error("{}: {} is {}: must be a surface's file", given.where, given.file.string(),
+    throw input_error("{}: {} is {}: must be a surface's file", given.where, shown(given.file),
                       std::filesystem::is_directory(status) ? "a folder" : "a device or a pipe");
 }
 
 /// A name that is written otherwise than it reads, as by &#95;: what results depend on would not be seen.
 std::vector<TimedFile> plainly_named(std::vector<TimedFile> files, const std::filesystem::path& list) {
-  check_number(files, list);
+  check_number(files.size(), list);
   std::for_each(files.begin(), files.end(), check_is_file);
   const std::set<std::filesystem::path> seen = files_named_in(list);
   for (const TimedFile& file : files)
     if (!seen.contains(file.file))
       throw input_error(
           "{}: the name of {} must be written as it is, in UTF-8, without quotes or &#...; of its characters",
-          file.where, file.file.string());
+          file.where, shown(file.file));
   return files;
 }
 
@@ -149,7 +157,7 @@ bool in_order_of_numbers(const std::string& a, const std::string& b) {
 
 std::vector<TimedFile> files_of(const SurfacesCase& given, const UnitSystem& units) {
   std::vector<TimedFile> files = listed(given, units);
-  check_number(files, given.folder.empty() ? given.file : given.folder);
+  check_number(files.size(), given.folder.empty() ? given.file : given.folder);
   std::for_each(files.begin(), files.end(), check_is_file);
   check_times(files, given.period.value_or(0));
   for (TimedFile& file : files) file.time += given.data.time_shift;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/base/error.hpp"
 #include "observation_manager/measurements/lumen_kinds.hpp"
@@ -85,18 +86,25 @@ std::unique_ptr<LumenSeries> load(const SurfacesCase& given, const LumenSurface&
   const std::vector<Opening> openings = openings_of(lumen);
   const double reach = reach_of(given.data, lumen);
   double best = 0;
+  std::map<std::filesystem::path, std::size_t> first_frames;  ///< of files that may be listed again
   for (const TimedFile& timed : files) {
     const double label = labels[frames.size()];
     const std::string name = timed.file.string();
+    const bool must_be_near = &timed == &files.back() && best < least_share;
+    held_out.push_back(holds(given.data.held_out, label));
+    const auto [first, is_new] = first_frames.emplace(timed.file, frames.size());
+    if (!is_new && !must_be_near) {
+      const SurfaceFrame& same = frames[first->second];
+      frames.push_back({timed.time, same.surface, same.flawed, label});
+      continue;
+    }
     TriangleSurface read = read_surface(timed.file, scale);
     read.points = given.data.correction.faults.corrected(read.points);
     CheckedSurface checked = checked_surface(name, std::move(read));
     check_size(name, checked.surface, lumen, given.unit);
     open_ends(checked, openings);
-    const bool must_be_near = &timed == &files.back() && best < least_share;
     best = std::max(best, checked_placing(name, checked, lumen, reach, must_be_near));
     for (const std::string& note : checked.notes) notes.push_back({timed.file.filename().string(), note});
-    held_out.push_back(holds(given.data.held_out, label));
     frames.push_back({timed.time, std::move(checked.surface), std::move(checked.flawed), label});
   }
   check_range(frames.front().time, frames.back().time, period, source);

@@ -58,6 +58,19 @@ struct Places {
   std::vector<int> of_row;
 };
 
+/// A frame has a value for each point of the table: of points that move there would be as many as there are rows,
+/// squared.
+void check_size(const Table& table, const Places& places) {
+  constexpr std::size_t most = 20'000'000;  // numbers
+  std::size_t frames = 1;
+  for (std::size_t row = 1; row < table.rows(); ++row)
+    if (table.times[row] != table.times[row - 1]) ++frames;
+  const auto points = static_cast<std::size_t>(places.points.cols());
+  if (frames * points * table.values.size() > most)
+    throw input_error("{}: has {} times and {} different points: all points at all times would be more than {} numbers",
+                      table.file.where(table.rows() - 1), frames, points, most);
+}
+
 /// Rows of the same time, which must stand together, become a frame.
 std::vector<VelocityFrame> frames_of(const Table& table, const Places& places) {
   const auto components = static_cast<Eigen::Index>(table.values.size());
@@ -113,6 +126,7 @@ VelocitySeries load_velocities(const std::string& name, const VelocitiesCase& gi
   const std::string where = file.where("observations.velocities." + name);
   const Table table(given, file.units());
   Places places(table);
+  check_size(table, places);
   std::vector<VelocityFrame> frames = frames_of(table, places);
   mark_held_out(frames, given.held_out, where);
   const double period = given.beat.value_or(given.period.value_or(0));

@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include "common/base/checked_file.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/config/overlay.hpp"
 #include "tests/config/case_text.hpp"
 
@@ -72,6 +74,44 @@ TEST_F(InputFiles, OfARunTheStateCountsWhereACaseBeginsFromIt) {
   fs::remove(test_folder() / "data/checkpoint/solid.bin");
   ASSERT_EQ(mkfifo((test_folder() / "data/checkpoint/solid.bin").c_str(), 0600), 0);
   EXPECT_NE(content(), before) << "a pipe, which is not waited for";
+}
+
+/// A run that is killed just before it puts its newest state in its place leaves it whole beside the one before.
+TEST_F(InputFiles, OfARunThatWasKilledTheStateCountsThatIsRead) {
+  const fs::path file = write_file("case.yaml", "name: tube\ninitial_state: {run: data}\n");
+  const auto save = [](const char* name, int value) {
+    const fs::path folder = test_folder() / "data" / name;
+    fs::create_directories(folder);
+    const std::vector<std::byte> fluid{std::byte(value)}, solid{std::byte(2 * value)};
+    const std::uint64_t states = hash_of_states(fluid, solid);
+    write_checked(folder / "fluid.bin", 1, value, fluid);
+    write_checked(folder / "solid.bin", 1, value, solid);
+    write_checked(folder / "master.bin", 1, value, std::as_bytes(std::span(&states, 1)));
+  };
+  const auto content = [&] { return input_files(file).front().content; };
+  save("checkpoint", 8);
+  const std::uint64_t before = content();
+  save("checkpoint.new", 9);
+  const std::uint64_t fresh = content();
+  EXPECT_NE(fresh, before);
+  fs::remove_all(test_folder() / "data/checkpoint");
+  EXPECT_EQ(content(), fresh) << "it is taken where there is no other, too";
+  fs::rename(test_folder() / "data/checkpoint.new", test_folder() / "data/checkpoint");
+  EXPECT_EQ(content(), fresh) << "it is the same state in its place";
+  save("checkpoint.new", 10);
+  write_file("data/checkpoint.new/solid.bin", "cut");
+  EXPECT_EQ(content(), fresh) << "what is not whole is not taken";
+}
+
+/// A table of contours is no list of files: what stands in each of its rows is not looked for on the disk.
+TEST_F(InputFiles, AListIsSearchedForAsManyNamesAsOneMayHave) {
+  std::string rows = "file, time [s]\n";
+  for (int i = 0; i < 5000; ++i) rows += fmt::format("surface {}.vtp, {}\n", i, i);
+  write_file("data/surface 4999.vtp", "one");
+  EXPECT_EQ(files_named_in(write_file("data/list.csv", rows)).size(), 1U);
+  std::string many;
+  for (int i = 0; i < 100'000; ++i) many += fmt::format("slice {}, {}\n", i, i);
+  EXPECT_EQ(files_named_in(write_file("data/list.csv", many + rows)).size(), 0U);
 }
 
 /// A mesh may stand beside its case, and results too.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/base/progress_line.hpp"
 #include "fsi_master/checkpoint.hpp"
 #include "fsi_master/progress.hpp"
@@ -198,6 +199,7 @@ TEST_F(Output, ACheckpointThatWasNotPutInItsPlaceIsTaken) {
   fs::rename(folder / "other/checkpoint", folder / "checkpoint");
   damage("checkpoint");  // and the one before it had to make room: killed just then
   EXPECT_EQ(read_checkpoint(folder, 77).step, 9);
+  EXPECT_EQ(newest_state(folder), folder / "checkpoint.new") << "what depends on a state asks here which one is read";
   const fs::path next = folder.string() + "_next";
   fs::remove_all(next);
   fs::copy(folder, next, fs::copy_options::recursive);
@@ -206,6 +208,7 @@ TEST_F(Output, ACheckpointThatWasNotPutInItsPlaceIsTaken) {
   ASSERT_TRUE(kept) << "the only one that was whole may not make room before the next one is";
   EXPECT_EQ(kept->step, 9);
   damage("checkpoint.new");
+  EXPECT_EQ(newest_state(folder), folder / "checkpoint");
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("there is none before it"), std::string::npos);
   EXPECT_NE(error_of([&] { read_checkpoint(folder, 77); }).find("start anew without --resume"), std::string::npos);
 }

@@ -98,6 +98,20 @@ TEST(PvdSeries, OfADamagedOneNamesOfNoFileAreDropped) {
   EXPECT_EQ(PvdSeries::resumed(folder / "fluid.pvd", 1e9).entries().size(), 3U);
 }
 
+/// Somebody has removed them before the run goes on.
+TEST(PvdSeries, FilesThatAreGoneAreDroppedAndTold) {
+  const TemporaryFolder folder;
+  const auto whole = series_of_three(folder).entries();
+  std::filesystem::remove(folder / whole[1].second);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(PvdSeries::rescued(folder / "fluid.pvd", 1e9).entries(), (std::vector{whole[0], whole[2]}));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            (folder / "fluid.pvd").string() + ": 1 of the files that it lists are gone: written anew without them\n");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(PvdSeries::rescued(folder / "fluid.pvd", 0.5).entries(), (std::vector{whole[0]}));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "what the run makes again is not missed";
+}
+
 /// As other programs write them: on one line, over several, in single quotes.
 TEST(PvdSeries, IsReadAsXml) {
   const TemporaryFolder folder;

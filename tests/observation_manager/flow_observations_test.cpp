@@ -139,6 +139,11 @@ TEST_F(Flow, BadVelocitiesAreNamedWithTheirPlace) {
             "plane.csv:4: the time 0 comes after 0.1: the rows of a frame must stand together, in order");
   EXPECT_EQ(of("0, 0, 0, 1, 1e160\n"), "plane.csv:2: v: 1e160: must be from -1e+20 to 1e+20");
   EXPECT_EQ(of(good + "0.1, 0, 0, 1, 7\n"), "plane.csv:4: the point has a velocity at 0.1 already");
+  std::string moving;
+  for (int i = 0; i < 5000; ++i) moving += fmt::format("{:.4f}, {:.4f}, 0, 1, 5\n", 1e-4 * i, 1e-4 * i);
+  EXPECT_EQ(of(moving),
+            "plane.csv:5001: has 5000 times and 5000 different points: all points at all times would be more than "
+            "20000000 numbers");
   EXPECT_EQ(of(good, ", held_out: [2]"),
             "case.yaml:5: observations.velocities.pc_mr.held_out: there is no frame 2; frames are numbered 0 to 1");
   EXPECT_EQ(

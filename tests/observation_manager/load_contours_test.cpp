@@ -1,4 +1,6 @@
 // Contours as people have them, and what is said of bad ones.
+#include <chrono>
+
 #include "tests/observation_manager/measured_files.hpp"
 
 namespace tether::testing {
@@ -25,6 +27,22 @@ TEST_F(Load, ReadsTimesAsFractionsOfABeat) {
   EXPECT_NEAR(data.lumen[0]->frames()[1].time, 0.3, 1e-15);
   EXPECT_NEAR(first_distance(data, 0.45), 0.2, 2e-2);
   EXPECT_NEAR(first_distance(data, 0.6), 0.1, 2e-2);
+}
+
+/// The model is cut for each of them.
+TEST_F(Load, HasNoMoreSlicesThanAnyImaging) {
+  const auto said = [&](int slices) {
+    std::string rows = heading;
+    for (int i = 0; i < slices; ++i)
+      for (const char* point : {"11,0", "0,11", "-11,0"}) rows += fmt::format("{},0,0,{},15\n", i, point);
+    folder.file("c.csv", rows);
+    return message("  contours: {mr: {file: c.csv, samples: 8}}\n");
+  };
+  EXPECT_EQ(said(2000), "accepted");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(said(100'000),
+            "c.csv: has more than 2000 slices and contours: must be at most so many, each in any number of frames");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 TEST_F(Load, RefusesBadContours) {

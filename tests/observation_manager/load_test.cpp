@@ -1,6 +1,8 @@
 // Surfaces, velocities and traces as people have them, and what is said of bad ones.
 #include <sys/stat.h>
 
+#include <chrono>
+
 #include "observation_manager/measurements/surface_files.hpp"
 #include "tests/observation_manager/measured_files.hpp"
 
@@ -31,6 +33,35 @@ TEST_F(Load, ReadsSeriesFromATableAndFromParaView) {
     EXPECT_NEAR(first_distance(data, 0.25), 0.15, 4e-3) << list;
     EXPECT_NEAR(first_distance(data, 0.65), 0.15, 4e-3) << list;  // halfway to 0.95, which is the first again
   }
+}
+
+TEST_F(Load, ReadsASurfaceThatIsListedAgainOnce) {
+  folder.file("a.stl", stl_text(vessel(1.1)));
+  folder.file("b.stl", stl_text(vessel(1.2)));
+  folder.file("frames.csv", "file,time [s]\na.stl,0.1\nb.stl,0.2\na.stl,0.3\nb.stl,0.4\n");
+  const Observations data = load("  surfaces: {ct: {file: frames.csv, unit: cm, held_out: [3]}}\n");
+  EXPECT_NEAR(first_distance(data, 0.1), first_distance(data, 0.3), 1e-15);
+  EXPECT_NEAR(first_distance(data, 0.2), 0.2, 4e-3);
+  EXPECT_TRUE(data.lumen[0]->frames()[3].held_out);
+
+  std::string list = "file,time [s]\n";
+  for (int i = 0; i < 5000; ++i) list += fmt::format("a.stl,{:.4f}\n", 1e-4 * i);
+  folder.file("frames.csv", list);
+  const auto begin = std::chrono::steady_clock::now();
+  load("  surfaces: {ct: {file: frames.csv, unit: cm}}\n");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(4)) << "to read it each time takes longer";
+}
+
+TEST_F(Load, ALongNameInATableIsToldWithoutItsMiddle) {
+  folder.file("frames.csv", "file,time [s]\n" + std::string(900'000, 'x') + ",0\n");
+  const std::string said = message("  surfaces: {ct: {file: frames.csv, unit: cm}}\n");
+  EXPECT_NE(said.find("does not exist"), std::string::npos) << said.substr(0, 2000);
+  EXPECT_LT(said.size(), 2000U);
+  std::string rows = "file,time [s]\n";
+  for (int i = 0; i < 5001; ++i) rows += ",0\n";
+  folder.file("frames.csv", rows);
+  EXPECT_EQ(message("  surfaces: {ct: {file: frames.csv, unit: cm}}\n"),
+            "frames.csv: has 5001 surfaces: must be at most 5000");
 }
 
 /// What its file holds would not count in what results depend on.

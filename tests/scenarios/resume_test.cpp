@@ -138,6 +138,30 @@ TEST_F(ResumedRun, WritesADamagedRestStateAnew) {
   EXPECT_EQ(nlohmann::json::parse(again), nlohmann::json::parse(first));
 }
 
+/// It is told in the summary of the run: of the wall that goes on, not what somebody has made of it.
+TEST_F(ResumedRun, WritesARestStateThatWasChangedAnew) {
+  ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);
+  ASSERT_EQ(simulate("stopped", 6).exit_code, 0);
+  const fs::path rest = folder / "stopped/rest.json";
+  nlohmann::json changed = nlohmann::json::parse(content_of(rest));
+  changed["wall"] = "as somebody has it";
+  std::ofstream(rest) << changed;
+  ASSERT_EQ(simulate("stopped", all_steps, {"--resume"}).exit_code, 0);
+  EXPECT_EQ(summary("stopped")["rest"], summary("whole")["rest"]);
+  EXPECT_EQ(nlohmann::json::parse(content_of(rest)), nlohmann::json::parse(content_of(folder / "whole/rest.json")));
+}
+
+/// Whoever frees the disk of frames goes on without them, and is told.
+TEST_F(ResumedRun, ListsNoFramesThatAreGone) {
+  ASSERT_EQ(simulate("stopped", 6).exit_code, 0);
+  fs::remove_all(folder / "stopped/vtk");
+  const ChildEnd end = simulate("stopped", all_steps, {"--resume"});
+  ASSERT_EQ(end.exit_code, 0) << end.errors;
+  EXPECT_NE(end.errors.find("fluid.pvd: 3 of the files that it lists are gone"), std::string::npos) << end.errors;
+  for (const char* series : {"fluid.pvd", "solid.pvd"})
+    EXPECT_EQ(content_of(folder / "stopped" / series).find("_000006"), std::string::npos) << series;
+}
+
 /// What a loss of power may leave, or a flipped bit: the newest checkpoint is further than the tables.
 TEST_F(ResumedRun, GoesOnFromTheCheckpointThatItsTablesReach) {
   ASSERT_EQ(simulate("whole", all_steps).exit_code, 0);

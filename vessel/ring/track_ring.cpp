@@ -10,6 +10,7 @@
 #include "common/base/csv.hpp"
 #include "common/base/curve.hpp"
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 #include "vessel/study/read_surface.hpp"
 #include "vessel/surface/rims.hpp"
 #include "vessel/surface/tidy.hpp"
@@ -39,8 +40,8 @@ std::vector<FrameFile> frames_of(const FramesCase& given) {
   for (std::size_t i = 0; i < times.size(); ++i) frames.push_back({times[i], given.file.parent_path() / files[i]});
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (frames[i].time <= frames[i - 1].time)
-      throw input_error("{}: the time {} s of {} does not come after {} s", table.where(i), frames[i].time, files[i],
-                        frames[i - 1].time);
+      throw input_error("{}: the time {} s of {} does not come after {} s", table.where(i), frames[i].time,
+                        shortened(files[i]), frames[i - 1].time);
   return frames;
 }
 

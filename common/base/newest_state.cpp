@@ -1,0 +1,31 @@
+#include "common/base/newest_state.hpp"
+
+#include <cstring>
+
+#include "common/base/checked_file.hpp"
+#include "common/base/error.hpp"
+
+namespace tether {
+
+std::uint64_t hash_of_states(std::span<const std::byte> fluid, std::span<const std::byte> solid) {
+  return hash_bytes(solid.data(), solid.size(), hash_bytes(fluid.data(), fluid.size(), fluid.size()));
+}
+
+bool is_whole_state(const std::filesystem::path& folder) {
+  try {
+    const CheckedContent master = read_checked(folder / "master.bin"), fluid = read_checked(folder / "fluid.bin"),
+                         solid = read_checked(folder / "solid.bin");
+    std::uint64_t states = 0;
+    if (master.bytes.size() < sizeof states || fluid.step != master.step || solid.step != master.step) return false;
+    std::memcpy(&states, master.bytes.data() + master.bytes.size() - sizeof states, sizeof states);
+    return states == hash_of_states(fluid.bytes, solid.bytes);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::filesystem::path newest_state(const std::filesystem::path& output) {
+  return output / (is_whole_state(output / fresh_checkpoint) ? fresh_checkpoint : newest_checkpoint);
+}
+
+}  // namespace tether

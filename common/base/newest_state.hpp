@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+/// Which of the folders that runs save their states in counts: for those who read it, and those who ask whether it is
+/// another than before.
+namespace tether {
+
+/// Of a run's states, in its output: the newest; one that was not put in its place yet; the one before.
+inline constexpr const char *newest_checkpoint = "checkpoint", *fresh_checkpoint = "checkpoint.new",
+                            *earlier_checkpoint = "checkpoint.previous";
+
+/// Which states belong together: those of another run may be of the same step. master.bin ends with it.
+std::uint64_t hash_of_states(std::span<const std::byte> fluid, std::span<const std::byte> solid);
+
+/// Whether such a folder has master.bin, fluid.bin and solid.bin, undamaged and of one run and step.
+bool is_whole_state(const std::filesystem::path& folder);
+
+/// checkpoint.new if it is whole, as a run leaves it that is killed just before it puts it in its place; else
+/// checkpoint, whatever that is like.
+std::filesystem::path newest_state(const std::filesystem::path& output);
+
+}  // namespace tether
