@@ -7,7 +7,7 @@
 #include "common/base/parameter_table.hpp"
 #include "common/base/transform.hpp"
 #include "common/base/whole_file.hpp"
-#include "common/config/output_folder.hpp"
+#include "common/config/files_to_go_on_with.hpp"
 #include "common/io/record_file.hpp"
 #include "identification_master/checkpoint.hpp"
 #include "identification_master/identifiability.hpp"

@@ -1,7 +1,7 @@
 #include "tether/new_results.hpp"
 
 #include "common/base/whole_file.hpp"
-#include "common/config/output_folder.hpp"
+#include "common/config/files_to_go_on_with.hpp"
 
 namespace tether {
 

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 
-#include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/whole_file.hpp"
@@ -20,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view case_file_key = "# case_file: ";  ///< first line of a mark
-constexpr std::string_view from_here_key = "# from here: ";  ///< second line: the same file as seen from the folder
 constexpr const char* way_out = "choose another folder with --output, or give --overwrite";
 
 /// A verb that refused its file leaves no more than a mark.
@@ -57,65 +53,12 @@ bool is_in(const fs::path& path, const fs::path& place) {
   return !from_it.empty() && *from_it.begin() != "..";
 }
 
-/// Whose a folder is, in two lines: by the absolute paths of files, and by those from the folder, which are right still
-/// when both are moved or copied.
-struct Owner {
-  std::string line, from_here;
-
-  bool is(const Owner& other) const {
-    return line == other.line || (!from_here.empty() && from_here == other.from_here);
-  }
-};
-
-/// As long as paths may be.
-Owner owner_in(const fs::path& mark) {
-  std::string begin(16384, '\0');
-  std::ifstream file(mark, std::ios::binary);
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(file.gcount()));
-  const std::size_t end = std::min(begin.find('\n'), begin.size());
-  Owner owner{begin.substr(0, end), ""};
-  if (const std::string rest = begin.substr(std::min(end + 1, begin.size())); rest.starts_with(from_here_key))
-    owner.from_here = rest.substr(0, rest.find('\n'));
-  return owner;
-}
-
-/// `before`: what the first line begins with. "build-model /home/ada/study.yaml", "measure-noise /home/ada/one.stl and
-/// /home/ada/two.stl".
-Owner owner_by(const std::string& before, const fs::path& folder, const std::vector<fs::path>& files) {
-  Owner owner{before, std::string(from_here_key)};
-  const fs::path here = fs::weakly_canonical(fs::absolute(folder));
-  const char* between = "";
-  for (const fs::path& file : files) {
-    check_path(file);
-    const fs::path place = place_of(file);
-    owner.line += between + place.string();
-    owner.from_here += between + place.lexically_relative(here).string();
-    between = " and ";
-  }
-  return owner;
-}
-
-Owner maker(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& files) {
-  return owner_by(verb + " ", folder, files);
-}
-
-/// A line of a mark behind its first: a file that was made for a person to go on with, and what it held then; after a
-/// kill also what it was about to hold.
-struct Note {
-  std::string content;
-  fs::path file;
-
-  std::string line() const { return content + " " + file.string(); }
-  bool operator==(const Note&) const = default;
-};
-
-void check_made_by(const fs::path& folder, const std::string& verb, const Owner& wanted) {
+void check_made_by(const fs::path& folder, const std::string& verb, const FolderOwner& wanted) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw input_error("{}: is not a folder", folder.string());
   check_writable_through(folder);
   if (holds_nothing(folder)) return;
-  const Owner owner = owner_in(folder / made_by);
+  const FolderOwner owner = owner_in(folder / made_by);
   const bool is_of_verb = owner.line.starts_with(verb + " ");
   if (is_of_verb && owner.is(wanted)) return;
   if (is_of_verb)
@@ -124,18 +67,11 @@ void check_made_by(const fs::path& folder, const std::string& verb, const Owner&
   throw input_error("{}: holds files that are not what tether {} made; {}", folder.string(), verb, way_out);
 }
 
-void write_mark(const fs::path& folder, const Owner& owner, const std::vector<Note>& notes = {}) {
-  std::string mark = owner.line + "\n";
-  if (!owner.from_here.empty()) mark += owner.from_here + "\n";
-  for (const Note& note : notes) mark += note.line() + "\n";
-  write_whole(folder / made_by, mark);
-}
-
 /// Makes and holds the folder of what a verb makes of these files, and marks it if it is empty; `keeps_inputs` throws
 /// if one that is read would be replaced, `keeps_work` if a person's own would.
 void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb, const std::vector<fs::path>& files,
                  const std::function<void()>& keeps_inputs, const std::function<void()>& keeps_work) {
-  const Owner owner = maker(folder, verb, files);
+  const FolderOwner owner = maker_of(folder, verb, files);
   const auto check = [&] {
     keeps_inputs();
     if (!overwrite) check_made_by(folder, verb, owner);
@@ -145,58 +81,6 @@ void hold_marked(const fs::path& folder, bool overwrite, const std::string& verb
   hold_output(folder);
   check();  // another may have been there until now
   if (holds_nothing(folder)) write_mark(folder, owner);
-}
-
-constexpr const char* mark_of_results = "results";  ///< first line where only files of a case's results are noted
-
-/// Of the file alone, not of those that it names: they are put in place one by one.
-Note note_of(const fs::path& file, const fs::path& written) {
-  std::ifstream from(written, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(from), {});
-  return {fmt::format("{:016x}", hash_bytes(bytes.data(), bytes.size())), file};
-}
-
-std::vector<Note> notes_in(const fs::path& folder) {
-  std::vector<Note> notes;
-  std::ifstream mark(folder / made_by);
-  std::string line;
-  for (std::getline(mark, line); std::getline(mark, line);)
-    if (const auto end = line.find(' '); end != std::string::npos && !line.starts_with(from_here_key))
-      notes.push_back({line.substr(0, end), line.substr(end + 1)});
-  return notes;
-}
-
-bool has(const std::vector<Note>& notes, const Note& note) {
-  return std::find(notes.begin(), notes.end(), note) != notes.end();
-}
-
-bool is_noted(const std::vector<Note>& notes, const fs::path& file) {
-  return std::any_of(notes.begin(), notes.end(), [&](const Note& note) { return note.file == file; });
-}
-
-/// Of these files those that are there, but not as it was noted.
-std::vector<fs::path> changed_of(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
-  const std::vector<Note> notes = notes_in(folder);
-  std::vector<fs::path> changed;
-  for (const fs::path& file : to_go_on_with)
-    if (is_noted(notes, file) && fs::exists(folder / file) && !has(notes, note_of(file, folder / file)))
-      changed.push_back(file);
-  return changed;
-}
-
-void write_notes(const fs::path& folder, const std::vector<Note>& notes) {
-  Owner owner = owner_in(folder / made_by);
-  if (owner.line.empty()) owner.line = mark_of_results;
-  write_mark(folder, owner, notes);
-}
-
-bool is_as_noted(const fs::path& folder, const std::string& verb, const fs::path& file) {
-  return owner_in(folder / made_by).line.starts_with(verb + " ") && has(notes_in(folder), note_of(file, folder / file));
-}
-
-[[noreturn]] void refuse_changed(const fs::path& file, const std::string& verb) {
-  throw input_error("{}: is not as tether {} made it, and would be replaced; keep it elsewhere, or give --overwrite",
-                    file.string(), verb);
 }
 
 /// Throws InputError if the folder holds anything but results of this very case file; of any case if `goes_on`: the
@@ -213,7 +97,7 @@ void check_owner(const fs::path& folder, const std::string& name, const fs::path
   const YamlNode marker = read_yaml(folder / case_as_run);
   const YamlNode* owner = marker.find("name");
   const std::optional<fs::path> whose = owner_of(folder);
-  const Owner wanted = owner_by(std::string(case_file_key), folder, {case_file});
+  const FolderOwner wanted = owner_by(std::string(case_file_key), folder, {case_file});
   std::error_code none;
   if (owner && owner->text == name && whose &&
       (owner_in(folder / case_as_run).is(wanted) || fs::equivalent(*whose, case_file, none)))
@@ -293,98 +177,10 @@ fs::path hold_for_made(const CommandLine& command, const MadeOfFile& made) {
 }
 
 void mark_made(const fs::path& folder, const std::string& verb, const fs::path& file) {
-  const Owner owner = maker(folder, verb, {file}), before = owner_in(folder / made_by);
+  const FolderOwner owner = maker_of(folder, verb, {file}), before = owner_in(folder / made_by);
   if (before.line == owner.line && before.from_here == owner.from_here) return;
   const bool is_moved = before.line.starts_with(verb + " ") && before.is(owner);
-  write_mark(folder, owner, is_moved ? notes_in(folder) : std::vector<Note>{});
-}
-
-/// A case has a common name: one of the person's own is not replaced, nor what the person made of one.
-void check_keeps_work(const fs::path& folder, const MadeOfFile& made, bool overwrite) {
-  for (const fs::path& file : made.to_go_on_with) {
-    if (!fs::exists(folder / file) || is_as_noted(folder, made.verb, file)) continue;
-    if (!fs::exists(folder / made.before_these))
-      throw input_error("{}: is not what tether {} made, and would be replaced; choose another folder with --output",
-                        (folder / file).string(), made.verb);
-    if (!overwrite) refuse_changed(folder / file, made.verb);
-  }
-}
-
-void note_as_they_are(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
-  if (!fs::exists(folder / made_by)) return;
-  std::vector<Note> notes = notes_in(folder);
-  const std::size_t before = notes.size();
-  for (const fs::path& file : to_go_on_with)
-    if (fs::exists(folder / file))
-      if (const Note note = note_of(file, folder / file); !has(notes, note)) notes.push_back(note);
-  if (notes.size() > before) write_notes(folder, notes);
-}
-
-void note_coming(const fs::path& folder, const std::vector<ComingFile>& coming) {
-  std::vector<fs::path> names;
-  for (const ComingFile& one : coming) names.push_back(one.name);
-  check_not_changed_meanwhile(folder, names);
-  const std::vector<Note> before = notes_in(folder);
-  std::vector<Note> notes;
-  for (const Note& note : before) {
-    const bool is_coming =
-        std::any_of(coming.begin(), coming.end(), [&](const ComingFile& one) { return one.name == note.file; });
-    const bool stays = fs::exists(folder / note.file) && (!is_coming || note == note_of(note.file, folder / note.file));
-    if (stays) notes.push_back(note);
-  }
-  for (const auto& [name, written] : coming)
-    if (const Note note = note_of(name, written); !has(notes, note)) notes.push_back(note);
-  if (notes != before) write_notes(folder, notes);
-}
-
-void check_not_changed_meanwhile(const fs::path& folder, const std::vector<fs::path>& to_go_on_with) {
-  for (const fs::path& file : changed_of(folder, to_go_on_with))
-    throw run_error(
-        "{}: was changed while its next version was made, and is kept; keep it elsewhere, and give the same command",
-        (folder / file).string());
-}
-
-bool make_to_go_on_with(const fs::path& folder, const fs::path& name,
-                        const std::function<void(const fs::path&)>& write) {
-  const fs::path beside = folder / (".new_" + name.string());
-  std::error_code none;
-  fs::remove(beside, none);
-  try {
-    write(beside);
-    if (!fs::exists(beside)) return false;
-    if (!changed_of(folder, {name}).empty()) {
-      const fs::path other = (folder / name).replace_extension(".new" + name.extension().string());
-      put_in_place(beside, other);
-      throw run_error("{}: was changed while its next version was made, and is kept; the new one is {}",
-                      (folder / name).string(), other.filename().string());
-    }
-    note_coming(folder, {{name, beside}});
-    put_in_place(beside, folder / name);
-    return true;
-  } catch (...) {
-    fs::remove(beside, none);
-    throw;
-  }
-}
-
-void check_unchanged(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& to_go_on_with) {
-  for (const fs::path& file : changed_of(folder, to_go_on_with)) refuse_changed(folder / file, verb);
-}
-
-void check_replaceable(const fs::path& folder, const std::string& verb, const std::vector<fs::path>& to_go_on_with,
-                       bool overwrite) {
-  if (overwrite) {
-    note_as_they_are(folder, to_go_on_with);
-    return;
-  }
-  check_unchanged(folder, verb, to_go_on_with);
-  const std::vector<Note> notes = notes_in(folder);
-  for (const fs::path& file : to_go_on_with)
-    if (fs::exists(folder / file) && !is_noted(notes, file))
-      throw input_error(
-          "{}: nothing says that tether {} made it ({} is missing or of an earlier version), and it "
-          "would be replaced; keep it elsewhere, or give --overwrite",
-          (folder / file).string(), verb, made_by);
+  write_mark(folder, owner, is_moved ? notes_in(folder) : std::vector<NotedFile>{});
 }
 
 fs::path claim_for_made(const CommandLine& command, const MadeOfFile& made) {
@@ -399,12 +195,12 @@ fs::path claim_for_made(const fs::path& folder, bool overwrite, const std::strin
   for (const fs::path& file : files) read.merge(files_named_in(file));
   hold_marked(
       folder, overwrite, verb, files, [&] { check_none_is_in(folder, read); }, [] {});
-  write_mark(folder, maker(folder, verb, files));
+  write_mark(folder, maker_of(folder, verb, files));
   return folder;
 }
 
 void mark_output(const fs::path& folder, const fs::path& case_file) {
-  const Owner owner = owner_by(std::string(case_file_key), folder, {case_file});
+  const FolderOwner owner = owner_by(std::string(case_file_key), folder, {case_file});
   write_whole(
       folder / case_as_run,
       owner.line + "\n" + owner.from_here +

@@ -9,7 +9,7 @@
 
 #include "common/base/csv.hpp"
 #include "common/config/case_tree.hpp"
-#include "common/config/output_folder.hpp"
+#include "common/config/files_to_go_on_with.hpp"
 #include "diagnosis/explanation/force_law.hpp"
 #include "diagnosis/results/diagnosis.hpp"
 
