@@ -176,6 +176,9 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
   std::ofstream(folder.path / "alone.mhd")
       << "ObjectType = Image\nNDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementDataFile = alone.raw\n";
   expect_said(refusal("alone.mhd"), {"alone.mhd: names the file alone.raw, which is not there"});
+  std::ofstream(folder.path / "long.nrrd")
+      << "NRRD0004\ntype: uchar\ndimension: 1\nsizes: 1\nencoding: raw\ndata file: " << std::string(300, 'n') << "\n\n";
+  expect_said(refusal("long.nrrd"), {"long.nrrd: names the file nnn", "nnn, which is not there"});
   std::ofstream(folder.path / "alone.nhdr")
       << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 3\nencoding: raw\ndata file: alone.raw\n";
   expect_said(refusal("alone.nhdr"), {"alone.nhdr: ", "alone.raw"});

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <future>
+#include <thread>
 
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -83,13 +86,16 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 /// A twin that is there stays whole until the next one is.
-TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
-  const TemporaryFolder folder;
-  folder.file("model.yaml", fmt::format("base: {}/configs/tube/case.yaml\nname: model\n"
-                                        "time: {{step: 4e-3, end: 0.04}}\nmesh: {{swept: {{around: 12, along: 8}}}}\n",
-                                        TETHER_SOURCE));
-  folder.file("same.yaml", "base: model.yaml\nname: same\n");
-  const auto twin = [&](int frames, const std::string& fault) {
+class UnwritableTwin : public ::testing::Test {
+ protected:
+  UnwritableTwin() {
+    folder.file("model.yaml",
+                fmt::format("base: {}/configs/tube/case.yaml\nname: model\n"
+                            "time: {{step: 4e-3, end: 0.04}}\nmesh: {{swept: {{around: 12, along: 8}}}}\n",
+                            TETHER_SOURCE));
+    folder.file("same.yaml", "base: model.yaml\nname: same\n");
+  }
+  ChildEnd twin(int frames, const std::string& fault) const {
     const fs::path file =
         folder.file("twin.yaml", fmt::format("base: model.yaml\nname: twin\ntwin: {{truth: same.yaml, "
                                              "frames: {0}, noise: {{deviation: 0.0{0} mm, correlation_length: 5 mm}}, "
@@ -99,8 +105,33 @@ TEST(UnwritableTwin, LeavesTheOneThatIsThere) {
     return capture({{TETHER_PROGRAM, "twin", file.string(), "--output", (folder / "out").string(), "--quiet"},
                     {{"LD_PRELOAD", preloaded(TETHER_FAULTS)},
                      {"TETHER_FAULT_ROOT", (folder / "out").string()},
+                     {"TETHER_FAULT_FLAG", (folder / "paused").string()},
                      {"TETHER_FAULT", fault}}});
-  };
+  }
+  const TemporaryFolder folder;
+};
+
+/// What a person changes while the next twin is made is not replaced by it.
+TEST_F(UnwritableTwin, KeepsWhatIsChangedMeanwhile) {
+  ASSERT_EQ(twin(2, "none:write:none:1:ENOSPC").exit_code, 0);
+  const fs::path frame = folder / "out/data/lumen_00.vtp";
+  auto next = std::async(std::launch::async, [&] { return twin(3, "tether:open:.new_twin.yaml:1:PAUSE"); });
+  const auto begun = std::chrono::steady_clock::now();
+  while (!fs::exists(folder / "paused") && std::chrono::steady_clock::now() - begun < std::chrono::minutes(2))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ASSERT_TRUE(fs::exists(folder / "paused"));
+  std::ofstream(frame) << "mine";
+  fs::remove(folder / "paused");
+  const ChildEnd end = next.get();
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_NE(end.errors.find(frame.string() + ": was changed while its next version was made, and is kept"),
+            std::string::npos)
+      << end.errors;
+  EXPECT_EQ(content_of(frame), "mine");
+  EXPECT_FALSE(fs::exists(folder / "out/data/lumen_02.vtp"));
+}
+
+TEST_F(UnwritableTwin, LeavesTheOneThatIsThere) {
   ASSERT_EQ(twin(2, "none:write:none:1:ENOSPC").exit_code, 0);
   const auto held = [&](const char* name) { return content_of(folder / "out" / name); };
   const std::string before = held("case.yaml") + held("data/lumen.csv") + held("data/lumen_00.vtp");

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "common/base/error.hpp"
+#include "common/base/shortened.hpp"
 #include "vessel/image/text_header.hpp"
 
 namespace tether {
@@ -81,7 +82,9 @@ struct Place {
 /// The file of voxels that a header names, beside it.
 Place beside(const fs::path& file, const std::string& name) {
   const fs::path voxels = file.parent_path() / name;
-  if (!fs::is_regular_file(voxels)) throw input_error("{}: names the file {}, which is not there", file.string(), name);
+  std::error_code none;  // a name that no file can have
+  if (!fs::is_regular_file(voxels, none))
+    throw input_error("{}: names the file {}, which is not there", file.string(), shortened(name));
   return {voxels};
 }
 
