@@ -83,7 +83,7 @@ std::vector<fs::path> models_in(const fs::path& output) {
 
 /// What identifications and diagnoses on the way made for a person to go on with.
 void check_steps_unchanged(const fs::path& output) {
-  const std::regex step("(identification|diagnosis)_[0-9]+|(force)");
+  const std::regex step("(identification|diagnosis)_[0-9]+|force");
   for (const auto& entry : fs::directory_iterator(output)) {
     std::smatch found;
     const std::string name = entry.path().filename().string();

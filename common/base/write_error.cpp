@@ -42,7 +42,9 @@ void make_folders_below(const std::filesystem::path& there, const std::filesyste
   const std::filesystem::path root = std::filesystem::absolute(there);
   const std::filesystem::path below = std::filesystem::absolute(folder).lexically_relative(root);
   if (below.empty() || *below.begin() == "..") {
-    std::filesystem::create_directories(folder);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw write_error(folder);
     return;
   }
   std::filesystem::path made = root;

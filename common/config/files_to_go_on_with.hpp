@@ -48,8 +48,8 @@ bool make_to_go_on_with(const std::filesystem::path& folder, const std::filesyst
 void check_unchanged(const std::filesystem::path& folder, const std::string& verb,
                      const std::vector<std::filesystem::path>& to_go_on_with);
 
-/// Whether these files may be replaced by what the verb is about to make. Throws InputError as check_unchanged, and for
-/// one that nothing is noted of: nobody knows whose it is. If they are to be, `overwrite`, they are noted as they are.
+/// To be called before a verb makes these files anew. Throws InputError as check_unchanged, and for one that nothing is
+/// noted of: nobody knows whose it is. With `overwrite` neither: they are noted as they are.
 void check_replaceable(const std::filesystem::path& folder, const std::string& verb,
                        const std::vector<std::filesystem::path>& to_go_on_with, bool overwrite);
 

@@ -13,11 +13,12 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view from_here_key = "# from here: ";  ///< second line: the same file as seen from the folder
 
+constexpr std::size_t longest_lines = 16384;  ///< bytes: of two paths, each as long as it may be
+
 }  // namespace
 
-/// As long as paths may be.
 FolderOwner owner_in(const fs::path& mark) {
-  std::string begin(16384, '\0');
+  std::string begin(longest_lines, '\0');
   std::ifstream file(mark, std::ios::binary);
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(file.gcount()));
