@@ -60,12 +60,21 @@ class Capture {
   _exit(cannot_execute);
 }
 
-/// Forks; the child runs `prepare` and becomes the program. Returns the child's pid.
+/// In the child: ends with its parent, also with one that has died meanwhile, or dies before the child is its program
+/// and while it still has the parent's way of taking a signal.
+void end_with(pid_t parent) {
+  if (std::signal(SIGTERM, SIG_DFL) == SIG_IGN) std::signal(SIGTERM, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(cannot_execute);
+}
+
+/// Forks; the child, which ends with this process, runs `prepare` and becomes the program. Returns the child's pid.
 pid_t start(const Command& command, const std::function<void()>& prepare) {
   std::array<int, 2> failure{};
   if (pipe2(failure.data(), O_CLOEXEC) != 0) throw run_error("no pipe: {}", std::strerror(errno));
-  const pid_t pid = fork();
+  const pid_t parent = getpid(), pid = fork();
   if (pid == 0) {
+    end_with(parent);
     prepare();
     execute(command, failure[1]);
   }
@@ -170,7 +179,6 @@ class Forwarding {
 
 /// In the child: a process group of its own, so that Ctrl-C reaches it once, through its parent; no input.
 void detach_from_terminal() {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
   setpgid(0, 0);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
 }
@@ -192,7 +200,6 @@ std::string last_line(const std::string& text) {
 ChildEnd capture(const Command& command) {
   const Capture output, errors;
   const pid_t pid = start(command, [&] {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);  // nobody would read what it writes
     dup2(output.descriptor(), STDOUT_FILENO);
     dup2(errors.descriptor(), STDERR_FILENO);
   });

@@ -1,7 +1,11 @@
 #include "common/base/child_process.hpp"
 
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
 
 #include "common/base/error.hpp"
@@ -26,6 +30,31 @@ TEST(Capture, KeepsMoreThanAPipeHolds) {
 
 TEST(Capture, TellsASignalFromAnExitCode) {
   EXPECT_EQ(capture(shell("kill -KILL $$")).exit_code, 128 + SIGKILL);
+}
+
+/// Whether all that a process started ends within seconds when it is killed, microseconds after it began to start a
+/// program: they keep a pipe open.
+bool all_end_if_it_is_killed_after(useconds_t delay) {
+  std::array<int, 2> open{};
+  EXPECT_EQ(pipe(open.data()), 0);
+  const pid_t starting = fork();
+  if (starting == 0) {
+    capture_in_foreground(shell("exec sleep 20"));
+    _exit(0);
+  }
+  close(open[1]);
+  usleep(delay);
+  kill(starting, SIGKILL);
+  waitpid(starting, nullptr, 0);
+  pollfd end{open[0], POLLIN, 0};
+  const bool ended = poll(&end, 1, 10'000) == 1;
+  close(open[0]);
+  return ended;
+}
+
+TEST(Capture, LeavesNothingBehindWheneverItIsKilled) {
+  for (useconds_t delay = 0; delay < 3000; delay += 10)
+    ASSERT_TRUE(all_end_if_it_is_killed_after(delay)) << delay << " us after its start";
 }
 
 TEST(HowItEnded, KnowsWhichNumbersAreSignals) {

@@ -31,7 +31,7 @@ std::string said_of(const std::string& text) {
 }
 
 TEST(Csv, LargerThanAnyTableIsRefused) {
-  EXPECT_EQ(said_of("time [s],flow [ml/s]\n" + std::string(90'000'000, ',')),
+  EXPECT_EQ(said_of("time [s],flow [ml/s]\n" + repeated(90'000'000, ",")),
             ":2: the line has 90000000 bytes: must be at most 1000000");
   EXPECT_EQ(said_of("time,flow\n" + repeated(20'000'000, "0,1\n")),
             ":10000002: the table has more than 20000000 cells up to here: must be at most so many");

@@ -191,9 +191,7 @@ TEST_F(Identify, KilledAndResumedItFindsTheSame) {
       EXPECT_FALSE(fs::exists(folder / output / old)) << old << " of the run before";
     EXPECT_EQ(ended.errors.find("ended by signal"), std::string::npos) << "one message is enough: " << ended.errors;
     EXPECT_NE(ended.errors.find("--processes 2 --resume\n"), std::string::npos) << ended.errors;
-    for (int wait = 0; wait < 600 && process_of("observation_manager", case_file) != 0; ++wait)
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    EXPECT_EQ(process_of("observation_manager", case_file), 0) << "an orphan";
+    EXPECT_EQ(orphan_of({"observation_manager"}, {case_file}), "");
     ASSERT_EQ(tether("identify", case_file, output, {"--resume"}).exit_code, 0) << "on as many groups as before";
     for (const char* name : {"estimate.csv", "identified.yaml"})
       EXPECT_EQ(content_of(folder / "one" / name), content_of(folder / output / name)) << name;

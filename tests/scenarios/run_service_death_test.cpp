@@ -5,7 +5,6 @@
 #include <csignal>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -41,13 +40,8 @@ class RunService : public ::testing::Test {
     if (process != 0) kill(process, SIGKILL);
     return end.get();
   }
-  void expect_no_orphan() const {
-    for (const char* program : {"mpirun", "identification_master", "fsi_master", "fluid", "solid"})
-      for (const fs::path& of : {candidates, coarse}) {
-        for (int wait = 0; wait < 600 && process_of(program, of) != 0; ++wait)
-          std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        EXPECT_EQ(process_of(program, of), 0) << program << " of " << of << " is an orphan";
-      }
+  std::string orphan() const {
+    return orphan_of({"mpirun", "identification_master", "fsi_master", "fluid", "solid"}, {candidates, coarse});
   }
 
   TemporaryFolder folder;
@@ -59,12 +53,12 @@ class RunService : public ::testing::Test {
 
 TEST_F(RunService, EndsWithTheDiagnosisThatIsKilled) {
   EXPECT_EQ(killed("tether", given).exit_code, 128 + SIGKILL);
-  expect_no_orphan();
+  EXPECT_EQ(orphan(), "");
   const auto made = fs::last_write_time(first_run);
   const ChildEnd again = diagnose();
   EXPECT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(fs::last_write_time(first_run), made) << "runs that are there are kept";
-  expect_no_orphan();
+  EXPECT_EQ(orphan(), "");
 }
 
 TEST_F(RunService, ThatDiesEndsTheDiagnosisWithAMessage) {
@@ -74,7 +68,7 @@ TEST_F(RunService, ThatDiesEndsTheDiagnosisWithAMessage) {
     EXPECT_EQ(end.exit_code, 1) << program;
     EXPECT_NE(end.errors.find(program), std::string::npos) << end.errors;
     EXPECT_NE(end.errors.find("the same command goes on from there"), std::string::npos) << end.errors;
-    expect_no_orphan();
+    EXPECT_EQ(orphan(), "");
   }
 }
 
