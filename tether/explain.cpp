@@ -95,10 +95,12 @@ void check_steps_unchanged(const fs::path& output) {
   }
 }
 
-/// Takes an earlier explanation away, unless this one would be refused: its diagnoses come late.
+/// Takes an earlier explanation away, unless this one would be refused: before its first run, since its diagnoses come
+/// late.
 void replace_old(const DiagnosedCase& given, const CommandLine& command, const fs::path& output) {
   const std::array<fs::path, 2> old{output / "explain.json", output / "report.html"};
-  if (std::none_of(old.begin(), old.end(), [](const fs::path& file) { return fs::exists(file); })) return;
+  const bool is_new = std::none_of(old.begin(), old.end(), [](const fs::path& file) { return fs::exists(file); });
+  if (is_new && fs::exists(output / "model_0/summary.json")) return;  // checked when it began
   check_numbers(given, command);
   given.inputs.check();
   for (const fs::path& file : old) fs::remove(file);

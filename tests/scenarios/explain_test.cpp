@@ -153,6 +153,33 @@ TEST_F(Explain, GoesOnFromTheCheckpointOfARun) {
   EXPECT_GE(Json::parse(content_of(output() / "model_0/summary.json"))["resumed_at_step"], 20);
 }
 
+/// A misspelled number is one that only the programs know to be wrong.
+TEST_F(Explain, RefusesAnUnknownNumberBeforeItsFirstRun) {
+  write("twin/unknown.yaml", "base: case.yaml\nname: unknown\ndiagnosis: {candidates: [solid.material.yuong]}\n");
+  const ChildEnd end = tether({"explain", (folder / "twin/unknown.yaml").string(), "--output", output().string()});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("solid.material.yuong"), std::string::npos) << end.errors;
+  EXPECT_FALSE(fs::exists(output() / "model_0"));
+}
+
+/// Its run would be told as that of the model that explain made.
+TEST_F(Explain, RefusesAModelThatIsChangedBeforeItsRunHasEnded) {
+  const fs::path first = output() / "model_0.yaml";
+  auto end = std::async(std::launch::async, [&] {
+    return tether({"explain", (folder / "twin/case.yaml").string(), "--output", output().string(), "--quiet"});
+  });
+  while (!fs::exists(first) && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
+  const std::string made = content_of(first);
+  std::ofstream(first, std::ios::app) << "# mine\n";
+  const ChildEnd refused = end.get();
+  EXPECT_EQ(refused.exit_code, 2) << refused.errors;
+  EXPECT_EQ(refused.errors, fmt::format("{}: is not as tether explain made it, and would be replaced; keep it "
+                                        "elsewhere, or give --overwrite\n",
+                                        first.string()));
+  EXPECT_EQ(content_of(first), made + "# mine\n");
+  EXPECT_FALSE(fs::exists(output() / "explain.json"));
+}
+
 /// The catalogue is cut to what cannot explain the data: the force itself is sought, and holds the wall
 /// back as the spine does.
 TEST_F(Explain, SeeksTheForceThatNoCandidateExplains) {
