@@ -23,20 +23,18 @@ class Submit : public ::testing::Test {
   void is_answered_by(const std::string& program, const std::string& script) const {
     fs::permissions(folder_.file(fs::path("bin") / program, "#!/bin/sh\n" + script + "\n"), fs::perms::owner_all);
   }
-  /// before: what runs tether.
-  ChildEnd tether(std::vector<std::string> words, const std::vector<std::string>& before = {},
+  ChildEnd tether(std::vector<std::string> words,
                   std::vector<std::pair<std::string, std::string>> environment = {}) const {
     words.insert(words.begin(), TETHER_PROGRAM);
-    words.insert(words.begin(), before.begin(), before.end());
     environment.emplace_back("PATH", (folder_ / "bin").string() + ":" + std::getenv("PATH"));
     return capture({words, environment});
   }
-  ChildEnd submit(const std::vector<std::string>& before = {}, const std::vector<std::string>& more = {},
+  ChildEnd submit(const std::vector<std::string>& more = {},
                   const std::vector<std::pair<std::string, std::string>>& environment = {}) const {
     std::vector<std::string> words{"submit", "simulate", folder_ / "model.yaml", "--output", job(), "--memory", "1G",
                                    "--time", "10"};
     words.insert(words.end(), more.begin(), more.end());
-    return tether(words, before, environment);
+    return tether(words, environment);
   }
   std::string status() const { return tether({"status", job()}).output; }
   std::string job() const { return folder_ / "out"; }
@@ -44,11 +42,14 @@ class Submit : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-constexpr const char* slow = "sleep 2; echo 7";
+/// The script of an sbatch that sends a signal to who calls it before it answers.
+std::string that_sends(const std::string& signal) {
+  return "kill -" + signal + " $PPID; sleep 0.5; echo 7";
+}
 
 TEST_F(Submit, InterruptedItTellsTheNumber) {
-  is_answered_by("sbatch", slow);
-  const ChildEnd end = submit({"timeout", "-s", "INT", "1"});
+  is_answered_by("sbatch", that_sends("INT"));
+  const ChildEnd end = submit();
   EXPECT_NE(end.errors.find("tether: interrupted; job 7 is submitted: scancel 7 ends it"), std::string::npos)
       << end.errors;
   EXPECT_TRUE(status().starts_with("job 7, simulate, ")) << status();
@@ -58,18 +59,18 @@ TEST_F(Submit, InterruptedItTellsTheNumber) {
 }
 
 TEST_F(Submit, KilledItLeavesAJobThatIsPerhapsSubmitted) {
-  is_answered_by("sbatch", slow);
-  submit({"timeout", "-s", "KILL", "1"});
+  is_answered_by("sbatch", that_sends("KILL"));
+  EXPECT_EQ(submit().exit_code, 128 + SIGKILL);
   EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << status();
   const ChildEnd again = submit();
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.errors.find("was perhaps submitted: squeue --me --name=tether-model tells"), std::string::npos)
       << again.errors;
   is_answered_by("sbatch", "kill -9 $$");
-  EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 1);
+  EXPECT_EQ(submit({"--overwrite"}).exit_code, 1);
   EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << status();
   is_answered_by("sbatch", "echo 8");
-  EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 0);
+  EXPECT_EQ(submit({"--overwrite"}).exit_code, 0);
   EXPECT_TRUE(status().starts_with("job 8, simulate, ")) << status();
 }
 
@@ -78,8 +79,7 @@ TEST_F(Submit, TellsTheNumberThatItCannotRecord) {
   const char* others = std::getenv("LD_PRELOAD");
   const std::string faults = (others == nullptr ? "" : std::string(others) + ":") + TETHER_FAULTS;
   const ChildEnd end = submit(
-      {}, {},
-      {{"LD_PRELOAD", faults}, {"TETHER_FAULT_ROOT", job()}, {"TETHER_FAULT", "tether:write:job.json:2:ENOSPC"}});
+      {}, {{"LD_PRELOAD", faults}, {"TETHER_FAULT_ROOT", job()}, {"TETHER_FAULT", "tether:write:job.json:2:ENOSPC"}});
   EXPECT_EQ(end.exit_code, 1);
   EXPECT_NE(end.errors.find("; job 7 is submitted: scancel 7 ends it"), std::string::npos) << end.errors;
   EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << status();
@@ -92,7 +92,7 @@ TEST_F(Submit, RefusedItLeavesTheJobThatIsThere) {
   folder_.file("out/job/ended/model", "0\n"), folder_.file("out/results.csv", "of job 7");
   const std::string before = status();
   is_answered_by("sbatch", "echo 'sbatch: error: no such account' >&2; exit 1");
-  const ChildEnd refused = submit({}, {"--overwrite"});
+  const ChildEnd refused = submit({"--overwrite"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.errors.find("sbatch: error: no such account; the job that was there is kept"), std::string::npos)
       << refused.errors;
@@ -109,7 +109,7 @@ TEST_F(Submit, TakesTheOneLineThatIsANumber) {
   EXPECT_NE(end.output.find("Job 4712, results in "), std::string::npos) << end.output;
   is_answered_by("squeue", "echo 'N/A|RUNNING|None|0:12|n1'");
   EXPECT_TRUE(status().starts_with("job 4712, simulate, 1 case: 1 running")) << status();
-  const ChildEnd again = submit({}, {"--overwrite"});
+  const ChildEnd again = submit({"--overwrite"});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.errors.find("its job 4712 still waits or runs: scancel 4712 ends it"), std::string::npos)
       << again.errors;
@@ -152,7 +152,7 @@ TEST_F(Submit, ThatLostTheSchedulerHasPerhapsSubmitted) {
     EXPECT_EQ(submit().exit_code, 2) << error;
   }
   is_answered_by("sbatch", "exit 124");  // of a `timeout` around it
-  EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 1);
+  EXPECT_EQ(submit({"--overwrite"}).exit_code, 1);
   EXPECT_TRUE(status().starts_with("job perhaps submitted, simulate, ")) << status();
   for (const char* error : {"Invalid partition name specified", "Unable to contact slurm controller (connect failure)",
                             "Invalid account or account/partition combination specified"}) {
@@ -175,7 +175,7 @@ TEST_F(Submit, KeepsANumberThatWasToldBeforeSbatchFailed) {
     EXPECT_NE(end.errors.find(" tells, scancel 4712 ends it"), std::string::npos) << end.errors;
     is_answered_by("squeue", "echo 'N/A|PENDING|Resources|0:00|'");
     EXPECT_TRUE(status().starts_with("job 4712, simulate, 1 case: 1 waiting")) << status();
-    EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 2);
+    EXPECT_EQ(submit({"--overwrite"}).exit_code, 2);
   }
 }
 
@@ -185,7 +185,7 @@ TEST_F(Submit, ReplacesAJobThatWasPreemptedForGood) {
   is_answered_by("squeue", "echo 'N/A|PREEMPTED|None|0:12|n1'");
   EXPECT_TRUE(status().starts_with("job 7, simulate, 1 case: 1 gone")) << status();
   is_answered_by("sbatch", "echo 8");
-  EXPECT_EQ(submit({}, {"--overwrite"}).exit_code, 0);
+  EXPECT_EQ(submit({"--overwrite"}).exit_code, 0);
   EXPECT_TRUE(status().starts_with("job 8, ")) << status();
 }
 
@@ -195,12 +195,12 @@ TEST_F(Submit, AsksTheClusterWhoseNumberItIs) {
   is_answered_by("squeue",
                  "case \"$*\" in *--clusters=other*) echo CLUSTER: other; echo 'N/A|RUNNING|None|0:12|n1';; "
                  "*) echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1;; esac");
-  const ChildEnd end = submit({}, {"--sbatch", "clusters=other"});
+  const ChildEnd end = submit({"--sbatch", "clusters=other"});
   EXPECT_EQ(end.exit_code, 0) << end.errors;
   EXPECT_NE(end.output.find("Job 4711 of cluster other, results in "), std::string::npos) << end.output;
   EXPECT_TRUE(status().starts_with("job 4711 of cluster other, simulate, 1 case: 1 running")) << status();
   const auto refuses_another = [&] {
-    const ChildEnd again = submit({}, {"--overwrite"});
+    const ChildEnd again = submit({"--overwrite"});
     EXPECT_EQ(again.exit_code, 2);
     EXPECT_NE(again.errors.find("its job 4711 of cluster other still waits or runs: scancel -M other 4711 ends it"),
               std::string::npos)
@@ -217,7 +217,7 @@ TEST_F(Submit, AsksTheClusterWhoseNumberItIs) {
 
 TEST_F(Submit, NamesTheClusterWhereItIsPerhapsSubmitted) {
   is_answered_by("sbatch", "kill -9 $$");
-  const ChildEnd end = submit({}, {"--sbatch", "clusters=other"});
+  const ChildEnd end = submit({"--sbatch", "clusters=other"});
   EXPECT_NE(end.errors.find("squeue -M other --me --name=tether-model tells"), std::string::npos) << end.errors;
 }
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "batch"))
-from waiting import wait
+from waiting import PATIENCE, wait
 
 SSHD = """Port 22
 ListenAddress {address}
@@ -65,7 +65,7 @@ def can_be_made():
 def told_by(run, seconds):
     """What a program wrote to stderr until its end. Not a line of mpirun's, which tells at times, on a busy machine, that the process group
     of an ssh is set already: by the ssh itself (open-mpi/ompi, pull request 2957)."""
-    told = run.communicate(timeout=seconds)[1]
+    told = run.communicate(timeout=PATIENCE * seconds)[1]
     return "".join(line for line in told.splitlines(keepends=True) if "plm:rsh: Warning: setpgid(" not in line)
 
 

@@ -47,7 +47,7 @@ class SlurmOverHosts(unittest.TestCase):
         (self.folder / "places").write_text("\n".join(hosts) + "\n")
         words = [f"--ntasks={len(tasks)}", "--distribution=arbitrary", *options, "--multi-prog", f"{self.folder}/programs"]
         variables = [f"SLURM_HOSTFILE={self.folder}/places", "SLURM_PMIX_FENCE=ring"]
-        return self.cluster.call("env", *variables, "timeout", "120", "srun", "--mpi=pmix", "--kill-on-bad-exit=1", *words)
+        return self.cluster.call("env", *variables, "timeout", str(120 * host_group.PATIENCE), "srun", "--mpi=pmix", "--kill-on-bad-exit=1", *words)
 
     def test_srun_starts_the_programs_of_a_run_on_three_hosts(self):
         case, output = self.folder / "tube.yaml", self.folder / "run_srun"
