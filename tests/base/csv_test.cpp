@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "common/base/error.hpp"
 #include "tests/io/less_memory.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "tests/io/work.hpp"
 
 /// Tables larger than any that there are: refused soon, with little memory, in short messages.
 namespace tether {
@@ -24,9 +23,9 @@ std::string said_of(const std::string& text) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.file("t.csv", text);
   const LessMemory than(300'000'000);
-  const auto begin = std::chrono::steady_clock::now();
+  const Work work;
   const std::string message = message_of([&] { CsvTable(file).numbers("flow"); });
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << message;
+  EXPECT_LT(work.seconds(), 10) << message;
   return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
 }
 
