@@ -22,6 +22,7 @@
 #include "common/protocol/run.hpp"
 #include "fsi_master/coupled_codes.hpp"
 #include "fsi_master/group_server.hpp"
+#include "fsi_master/old_results.hpp"
 #include "fsi_master/periodicity.hpp"
 #include "fsi_master/plausibility.hpp"
 #include "fsi_master/summary.hpp"
@@ -52,32 +53,6 @@ RunPlan plan_of(const MasterCase& master, const CommandLine& command) {
   plan.resume = command.resume;
   plan.quiet = command.quiet;
   return plan;
-}
-
-bool is_picture_of_comparison(const std::string& name) {
-  const auto begins = [&name](const char* kind) { return name.starts_with(kind); };
-  return begins("comparison_") || begins("trace_") || begins("velocity_") || begins("contours_") || begins("wall_");
-}
-
-/// The comparison of a run, its pictures and page: nothing of them may be taken for this one's. What other verbs made
-/// by runs of their own stays.
-void remove_what_was_made_of_runs(const fs::path& output) {
-  for (const char* name : {"comparison.json", "comparison.csv", "comparison_blood.csv", "wall.json", "report.html"})
-    fs::remove(output / name);
-  std::error_code none;
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(output / "plots", none))
-    if (is_picture_of_comparison(entry.path().filename().string())) old.push_back(entry.path());
-  for (const fs::path& picture : old) fs::remove(picture);
-}
-
-/// Without --resume nothing of an earlier run may be either.
-void remove_old_results(const fs::path& output) {
-  for (const char* name : {"summary.json", "timeseries.csv", "lumen.motion", "blood.velocity", "fluid.pvd", "solid.pvd",
-                           "rest.json", "vtk"})
-    fs::remove_all(output / name);
-  remove_checkpoints(output);
-  remove_what_was_made_of_runs(output);
 }
 
 /// The case and its files as they are now.

@@ -91,7 +91,7 @@ void check_has_states(const Checkpoint& checkpoint, const fs::path& output) {
                       checkpoint.without_state);
 }
 
-/// What others than runs have saved: an identification, whose job may be in the same folder.
+/// What others than runs have there: an identification, whose job may be in the same folder, or a person.
 std::vector<fs::path> others_in(const fs::path& folder) {
   std::vector<fs::path> others;
   std::error_code none;
@@ -100,10 +100,17 @@ std::vector<fs::path> others_in(const fs::path& folder) {
   return others;
 }
 
-/// They stand in both folders until these have changed places: a run may be killed at each moment.
+/// What is not in the other folder yet.
+void move_others(const fs::path& from, const fs::path& to) {
+  for (const fs::path& other : others_in(from))
+    if (!fs::exists(fs::symlink_status(to / other.filename()))) put_in_place(other, to / other.filename());
+}
+
+/// Files stand in both folders until these have changed places: a run may be killed at each moment.
 void lend_others(const fs::path& from, const fs::path& to) {
   for (const fs::path& other : others_in(from)) {
     const fs::path lent = to / other.filename();
+    if (fs::is_directory(fs::symlink_status(other))) continue;
     std::error_code error;
     fs::remove(lent);
     fs::create_hard_link(other, lent, error);
@@ -113,6 +120,7 @@ void lend_others(const fs::path& from, const fs::path& to) {
 
 void put_fresh_in_place(const fs::path& output) {
   lend_others(output / newest, output / fresh);
+  for (const fs::path& folder : {output / newest, output / before}) move_others(folder, output / fresh);
   fs::remove_all(output / before);
   if (fs::exists(output / newest)) put_in_place(output / newest, output / before);
   put_in_place(output / fresh, output / newest);
@@ -127,6 +135,7 @@ void remove_checkpoints(const fs::path& output) {
   for (const char* folder : {fresh, before}) {
     const bool is_all_there_is = !fs::exists(output / newest) && !others_in(output / folder).empty();
     if (is_all_there_is) put_in_place(output / folder, output / newest);  // killed as they changed places
+    move_others(output / folder, output / newest);
     fs::remove_all(output / folder);
   }
   if (others_in(output / newest).empty()) fs::remove_all(output / newest);

@@ -60,10 +60,14 @@ class Capture {
   _exit(cannot_execute);
 }
 
-/// In the child: ends with its parent, also with one that has died meanwhile, or dies before the child is its program
-/// and while it still has the parent's way of taking a signal.
-void end_with(pid_t parent) {
+/// In the child: it takes all signals, also where whoever started the parent let it wait with some, and ends with its
+/// parent, also with one that has died meanwhile, or dies before the child is its program and while it still has the
+/// parent's way of taking a signal.
+void take_signals_and_end_with(pid_t parent) {
+  sigset_t none;
+  sigemptyset(&none);
   if (std::signal(SIGTERM, SIG_DFL) == SIG_IGN) std::signal(SIGTERM, SIG_IGN);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(cannot_execute);
 }
@@ -74,7 +78,7 @@ pid_t start(const Command& command, const std::function<void()>& prepare) {
   if (pipe2(failure.data(), O_CLOEXEC) != 0) throw run_error("no pipe: {}", std::strerror(errno));
   const pid_t parent = getpid(), pid = fork();
   if (pid == 0) {
-    end_with(parent);
+    take_signals_and_end_with(parent);
     prepare();
     execute(command, failure[1]);
   }

@@ -33,6 +33,7 @@ void end(int) {
 
 void end_when_interrupted() {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, end);
+  if (std::signal(SIGHUP, end) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
 WhenInterrupted::WhenInterrupted(const char* way_on) : tells_(told_way_on == nullptr) {

@@ -3,6 +3,9 @@
 /// How long processes wait for each other [s]. Environment variables change all of it.
 namespace tether {
 
+/// Throws InputError for one that is not a number above zero, which would count as unset.
+void check_limits();
+
 /// Until the program reaches MPI and arrives: TETHER_START_LIMIT, 60 if unset.
 double start_limit();
 

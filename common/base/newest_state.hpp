@@ -23,4 +23,7 @@ bool is_whole_state(const std::filesystem::path& folder);
 /// checkpoint, whatever that is like.
 std::filesystem::path newest_state(const std::filesystem::path& output);
 
+/// Takes away what runs and identifications saved in these folders; what else is in them stays.
+void remove_states(const std::filesystem::path& output);
+
 }  // namespace tether

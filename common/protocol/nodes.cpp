@@ -74,6 +74,7 @@ std::vector<std::string> nodes_of_job() {
                         node);
     if (std::count(nodes.begin(), nodes.end(), node) > 1) throw input_error("{}: {} twice", nodes_variable, node);
   }
+  if (nodes.empty() && !given.empty()) throw input_error("{}: names no host", nodes_variable);
   if (nodes.size() == 1) nodes.clear();
   return nodes;
 }

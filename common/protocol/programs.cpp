@@ -16,6 +16,7 @@
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
 #include "common/base/interruption.hpp"
+#include "common/base/limits.hpp"
 #include "common/base/process.hpp"
 #include "common/base/session_folder.hpp"
 #include "common/base/shell_quoted.hpp"
@@ -162,6 +163,18 @@ bool is_output_closed() {
   return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
+/// What the environment sets of Open MPI, "; the environment sets OMPI_MCA_btl ...": with some values it does not
+/// begin, and says little or nothing of it.
+std::string settings_of_mpi() {
+  std::vector<std::string> names;
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    if (const std::string_view text = *entry; text.starts_with("OMPI_MCA_") || text.starts_with("PMIX_MCA_"))
+      names.emplace_back(text.substr(0, text.find('=')));
+  if (names.empty()) return {};
+  return fmt::format("; the environment sets {} for Open MPI, which does not begin with each value",
+                     fmt::join(names, ", "));
+}
+
 /// Of a run of which no program said a word. Beyond the signals stand mpirun's own numbers.
 std::string how_it_failed(const ForegroundEnd& end, const std::string& master) {
   if (end.exit_code >= 128 + NSIG)
@@ -170,7 +183,7 @@ std::string how_it_failed(const ForegroundEnd& end, const std::string& master) {
   const std::string how = fmt::format("{} {}", end.was_killed ? "mpirun" : master.c_str(), how_it_ended(end.exit_code));
   if (is_output_closed()) return "nobody reads what the run says any more (a pipe whose reader has ended)";
   if (end.exit_code == 128 + SIGKILL) return how + ": out of memory?";
-  return end.exit_code > 128 ? how : how + " and without a word: was mpirun interrupted?";
+  return (end.exit_code > 128 ? how : how + " and without a word: was mpirun interrupted?") + settings_of_mpi();
 }
 
 }  // namespace
@@ -183,6 +196,7 @@ std::filesystem::path sibling(const std::string& name) {
 
 Command parallel_run(const std::string& master, const CommandLine& command) {
   check_circumstances(session_size(master));
+  check_limits();
   Command run{{"mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n",
                "1", sibling(master).string(), path_for_mpirun(command.case_file)},
               {}};

@@ -11,6 +11,7 @@
 #include "common/base/built_from.hpp"
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/base/progress_line.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/input_files.hpp"
@@ -72,11 +73,6 @@ std::vector<LeftFile> left_in(const fs::path& folder) {
   return left;
 }
 
-/// Of another step that was made in the folder.
-void remove_checkpoints(const fs::path& folder) {
-  for (const char* name : {"checkpoint", "checkpoint.new", "checkpoint.previous"}) fs::remove_all(folder / name);
-}
-
 }  // namespace
 
 ExplainedSteps::ExplainedSteps(fs::path output, const InputWatch& inputs, bool quiet)
@@ -103,7 +99,7 @@ void ExplainedSteps::make(const std::string& title, const fs::path& case_file, c
   const double cpu = cpu_seconds_of_all();
   const std::string mark = title + " " + key;
   const bool was_begun = first_line(output_ / begun_step) == mark;
-  if (!was_begun) remove_checkpoints(output_ / folder);
+  if (!was_begun) remove_states(output_ / folder);  // of another step that was made there
   std::ofstream(output_ / begun_step) << mark << std::endl;
   try {
     act(was_begun);

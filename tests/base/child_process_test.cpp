@@ -57,6 +57,17 @@ TEST(Capture, LeavesNothingBehindWheneverItIsKilled) {
     ASSERT_TRUE(all_end_if_it_is_killed_after(delay)) << delay << " us after its start";
 }
 
+/// As some launchers start their programs.
+TEST(Capture, TakesSignalsThatThisProcessDoesNot) {
+  sigset_t waiting, before;
+  sigemptyset(&waiting);
+  sigaddset(&waiting, SIGTERM);
+  sigprocmask(SIG_BLOCK, &waiting, &before);
+  const ChildEnd end = capture(shell("kill -TERM $$; exit 3"));
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+  EXPECT_EQ(end.exit_code, 128 + SIGTERM);
+}
+
 TEST(HowItEnded, KnowsWhichNumbersAreSignals) {
   EXPECT_EQ(how_it_ended(3), "ended with 3");
   EXPECT_EQ(how_it_ended(128 + SIGKILL), "was ended by signal 9 (Killed)");

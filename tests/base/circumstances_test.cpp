@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cstdlib>
+
 #include "common/base/error.hpp"
+#include "common/base/limits.hpp"
 
 namespace tether {
 namespace {
@@ -44,6 +47,25 @@ TEST(Circumstances, TellThatTheDiskOfTmpdirIsTooFull) {
   EXPECT_NE(told.find(" MB are left on its disk, of which a run needs 1000000000000: TMPDIR=FOLDER takes another one"),
             std::string::npos)
       << told;
+}
+
+TEST(Circumstances, TellOfALimitThatIsNoNumber) {
+  for (const char* wrong : {"abc", "-1", "0", "5 min", "nan"}) {
+    setenv("TETHER_STOPPED_LIMIT", wrong, 1);
+    std::string told;
+    try {
+      check_limits();
+    } catch (const InputError& error) {
+      told = error.what();
+    }
+    EXPECT_EQ(told, fmt::format("TETHER_STOPPED_LIMIT: '{}' is not a number of seconds above zero", wrong));
+    EXPECT_EQ(stopped_limit(), 60);
+  }
+  setenv("TETHER_STOPPED_LIMIT", "2.5", 1);
+  EXPECT_NO_THROW(check_limits());
+  EXPECT_EQ(stopped_limit(), 2.5);
+  unsetenv("TETHER_STOPPED_LIMIT");
+  EXPECT_NO_THROW(check_limits());
 }
 
 }  // namespace

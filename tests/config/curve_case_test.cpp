@@ -95,6 +95,8 @@ TEST(CurveCase, NamesWhatIsWrongWithTheTable) {
   EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "no.csv: no such file");
   periodic.file = "/dev/zero";
   EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "/dev/zero: is not a file");
+  periodic.file = "/proc/version";  // as /proc/kmsg, which waits for what the kernel will say
+  EXPECT_EQ(input_error_of([&] { periodic.load(UnitSystem::si()); }), "/proc/version: is not a file");
 }
 
 TEST(CurveCase, NumbersThatNothingHasAreRefused) {

@@ -7,6 +7,7 @@
 #include "common/base/newest_state.hpp"
 #include "common/base/progress_line.hpp"
 #include "fsi_master/checkpoint.hpp"
+#include "fsi_master/old_results.hpp"
 #include "fsi_master/progress.hpp"
 #include "fsi_master/time_series.hpp"
 
@@ -121,6 +122,63 @@ TEST_F(Output, WhatAnIdentificationSavedStays) {
   write_checkpoint(folder, some_checkpoint(9));
   remove_checkpoints(folder);
   EXPECT_FALSE(fs::exists(folder / "checkpoint"));
+}
+
+TEST_F(Output, WhatAPersonPutsBesideStatesStays) {
+  const auto put = [&](const fs::path& file) {
+    fs::create_directories((folder / file).parent_path());
+    std::ofstream(folder / file) << file.string();
+  };
+  const auto saved = [&](const fs::path& file) { return content("checkpoint" / file); };
+  write_checkpoint(folder, some_checkpoint(7));
+  write_checkpoint(folder, some_checkpoint(8));
+  for (const char* file :
+       {"checkpoint/note", "checkpoint/kept/note", "checkpoint.previous/other", "checkpoint.previous/older/note"})
+    put(file);
+  write_checkpoint(folder, some_checkpoint(9));
+  write_checkpoint(folder, some_checkpoint(10));
+  EXPECT_EQ(read_checkpoint(folder, 77).step, 10);
+  put("checkpoint.previous/last");
+  const auto expect_all = [&] {
+    EXPECT_EQ(saved("note"), "checkpoint/note");
+    EXPECT_EQ(saved("kept/note"), "checkpoint/kept/note");
+    EXPECT_EQ(saved("other"), "checkpoint.previous/other");
+    EXPECT_EQ(saved("older/note"), "checkpoint.previous/older/note");
+  };
+  expect_all();
+  remove_checkpoints(folder);
+  expect_all();
+  EXPECT_EQ(saved("last"), "checkpoint.previous/last");
+  EXPECT_FALSE(fs::exists(folder / "checkpoint/master.bin"));
+  EXPECT_FALSE(fs::exists(folder / "checkpoint.previous"));
+  write_checkpoint(folder, some_checkpoint(11));
+  remove_states(folder);
+  expect_all();
+  EXPECT_FALSE(fs::exists(folder / "checkpoint/master.bin"));
+}
+
+TEST_F(Output, ANewRunTakesAwayFramesAndNothingOfAPerson) {
+  fs::create_directories(folder / "vtk/thick");
+  fs::create_directories(folder / "elsewhere");
+  for (const char* name : {"vtk/fluid_000020.vtu", "vtk/solid_1000000.vtu", "vtk/solid_000030.vtu.part",
+                           "vtk/view.pvsm", "vtk/thick/summary.json", "vtk/thick/solid_000020.vtu",
+                           "elsewhere/solid_000020.vtu", "summary.json", "fluid.pvd"})
+    std::ofstream(folder / name) << name;
+  remove_old_results(folder);
+  for (const char* gone :
+       {"vtk/fluid_000020.vtu", "vtk/solid_1000000.vtu", "vtk/solid_000030.vtu.part", "summary.json", "fluid.pvd"})
+    EXPECT_FALSE(fs::exists(folder / gone)) << gone;
+  for (const char* kept : {"vtk/view.pvsm", "vtk/thick/summary.json", "vtk/thick/solid_000020.vtu"})
+    EXPECT_EQ(content(kept), kept);
+  fs::remove_all(folder / "vtk");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "vtk");
+  remove_old_results(folder);
+  EXPECT_FALSE(fs::exists(fs::symlink_status(folder / "vtk")));
+  EXPECT_EQ(content("elsewhere/solid_000020.vtu"), "elsewhere/solid_000020.vtu");
+  fs::create_directories(folder / "vtk");
+  std::ofstream(folder / "vtk/solid_000020.vtu") << "old";
+  remove_old_results(folder);
+  EXPECT_FALSE(fs::exists(folder / "vtk"));
 }
 
 TEST_F(Output, RefusedCheckpointsSayWhy) {

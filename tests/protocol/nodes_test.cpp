@@ -35,7 +35,7 @@ TEST(Nodes, AJobHasSeveralOrNoneThatMatters) {
   setenv(node_variable, "n2", 1);
   EXPECT_EQ(own_node(), "n2");
   EXPECT_FALSE(is_on_first_node());
-  for (const char* wrong : {"n1:4,n2", "n1;n2", "n1,n2,n1"}) {
+  for (const char* wrong : {"n1:4,n2", "n1;n2", "n1,n2,n1", ","}) {
     setenv(nodes_variable, wrong, 1);
     EXPECT_THROW(nodes_of_job(), InputError) << wrong;
   }

@@ -257,6 +257,25 @@ TEST_F(FrontEnd, CallsAKilledRunFailed) {
   EXPECT_NE(end.errors.find("tether: fsi_master was ended by signal 9"), std::string::npos) << end.errors;
 }
 
+/// With some values it does not begin, and says nothing.
+TEST_F(FrontEnd, NamesWhatTheEnvironmentSetsOfOpenMpi) {
+  program("fsi_master", "case \"$*\" in *--validate*) exit 0;; esac; exit 1");
+  const ChildEnd end = capture({{"/bin/sh", "-c", "cd " + folder_.string() + " && ./tether simulate case.yaml --quiet"},
+                                {{"OMPI_MCA_mpi_param_check", "1"}}});
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_NE(end.errors.find("without a word: was mpirun interrupted?; the environment sets "), std::string::npos);
+  EXPECT_NE(end.errors.find("OMPI_MCA_mpi_param_check"), std::string::npos) << end.errors;
+}
+
+TEST_F(FrontEnd, NamesALimitThatIsNoNumber) {
+  const ChildEnd end = tether("simulate case.yaml --quiet");
+  EXPECT_EQ(end.exit_code, 0) << end.errors;
+  const ChildEnd wrong = capture({{"/bin/sh", "-c", "cd " + folder_.string() + " && ./tether simulate case.yaml"},
+                                  {{"TETHER_STOPPED_LIMIT", "5 min"}}});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(wrong.errors, "TETHER_STOPPED_LIMIT: '5 min' is not a number of seconds above zero\n");
+}
+
 TEST_F(FrontEnd, AddsHowToGoOnToWhatTheRunSaid) {
   program(
       "fsi_master",
