@@ -60,7 +60,7 @@ Checkpoint read_folder(const fs::path& folder) {
 
 constexpr const char *newest = newest_checkpoint, *before = earlier_checkpoint;
 constexpr const char* fresh = fresh_checkpoint;  ///< whole if the run was killed before it put it in its place
-constexpr std::array files{"master.bin", "fluid.bin", "solid.bin"};
+constexpr const auto& files = run_state_files;
 
 /// Whether a run has saved one there, and not an identification alone.
 bool holds_state(const fs::path& folder) {
@@ -100,17 +100,32 @@ std::vector<fs::path> others_in(const fs::path& folder) {
   return others;
 }
 
-/// What is not in the other folder yet.
-void move_others(const fs::path& from, const fs::path& to) {
-  for (const fs::path& other : others_in(from))
-    if (!fs::exists(fs::symlink_status(to / other.filename()))) put_in_place(other, to / other.filename());
+bool is_of_identification(const fs::path& name) {
+  return std::find(identification_state_files.begin(), identification_state_files.end(), name) !=
+         identification_state_files.end();
 }
 
-/// Files stand in both folders until these have changed places: a run may be killed at each moment.
+/// What is not in the other folder yet; of a name that is there, unless it is the same file or an identification's
+/// state of before, under another (NAME.previous).
+void move_others(const fs::path& from, const fs::path& to) {
+  std::error_code none;
+  for (const fs::path& other : others_in(from)) {
+    fs::path place = to / other.filename();
+    if (fs::equivalent(other, place, none)) continue;
+    if (fs::exists(fs::symlink_status(place)) && is_of_identification(other.filename())) continue;
+    while (fs::exists(fs::symlink_status(place))) place += ".previous";
+    put_in_place(other, place);
+  }
+}
+
+/// Files, and not folders, stand in both until these have changed places: a run may be killed at each moment.
 void lend_others(const fs::path& from, const fs::path& to) {
   for (const fs::path& other : others_in(from)) {
     const fs::path lent = to / other.filename();
-    if (fs::is_directory(fs::symlink_status(other))) continue;
+    if (fs::is_directory(fs::symlink_status(other))) {
+      if (!fs::exists(lent)) put_in_place(other, lent);
+      continue;
+    }
     std::error_code error;
     fs::remove(lent);
     fs::create_hard_link(other, lent, error);
@@ -120,7 +135,7 @@ void lend_others(const fs::path& from, const fs::path& to) {
 
 void put_fresh_in_place(const fs::path& output) {
   lend_others(output / newest, output / fresh);
-  for (const fs::path& folder : {output / newest, output / before}) move_others(folder, output / fresh);
+  move_others(output / before, output / fresh);
   fs::remove_all(output / before);
   if (fs::exists(output / newest)) put_in_place(output / newest, output / before);
   put_in_place(output / fresh, output / newest);

@@ -16,7 +16,7 @@ void remove_files(const fs::path& folder, const IsOld& is_old) {
   std::error_code none;
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.is_regular_file() && is_old(entry.path().filename().string())) old.push_back(entry.path());
+    if (entry.is_regular_file(none) && is_old(entry.path().filename().string())) old.push_back(entry.path());
   for (const fs::path& file : old) fs::remove(file);
 }
 

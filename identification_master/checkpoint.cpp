@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/base/checked_file.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
 #include "common/protocol/packet.hpp"
@@ -181,8 +182,8 @@ void put_fresh_in_place(const fs::path& folder) {
 
 /// A run in the same folder that was killed may have left them where it lent them to.
 void remove_identification_checkpoints(const fs::path& output) {
-  for (const char* folder : {"checkpoint", "checkpoint.new", "checkpoint.previous"})
-    for (const auto& file : {fresh_in, newest_in, before_in}) fs::remove(file(output / folder));
+  for (const char* folder : {newest_checkpoint, fresh_checkpoint, earlier_checkpoint})
+    for (const char* file : identification_state_files) fs::remove(output / folder / file);
 }
 
 void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const IdentificationCheckpoint& checkpoint) {

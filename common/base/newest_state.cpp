@@ -31,9 +31,8 @@ std::filesystem::path newest_state(const std::filesystem::path& output) {
 void remove_states(const std::filesystem::path& output) {
   for (const char* name : {fresh_checkpoint, newest_checkpoint, earlier_checkpoint}) {
     const std::filesystem::path folder = output / name;
-    for (const char* file : {"master.bin", "fluid.bin", "solid.bin", "identification.bin", "identification.new",
-                             "identification.previous"})
-      std::filesystem::remove(folder / file);
+    for (const auto& files : {run_state_files, identification_state_files})
+      for (const char* file : files) std::filesystem::remove(folder / file);
     if (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder)) std::filesystem::remove(folder);
   }
 }

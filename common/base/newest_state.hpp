@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,10 @@ namespace tether {
 /// Of a run's states, in its output: the newest; one that was not put in its place yet; the one before.
 inline constexpr const char *newest_checkpoint = "checkpoint", *fresh_checkpoint = "checkpoint.new",
                             *earlier_checkpoint = "checkpoint.previous";
+
+/// In these folders: of a run, and of an identification (the newest, one not put in its place yet, the one before).
+inline constexpr std::array run_state_files{"master.bin", "fluid.bin", "solid.bin"},
+    identification_state_files{"identification.bin", "identification.new", "identification.previous"};
 
 /// Which states belong together: those of another run may be of the same step. master.bin ends with it.
 std::uint64_t hash_of_states(std::span<const std::byte> fluid, std::span<const std::byte> solid);

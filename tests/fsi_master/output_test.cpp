@@ -132,8 +132,8 @@ TEST_F(Output, WhatAPersonPutsBesideStatesStays) {
   const auto saved = [&](const fs::path& file) { return content("checkpoint" / file); };
   write_checkpoint(folder, some_checkpoint(7));
   write_checkpoint(folder, some_checkpoint(8));
-  for (const char* file :
-       {"checkpoint/note", "checkpoint/kept/note", "checkpoint.previous/other", "checkpoint.previous/older/note"})
+  for (const char* file : {"checkpoint/note", "checkpoint/kept/note", "checkpoint.previous/other",
+                           "checkpoint.previous/older/note", "checkpoint.previous/note"})
     put(file);
   write_checkpoint(folder, some_checkpoint(9));
   write_checkpoint(folder, some_checkpoint(10));
@@ -142,6 +142,7 @@ TEST_F(Output, WhatAPersonPutsBesideStatesStays) {
   const auto expect_all = [&] {
     EXPECT_EQ(saved("note"), "checkpoint/note");
     EXPECT_EQ(saved("kept/note"), "checkpoint/kept/note");
+    EXPECT_EQ(saved("note.previous"), "checkpoint.previous/note");
     EXPECT_EQ(saved("other"), "checkpoint.previous/other");
     EXPECT_EQ(saved("older/note"), "checkpoint.previous/older/note");
   };
@@ -160,6 +161,8 @@ TEST_F(Output, WhatAPersonPutsBesideStatesStays) {
 TEST_F(Output, ANewRunTakesAwayFramesAndNothingOfAPerson) {
   fs::create_directories(folder / "vtk/thick");
   fs::create_directories(folder / "elsewhere");
+  fs::create_directories(folder / "plots");
+  fs::create_symlink("wall_loop.png", folder / "plots/wall_loop.png");
   for (const char* name : {"vtk/fluid_000020.vtu", "vtk/solid_1000000.vtu", "vtk/solid_000030.vtu.part",
                            "vtk/view.pvsm", "vtk/thick/summary.json", "vtk/thick/solid_000020.vtu",
                            "elsewhere/solid_000020.vtu", "summary.json", "fluid.pvd"})
