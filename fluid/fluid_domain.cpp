@@ -72,7 +72,7 @@ Points FluidDomain::extend(const Points& on_sigma) const {
 
 void FluidDomain::place(const Points& displacement) {
   const Points points = mesh_.points + displacement;
-  geometry_ = geometry_of(points, mesh_.tetrahedra);
+  set_geometry(geometry_, points, mesh_.tetrahedra);
   check_jacobians(geometry_, reference_volumes_, points, mesh_.tetrahedra);
   sigma.place(points);
   for (auto* faces : {&inlets, &outlets})

@@ -8,7 +8,7 @@ namespace tether::fluid {
 
 void FluidSeries::write(const FluidSolver& solver, int step, double time) {
   if (!series_) {  // only then: an output that is removed in mid-run is not made anew
-    series_ = PvdSeries::rescued(folder_ / "fluid.pvd", time * (1 - 1e-12) - 1e-300);
+    series_ = PvdSeries::rescued_before(folder_ / "fluid.pvd", time);
     std::filesystem::create_directories(folder_ / "vtk");
   }
   const std::string file = fmt::format("vtk/fluid_{:06}.vtu", step);

@@ -112,6 +112,7 @@ void FluidSolver::begin_step(double time, double dt, const Points& predicted) {
   trial_.end_time = time + dt;
   trial_.on_sigma = predicted;
   move_mesh();
+  cut_sections();
   predict_velocity();
   prepare_projection();
   const Points forces = viscous_forces();
@@ -125,6 +126,19 @@ void FluidSolver::move_mesh() {
   trial_.displacement = domain_.extend(trial_.on_sigma);
   trial_.mesh_velocity = (trial_.displacement - accepted_.displacement) / trial_.dt;
   domain_.place(trial_.displacement);
+}
+
+/// Before anything is computed: a section that the vessel has left fails the step, which is not accepted yet. (F.17)
+void FluidSolver::cut_sections() {
+  trial_.cuts.clear();
+  if (sections_.empty()) return;
+  const FluidMesh& mesh = domain_.mesh();
+  const Points points = mesh.points + trial_.displacement;
+  for (const Section& section : sections_) try {
+      trial_.cuts.push_back(section.cut(mesh, points));
+    } catch (const InputError& error) {
+      throw run_error("the blood has moved away from the section {}: {}", section.name(), error.what());
+    }
 }
 
 /// (F.4), (F.12)
@@ -216,7 +230,7 @@ void FluidSolver::accept() {
   accepted_.on_sigma = trial_.on_sigma;
   accepted_.displacement = trial_.displacement;
   accepted_.impulse = trial_.dt / blood_->density;
-  accepted_.volume = domain_.volume(trial_.interface_displacement);
+  accepted_.volume = trial_.volume;
   for (std::size_t i = 0; i < openings_.size(); ++i) {
     const auto index = static_cast<Eigen::Index>(i);
     accepted_.stored[index] = openings_[i].beyond->advanced(trial_.inputs[i], trial_.solution.flow[index]);

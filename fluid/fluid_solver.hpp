@@ -60,6 +60,7 @@ class FluidSolver {
   /// another, is taken but for the pressures stored beyond them, which are the initial ones. Throws InputError for one
   /// of other nodes.
   VectorXd state() const;
+  Eigen::Index state_size() const;
   void set_state(const VectorXd& values);
 
   /// All numbers that can be set, such as "fluid.outlets.outlet.distal_resistance".
@@ -101,6 +102,7 @@ class FluidSolver {
     std::vector<OutletInput> inputs;
     std::vector<Points> profiles;  // of each flow inlet, u_in
     double inflow = 0, swept = 0;  // through the flow inlets, in space; by the end faces' own motion, outward
+    std::vector<SectionCut> cuts;  // of the sections, on the mesh as the step has it
     Points viscous_load;
     double wall_shear = 0;  // mean over Sigma
     // of the last evaluation
@@ -110,6 +112,7 @@ class FluidSolver {
     Points wall_points;      // Sigma in the middle of the step
     Points wall_velocity;    // V
     Projection::Solution solution;
+    double volume = 0;  // of the lumen at the step's end; known once it is observed
   };
 
   void declare_parameters();
@@ -118,6 +121,7 @@ class FluidSolver {
   Mark mark_of_openings() const;
 
   void move_mesh();
+  void cut_sections();
   void predict_velocity();
   void prepare_projection();
   Points acceleration() const;

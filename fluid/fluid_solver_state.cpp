@@ -26,10 +26,15 @@ class Cursor {
 
 }  // namespace
 
+Eigen::Index FluidSolver::state_size() const {
+  const Accepted& a = accepted_;
+  return 2 + a.velocity.size() + a.pressure.size() + a.on_sigma.size() + 2 + a.stored.size();
+}
+
 VectorXd FluidSolver::state() const {
   const Accepted& a = accepted_;
   const Eigen::Vector2d marks(nodes_.value(), beyond_.value());
-  VectorXd values(2 + a.velocity.size() + a.pressure.size() + a.on_sigma.size() + marks.size() + a.stored.size());
+  VectorXd values(state_size());
   values[0] = a.impulse;
   values[1] = a.volume;
   Cursor cursor(2);
@@ -42,7 +47,7 @@ VectorXd FluidSolver::state() const {
 }
 
 void FluidSolver::set_state(const VectorXd& values) {
-  const Eigen::Index size = state().size(), marks = size - 2 - accepted_.stored.size();
+  const Eigen::Index size = state_size(), marks = size - 2 - accepted_.stored.size();
   if (values.size() < marks + 2 || !nodes_.is(values[marks]))
     throw input_error("a state of {} numbers belongs to another mesh of the blood: one with these {} nodes has {}",
                       values.size(), domain_.node_count(), size);
@@ -64,7 +69,12 @@ void FluidSolver::move_interface(const Points& change) {
   Accepted moved = accepted_;
   moved.on_sigma += change;
   moved.volume += domain_.volume(moved.on_sigma) - domain_.volume(accepted_.on_sigma);
-  derive(moved);
+  try {
+    derive(moved);
+  } catch (...) {
+    domain_.place(accepted_.displacement);
+    throw;
+  }
   accepted_ = std::move(moved);
   rewind();
 }
@@ -128,18 +138,12 @@ void FluidSolver::declare_observables() {
 
 /// (F.17), on the mesh as the step has it.
 void FluidSolver::observe_sections(std::vector<double>& values) const {
-  if (sections_.empty()) return;
-  const FluidMesh& mesh = domain_.mesh();
-  const Points points = mesh.points + trial_.displacement;
   const VectorXd& pressure = trial_.solution.pressure;
   const EndOfStep end{domain_, trial_.velocity, pressure, trial_.dt / blood_->density, trial_.wall_velocity};
-  for (const Section& section : sections_) try {
-      const SectionCut cut = section.cut(mesh, points);
-      values.push_back(section.flow(cut, end));
-      values.push_back(Section::mean(cut, mesh, pressure));
-    } catch (const InputError& error) {
-      throw run_error("the blood has moved away from the section {}: {}", section.name(), error.what());
-    }
+  for (std::size_t i = 0; i < sections_.size(); ++i) {
+    values.push_back(sections_[i].flow(trial_.cuts[i], end));
+    values.push_back(Section::mean(trial_.cuts[i], domain_.mesh(), pressure));
+  }
 }
 
 /// Flows are into the vessel at inlets, out of it at outlets, of the blood in space; where a flow is given, that flow.
@@ -162,11 +166,11 @@ void FluidSolver::observe() {
   }
   for (const Probe& probe : probes_) values.push_back(probe.value(solution.pressure));
   observe_sections(values);
-  const double volume = domain_.volume(trial_.interface_displacement);
+  trial_.volume = domain_.volume(trial_.interface_displacement);
   values.push_back(trial_.wall_shear);
-  values.push_back(volume);
+  values.push_back(trial_.volume);
   values.push_back(net_inflow - trial_.interface_flux);
-  values.push_back(net_inflow + trial_.swept - (volume - accepted_.volume) / trial_.dt);
+  values.push_back(net_inflow + trial_.swept - (trial_.volume - accepted_.volume) / trial_.dt);
   values.push_back(domain_.smallest_jacobian());
   observed_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }

@@ -25,9 +25,15 @@ TetGeometry tet_geometry(const Nodal& x) {
   return result;
 }
 
+void set_geometry(std::vector<TetGeometry>& geometry, const Points& points,
+                  const std::vector<Tetrahedron>& tetrahedra) {
+  geometry.resize(tetrahedra.size());
+  for (std::size_t e = 0; e < tetrahedra.size(); ++e) geometry[e] = tet_geometry(gather(points, tetrahedra[e]));
+}
+
 std::vector<TetGeometry> geometry_of(const Points& points, const std::vector<Tetrahedron>& tetrahedra) {
-  std::vector<TetGeometry> result(tetrahedra.size());
-  for (std::size_t e = 0; e < tetrahedra.size(); ++e) result[e] = tet_geometry(gather(points, tetrahedra[e]));
+  std::vector<TetGeometry> result;
+  set_geometry(result, points, tetrahedra);
   return result;
 }
 

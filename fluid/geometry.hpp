@@ -24,7 +24,9 @@ inline Nodal gather(const Points& field, const Tetrahedron& tet) {
   return result;
 }
 
-/// Of all elements of a mesh whose nodes stand at `points`.
+/// Of all elements of a mesh whose nodes stand at `points`, into memory that is there already: a mesh moves in every
+/// step.
+void set_geometry(std::vector<TetGeometry>& geometry, const Points& points, const std::vector<Tetrahedron>& tetrahedra);
 std::vector<TetGeometry> geometry_of(const Points& points, const std::vector<Tetrahedron>& tetrahedra);
 
 /// The element that suffered most from the mesh motion.

@@ -1,8 +1,6 @@
 #include "fluid/openings.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tether::fluid {
 
@@ -15,14 +13,9 @@ FlowInlet::FlowInlet(const EndFace& face, const InletSettings& settings)
       kind_(settings.profile),
       through_ring_(settings.through_ring) {}
 
-double FlowInlet::opening(double clock) const {
-  const double s = ramp_ > 0 ? std::clamp(clock / ramp_, 0.0, 1.0) : 1.0;
-  return 0.5 * (1 - std::cos(std::numbers::pi * s));  // as Curve's
-}
-
 double FlowInlet::flow(double time) const {
   const double clock = inflow->curve_time(time);
-  return inflow->gain() * curve_(clock) + opening(clock) * inflow->added(time, period_);
+  return inflow->gain() * curve_(clock) + onset(clock, ramp_) * inflow->added(time, period_);
 }
 
 Points FlowInlet::velocity(double time, double kinematic_viscosity, const Points& mesh_velocity) {
@@ -32,7 +25,7 @@ Points FlowInlet::velocity(double time, double kinematic_viscosity, const Points
     profile_viscosity_ = kinematic_viscosity;
   }
   const double clock = inflow->curve_time(time);
-  Points result = profile_->velocity(*face_, flow(time), clock, inflow->gain() * opening(clock));
+  Points result = profile_->velocity(*face_, flow(time), clock, inflow->gain() * onset(clock, ramp_));
   if (through_ring_) result += mesh_velocity;
   return result;
 }

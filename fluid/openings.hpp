@@ -28,9 +28,6 @@ class FlowInlet {
  private:
   const EndFace* face_;
   Curve curve_;
-  /// Of a curve that sets in smoothly, how far it has by its clock.
-  double opening(double clock) const;
-
   double period_, ramp_;
   Profile kind_;
   bool through_ring_;

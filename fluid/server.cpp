@@ -26,7 +26,7 @@ protocol::Hello FluidServer::hello() const {
   protocol::Hello hello;
   hello.program = "Tether fluid";
   hello.has_tangent = hello.has_state = hello.has_observer = hello.has_velocity = true;
-  hello.state_size = solver_->state().size();
+  hello.state_size = solver_->state_size();
   hello.unknowns = 4 * solver_->domain().node_count();
   hello.effective_case = effective_case_;
   hello.notices = notices_;

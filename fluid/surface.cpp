@@ -6,14 +6,11 @@
 #include <map>
 
 #include "common/base/error.hpp"
+#include "common/mesh/surface.hpp"
+#include "common/mesh/topology.hpp"
 
 namespace tether::fluid {
 namespace {
-
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
 
 /// The tetrahedron behind each boundary triangle.
 std::vector<int> elements_behind(const std::vector<Triangle>& triangles, const std::vector<Tetrahedron>& tetrahedra) {
@@ -30,11 +27,6 @@ std::vector<int> elements_behind(const std::vector<Triangle>& triangles, const s
   if (std::find(result.begin(), result.end(), -1) != result.end())
     throw InputError("a boundary triangle of the fluid mesh is not a face of any tetrahedron");
   return result;
-}
-
-Vec3 area_vector(const Points& x, const Triangle& t) {
-  const Vec3 a = x.col(t[1]) - x.col(t[0]), b = x.col(t[2]) - x.col(t[0]);
-  return 0.5 * a.cross(b);
 }
 
 Vec3 area_vector_change(const Points& x, const Points& motion, const Triangle& t) {

@@ -224,6 +224,22 @@ void GroupServer::observe(double time, protocol::Advanced& reply) {
   reply.weights = std::move(seen.weights);
 }
 
+namespace {
+
+/// A coupling follows the guide of a run for as long as there is one, however the run ends.
+class Following {
+ public:
+  Following(Coupling& coupling, RunGuide* guide) : coupling_(coupling) { coupling_.follow(guide); }
+  ~Following() { coupling_.follow(nullptr); }
+  Following(const Following&) = delete;
+  Following& operator=(const Following&) = delete;
+
+ private:
+  Coupling& coupling_;
+};
+
+}  // namespace
+
 protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   loop_->restore(initial_);
   (*this)(protocol::SetParameters{m.names, m.values});
@@ -233,7 +249,7 @@ protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
   plan.last_step = m.steps;
   make_folders_below(std::filesystem::absolute(master_->file.path()).parent_path(), plan.output);  // as in a diagnosis
   const auto guide = guide_of(m, plan.dt);
-  codes_->coupling().follow(guide.get());
+  const Following following(codes_->coupling(), guide.get());
   Simulation simulation(plan, codes_->crew(), master_->coupling.halvings);
   protocol::Simulated reply;
   try {
@@ -243,7 +259,6 @@ protocol::Simulated GroupServer::operator()(const protocol::Simulate& m) {
     reply.failure = failure.what();
   }
   reply.evaluations = static_cast<std::int64_t>(simulation.statistics().evaluations.sum);
-  codes_->coupling().follow(nullptr);
   loop_->restore(initial_);
   return reply;
 }

@@ -58,9 +58,17 @@ bool TimeLoop::attempt(double time, double dt, StepRecord& record) {
   const CouplingResult result = solve(start);
   finish(result, record);
   if (!result.converged) record.failures.push_back({time, dt, result.failure, seen_by(result)});
-  if (result.converged && observer_ != nullptr && observer_->form() == Observer::Form::split)
-    y_ += observer_->correct(time + dt, dt, y_);  // (O.8)
+  if (result.converged && observer_ != nullptr && observer_->form() == Observer::Form::split) correct(time + dt, dt);
   return result.converged;
+}
+
+/// (O.8) The step is accepted by now: no failure of the correction leads back to its start.
+void TimeLoop::correct(double time, double dt) {
+  try {
+    y_ += observer_->correct(time, dt, y_);
+  } catch (const StepFailure& failure) {
+    throw run_error("the observer's correction after step {}: {}", step_, failure.what());
+  }
 }
 
 CouplingResult TimeLoop::solve(const StepStart& start) {
@@ -112,11 +120,21 @@ CouplingResult TimeLoop::solve_with_drift(StepStart start) {
   return all;
 }
 
+/// What one of the codes says against the end of a step comes too late: the other may have ended it already, and they
+/// are no state together. That is no step that failed, which could be tried again or saved.
+void TimeLoop::end_both(bool accepted, StepRecord& record) {
+  try {
+    auto fluid = fluid_.end_step(accepted);
+    auto solid = solid_.end_step(accepted);
+    record.fluid = fluid.get();
+    record.solid = solid.get();
+  } catch (const StepFailure& failure) {
+    throw run_error("step {}, as it was {}: {}", step_, accepted ? "accepted" : "taken back", failure.what());
+  }
+}
+
 void TimeLoop::finish(const CouplingResult& result, StepRecord& record) {
-  auto fluid = fluid_.end_step(result.converged);
-  auto solid = solid_.end_step(result.converged);
-  record.fluid = fluid.get();
-  record.solid = solid.get();
+  end_both(result.converged, record);
   record.evaluations += result.evaluations;
   record.krylov_iterations += result.krylov_iterations;
   if (!result.residuals.empty()) record.residual = result.residuals.back();

@@ -45,7 +45,7 @@ class TimeLoop {
   void observe(Observer& observer) { observer_ = &observer; }
 
   /// Step number `step`, from `time` to `time + dt`. Throws StepFailure if even the smallest part fails, with both
-  /// codes back at `time`.
+  /// codes back at `time`; RunError if a code fails where the other may have gone on, so that they have no time.
   StepRecord advance(std::int64_t step, double time, double dt);
 
   /// Whether both codes can go on from a state.
@@ -60,6 +60,8 @@ class TimeLoop {
   CouplingResult solve(const StepStart& start);
   CouplingResult solve_with_drift(StepStart start);
   void finish(const CouplingResult& result, StepRecord& record);
+  void end_both(bool accepted, StepRecord& record);
+  void correct(double time, double dt);
   std::string seen_by(const CouplingResult& result) const;
 
   FluidPartner& fluid_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "common/base/checked_file.hpp"
 #include "common/base/newest_state.hpp"
@@ -54,10 +55,16 @@ struct PackedRecord {
   }
 };
 
+/// The numbers of a record in their order.
+template <class Record>
+std::vector<double> packed_numbers(const Record& record) {
+  std::vector<double> all;
+  Record::numbers(record, [&](const auto& number) { all.push_back(static_cast<double>(number)); });
+  return all;
+}
+
 PackedRecord packed(const EstimateRecord& r) {
-  return {{r.time, r.data, r.chi_square, r.expected_chi_square, r.rejected, r.tempering, r.evaluations},
-          PackedMatrix(r.mean),
-          PackedMatrix(r.covariance)};
+  return {packed_numbers(r), PackedMatrix(r.mean), PackedMatrix(r.covariance)};
 }
 
 void require_size(const std::vector<double>& numbers, std::size_t size) {
@@ -71,24 +78,25 @@ int whole(double number) {
   return static_cast<int>(number);
 }
 
+/// Takes them back.
+template <class Record>
+void take_numbers(const std::vector<double>& packed, Record& record) {
+  require_size(packed, packed_numbers(record).size());
+  auto next = packed.begin();
+  Record::numbers(record, [&]<class Number>(Number& number) {
+    if constexpr (std::is_same_v<Number, int>)
+      number = whole(*next++);
+    else
+      number = *next++;
+  });
+}
+
 EstimateRecord unpacked(const PackedRecord& p) {
-  require_size(p.numbers, 7);
-  return {p.numbers[0], p.mean.vector(), p.covariance.matrix(), p.numbers[1], p.numbers[2],
-          p.numbers[3], p.numbers[4],    p.numbers[5],          p.numbers[6]};
-}
-
-std::vector<double> packed(const DataTotals& all) {
-  return {all.data,
-          all.used,
-          all.rejected,
-          all.chi_square,
-          all.expected_chi_square,
-          static_cast<double>(all.tempered_steps)};
-}
-
-DataTotals totals_of(const std::vector<double>& packed) {
-  require_size(packed, 6);
-  return {packed[0], packed[1], packed[2], packed[3], packed[4], whole(packed[5])};
+  EstimateRecord record;
+  take_numbers(p.numbers, record);
+  record.mean = p.mean.vector();
+  record.covariance = p.covariance.matrix();
+  return record;
 }
 
 fs::path newest_in(const fs::path& folder) {
@@ -122,7 +130,7 @@ IdentificationCheckpoint unpacked(const CheckedContent& content) {
   state.information = information.matrix();
   checkpoint.table = static_cast<std::uint64_t>(table);
   state.last = unpacked(last);
-  state.totals = totals_of(totals);
+  take_numbers(totals, state.totals);
   state.innovations = {innovations[0], innovations[1], innovations[2]};
   checkpoint.cost = {cost[0], cost[1], cost[2], whole(cost[3])};
   return checkpoint;
@@ -190,7 +198,7 @@ void write_checkpoint(const fs::path& output, std::uint64_t fingerprint, const I
   const auto& [state, at_hand, cost, table, refused] = checkpoint;
   protocol::Writer writer;
   writer(PackedMatrix(state.theta), PackedMatrix(state.states), state.memories, at_hand, packed(state.last),
-         packed(state.totals), static_cast<std::int64_t>(table),
+         packed_numbers(state.totals), static_cast<std::int64_t>(table),
          std::vector<double>{state.innovations.products, state.innovations.squares, state.innovations.squares_before},
          PackedMatrix(state.last_mean), PackedMatrix(state.lasting.mean), PackedMatrix(state.lasting.slope),
          PackedMatrix(state.lasting.covariance), PackedMatrix(state.information),

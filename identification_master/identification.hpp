@@ -38,6 +38,11 @@ struct EstimateRecord {
   double evaluations = 0;          ///< of the coupled model, mean over the particles
 
   double rejected_share() const { return rejected > 0 ? rejected / (data + rejected) : 0; }
+  /// All of them in order, for a checkpoint; the visitor may read or write them.
+  static void numbers(auto& self, auto&& visit) {
+    visit(self.time), visit(self.data), visit(self.chi_square), visit(self.expected_chi_square), visit(self.rejected),
+        visit(self.tempering), visit(self.evaluations);
+  }
 };
 
 /// How the model's observations change with the parameters at the end of a step, source after source.
@@ -55,6 +60,10 @@ struct DataTotals {
   int tempered_steps = 0;
 
   void add(const EstimateRecord& step);
+  static void numbers(auto& self, auto&& visit) {
+    visit(self.data), visit(self.used), visit(self.rejected), visit(self.chi_square), visit(self.expected_chi_square),
+        visit(self.tempered_steps);
+  }
 };
 
 /// How the discrepancies of the mean behave from frame to frame of a series: about zero if model and noise are right.

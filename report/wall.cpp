@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -23,14 +24,42 @@ const WallMomentTold* same_moment(const WallSourceTold& source, const WallMoment
   return found == source.moments.end() ? nullptr : &*found;
 }
 
+Points points_of(const PackedFloats& packed) {
+  const MatrixXd numbers = unpacked(packed);
+  if (numbers.rows() != 3 || !numbers.allFinite())
+    throw input_error("{} x {} numbers are no points", numbers.rows(), numbers.cols());
+  return numbers;
+}
+
+/// Of so many nodes.
+WallState state_of(const WallMomentTold& moment, std::size_t nodes) {
+  WallState state{points_of(moment.positions), unpacked(moment.distances).reshaped()};
+  for (const Eigen::Index count : {state.positions.cols(), state.distances.size()})
+    if (static_cast<std::size_t>(count) != nodes)
+      throw input_error("positions and distances of {} and {} nodes, where the wall has {}", state.positions.cols(),
+                        state.distances.size(), nodes);
+  return state;
+}
+
 /// A moment of the first run in all that reach it.
 WallMoment moment_in(const std::vector<ComparedWall>& runs, std::size_t source, const WallMomentTold& moment) {
   WallMoment result{moment.time, moment.held_out, {}, {}};
-  for (const PackedFloats& line : moment.lines) result.data.emplace_back(unpacked(line));
+  for (const PackedFloats& line : moment.lines) result.data.push_back(points_of(line));
   for (const ComparedWall& run : runs)
     if (const WallMomentTold* there = same_moment(run.sources[source], moment))
-      result.states.push_back({unpacked(there->positions), unpacked(there->distances).reshaped()});
+      result.states.push_back(state_of(*there, runs.front().region.size()));
   return result;
+}
+
+void check_numbers(const ComparedWall& wall, const fs::path& folder) {
+  const auto are_below = [](const std::vector<int>& numbers, int least, std::size_t end) {
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [&](int number) { return number >= least && number < static_cast<std::int64_t>(end); });
+  };
+  if (wall.triangles.size() % 3 != 0 || !are_below(wall.triangles, 0, wall.region.size()))
+    throw input_error("{}: triangles of nodes that it does not have", (folder / "wall.json").string());
+  if (!are_below(wall.region, -1, wall.regions.size()))
+    throw input_error("{}: nodes in regions that it does not have", (folder / "wall.json").string());
 }
 
 void check_same(const ComparedWall& first, const ComparedWall& other, const fs::path& folder) {
@@ -89,6 +118,7 @@ Wall wall_of(const std::vector<fs::path>& folders) {
   std::vector<ComparedWall> runs;
   for (const fs::path& folder : folders) {
     runs.push_back(read_record<ComparedWall>(folder / "wall.json"));
+    check_numbers(runs.back(), folder);
     check_same(runs.front(), runs.back(), folder);
   }
   const ComparedWall& first = runs.front();

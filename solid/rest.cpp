@@ -19,9 +19,7 @@ HeldBySurroundings held_by_surroundings(const WallMesh& mesh, const InitialStres
   HeldBySurroundings held;
   held.share = initial.held_share;
   VectorXd area = VectorXd::Zero(mesh.points.cols());
-  for (const Patch& region : mesh.outside)
-    for (const Triangle& t : region.triangles)
-      for (const int node : t) area[node] += area_vector(mesh.points, t).norm() / 3;
+  for (const Patch& region : mesh.outside) area += nodal_areas(mesh.points, region.triangles);
   for (const Patch& region : mesh.outside)
     for (const int node : nodes_of(region.triangles)) {
       const double here = initial.held.col(node).norm() / (area[node] * std::abs(pressure));

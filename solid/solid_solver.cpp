@@ -107,7 +107,8 @@ InterfaceMotion SolidSolver::evaluate(const Points& load) {
   for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
     VectorXd correction = VectorXd::Zero(iterate_.size());
     const bool solved = solve_linear(out_of_balance(load, true), correction, correction_tolerance).converged;
-    if (!correction.allFinite()) break;
+    if (!correction.allFinite())
+      throw run_error("the wall's equations: the correction of Newton iteration {} is not finite", iteration + 1);
     iterate_.reshaped() += correction;
     tangent_serves_ = false;
     const double least = rounding * model_.mesh().points.norm() / dt_;
@@ -190,24 +191,37 @@ void SolidSolver::assemble_tangent() {
 
 void SolidSolver::renew_factor_if_stale() {
   if (origin_.dt == dt_ && origin_.lost < calls_for_a_factor) return;
-  make_factor({displacement_, dt_, model_.parameters().values()});
+  make_factor({displacement_, time_, dt_, model_.parameters().values()});
 }
 
-/// Factor of the tangent of a step that starts and stays at origin.displacement (S.11).
-void SolidSolver::make_factor(const FactorOrigin& origin) {
-  const std::vector<double> now = model_.parameters().values();
+/// Of a step that starts and stays at origin.displacement (S.11). The model is afterwards as it was, also where this
+/// throws.
+void SolidSolver::assemble_tangent_at(const FactorOrigin& origin) {
   const auto set_all = [this](const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) model_.parameters().entries()[i].set(values[i]);
   };
+  const auto set_back = [&, now = model_.parameters().values()] {
+    set_all(now);
+    model_.place_supports(displacement_);
+  };
   const Points still = Points::Zero(3, origin.displacement.cols());
-  set_all(origin.parameters);
-  model_.place_supports(origin.displacement);
-  model_.step_forces(origin.displacement, still, still, time_, origin.dt, &tangent_);
-  model_.place_supports(displacement_);
-  set_all(now);
+  tangent_serves_ = false;
+  try {
+    set_all(origin.parameters);
+    model_.place_supports(origin.displacement);
+    model_.step_forces(origin.displacement, still, still, origin.time, origin.dt, &tangent_);
+  } catch (...) {
+    set_back();
+    throw;
+  }
+  set_back();
+}
+
+void SolidSolver::make_factor(const FactorOrigin& origin) {
+  assemble_tangent_at(origin);
+  origin_.dt = 0;  // where it cannot be factored there is none
   if (!factor_.has_factor()) factor_.analyze(tangent_, 3);
   factor_tangent();
-  tangent_serves_ = false;
   origin_ = origin;
 }
 
@@ -235,25 +249,25 @@ void SolidSolver::FactorOrigin::count(int step_calls, double step_decades) {
 }
 
 bool SolidSolver::FactorOrigin::makes_same_factor_as(const FactorOrigin& other) const {
-  return dt == other.dt && displacement == other.displacement && parameters == other.parameters;
+  return time == other.time && dt == other.dt && displacement == other.displacement && parameters == other.parameters;
 }
 
 double SolidSolver::mark_of(const FactorOrigin& origin) const {
   Mark mark;
-  mark.add(origin.displacement.reshaped()).add(origin.parameters).add(std::array{origin.dt});
+  mark.add(origin.displacement.reshaped()).add(origin.parameters).add(std::array{origin.time, origin.dt});
   for (const ParameterTable::Entry& entry : model_.parameters().entries()) mark.add(entry.name);
   return mark.value();
 }
 
 Eigen::Index SolidSolver::state_size() const {
-  return 4 * displacement_.size() + 7 + static_cast<Eigen::Index>(origin_.parameters.size());
+  return 4 * displacement_.size() + 8 + static_cast<Eigen::Index>(origin_.parameters.size());
 }
 
 VectorXd SolidSolver::state() const {
   VectorXd state(state_size());
   state << displacement_.reshaped(), velocity_.reshaped(), mean_velocity_.reshaped(), nodes_.value(),
-      origin_.displacement.reshaped(), origin_.dt, origin_.steps, origin_.calls, origin_.decades, origin_.lost,
-      mark_of(origin_),
+      origin_.displacement.reshaped(), origin_.time, origin_.dt, origin_.steps, origin_.calls, origin_.decades,
+      origin_.lost, mark_of(origin_),
       Eigen::Map<const VectorXd>(origin_.parameters.data(), static_cast<Eigen::Index>(origin_.parameters.size()));
   return state;
 }
@@ -271,13 +285,14 @@ void SolidSolver::set_state(const VectorXd& state) {
   FactorOrigin origin;
   origin.displacement = Eigen::Map<const Points>(state.data() + factor, 3, displacement_.cols());
   const double* numbers = state.data() + factor + n;
-  origin.dt = numbers[0];
-  origin.steps = numbers[1];
-  origin.calls = numbers[2];
-  origin.decades = numbers[3];
-  origin.lost = numbers[4];
-  origin.parameters.assign(numbers + 6, state.data() + state.size());
-  if (mark_of(origin) == numbers[5]) restore_factor(origin);
+  origin.time = numbers[0];
+  origin.dt = numbers[1];
+  origin.steps = numbers[2];
+  origin.calls = numbers[3];
+  origin.decades = numbers[4];
+  origin.lost = numbers[5];
+  origin.parameters.assign(numbers + 7, state.data() + state.size());
+  if (mark_of(origin) == numbers[6]) restore_factor(origin);
 }
 
 /// The factor of that origin, made if it is not at hand; none if there was none.

@@ -67,7 +67,8 @@ class SolidSolver {
   /// What a factor was made from: it can be made again, bit for bit.
   struct FactorOrigin {
     Points displacement;
-    double dt = 0;  ///< 0: there is no factor yet
+    double time = 0;  ///< when supports stood as they did
+    double dt = 0;    ///< 0: there is no factor yet
     std::vector<double> parameters;
     double steps = 0;               ///< with corrections, since it is there
     double calls = 0, decades = 0;  ///< of `precondition` in the first of them, and the powers of ten they removed
@@ -83,6 +84,7 @@ class SolidSolver {
   VectorXd out_of_balance(const Points& load, bool renew_tangent);
   const SparseMatrix& current_tangent();
   void assemble_tangent();
+  void assemble_tangent_at(const FactorOrigin& origin);
   void make_factor(const FactorOrigin& origin);
   void factor_tangent();
   void renew_factor_if_stale();

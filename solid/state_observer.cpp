@@ -45,9 +45,7 @@ StateObserver::StateObserver(const WallModel& model, VectorXd gain)
   constrain(K_, model.clamped_unknowns(), K_.coeff(0, 0));
   kappa_ = stiffer_than_the_wall * inflation_stiffness(mesh, *wall, model.material());
   normal_ = nodal_normals(mesh.points, mesh.interface).leftCols(interface_nodes_);
-  area_ = VectorXd::Zero(interface_nodes_);
-  for (const Triangle& t : mesh.interface)
-    for (int node : t) area_[node] += area_vector(mesh.points, t).norm() / 3;
+  area_ = nodal_areas(mesh.points, mesh.interface).head(interface_nodes_);
   for (int unknown : model.clamped_unknowns())
     if (unknown / 3 < interface_nodes_) area_[unknown / 3] = 0;
   area_ = (gain_.array() > 0).select(area_, 0);

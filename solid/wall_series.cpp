@@ -28,7 +28,7 @@ std::vector<Field> stress_fields(const Eigen::Matrix<double, 6, Eigen::Dynamic>&
 
 void WallSeries::write(const WallModel& model, const SolidSolver& solver, int step, double time) {
   if (!series_) {  // only then: an output that is removed in mid-run is not made anew
-    series_ = PvdSeries::rescued(folder_ / "solid.pvd", time * (1 - 1e-12) - 1e-300);
+    series_ = PvdSeries::rescued_before(folder_ / "solid.pvd", time);
     std::filesystem::create_directories(folder_ / "vtk");
   }
   const std::string file = fmt::format("vtk/solid_{:06}.vtu", step);

@@ -126,9 +126,11 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   const CandidateModels models(given, command, output);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
-  check_numbers(given, runs);             // a case that is refused is refused before anything else runs
-  given.inputs.check();                   // the groups have read it
-  fs::remove(output / "diagnosis.json");  // nothing speaks against a new one any more
+  check_numbers(given, runs);  // a case that is refused is refused before anything else runs
+  given.inputs.check();        // the groups have read it
+  for (const char* old :
+       {"diagnosis.json", "misfit.vtu", "misfit_patch.vtp", "plots/misfit.png", "plots/diagnosis.png"})
+    fs::remove(output / old);  // nothing speaks against a new one any more
   mark_output(output, command.case_file);
   std::unique_ptr<GrowingRuns> coarse = coarse_runs(given, models, effects, command.quiet);
   RefinedModels refined(given, models, effects, coarse != nullptr);

@@ -67,7 +67,8 @@ std::string text_of(const Explanation& explanation, double millimetres, const fs
     text += fmt::format("  {}       the case with what was found, ready for tether simulate\n",
                         *explanation.suggested_case);
   if (explanation.corrected_case)
-    text += fmt::format("  {}   the case with corrected data\n", *explanation.corrected_case);
+    text += fmt::format("  {}   the case with corrected data: tether explain {}\n", *explanation.corrected_case,
+                        (output / *explanation.corrected_case).string());
   return text;
 }
 

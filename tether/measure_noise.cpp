@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <iostream>
 
 #include "common/base/error.hpp"
@@ -15,9 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// noise.json, its plots, and what is told of them.
-Made<NoiseMeasurements> written(NoiseMeasurements noise, const fs::path& output) {
+/// noise.json, its plots, and what is told of them. left_out: of what could not be measured.
+Made<NoiseMeasurements> written(NoiseMeasurements noise, const fs::path& output,
+                                const std::vector<std::string>& left_out = {}) {
   noise.sentences = sentences_of(noise.measurements);
+  noise.sentences.insert(noise.sentences.end(), left_out.begin(), left_out.end());
   write_record(output / "noise.json", noise);
   std::string told = text_of(noise) + fmt::format("In {}:\n  noise.json\n", output.string());
   for (const std::string& name : draw_noise(noise, output)) told += fmt::format("  plots/{}\n", name);
@@ -65,10 +70,15 @@ Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
   const RunMotion motion = motion_of(run, lumen);
   NoiseMeasurements noise;
   noise.case_name = measured.file.common().name;
+  std::vector<std::string> left_out;
   for (const auto& seen : {repeated_noise(data, motion), noise_at_rest(data, motion), residual_noise(data, motion)})
     for (const SeenNoise& one : seen)
-      noise.measurements.push_back(measured_noise(one, measured.file.units().symbol(dimension::length)));
-  return written(std::move(noise), output);
+      if (can_be_measured(one.fields))
+        noise.measurements.push_back(measured_noise(one, measured.file.units().symbol(dimension::length)));
+      else
+        left_out.push_back(fmt::format("{}, from {}: too few data in each frame", one.source, meaning_of(one.from)));
+  if (noise.measurements.empty()) throw run_error("noise cannot be measured: {}", fmt::join(left_out, "; "));
+  return written(std::move(noise), output, left_out);
 }
 
 Made<NoiseMeasurements> measure_noise(const fs::path& first, const fs::path& second, const fs::path& output,

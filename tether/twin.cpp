@@ -137,7 +137,7 @@ void write_frames(const fs::path& folder, const std::vector<TwinFrame>& frames) 
     write_vtp(folder / name, frame.surface.points, frame.surface.triangles);
     list << fmt::format("{}, {}\n", name, frame.time);
   }
-  if (!list.flush()) throw run_error("{}: cannot be written to", folder.string());
+  if (!list.flush()) throw write_error(folder / "lumen.csv");
 }
 
 void write_trace(const fs::path& file, const TwinTrace& trace, const std::string& unit) {
@@ -179,9 +179,12 @@ void write_case(const fs::path& file, const CaseWithTwin& given, const TwinFrame
     return std::any_of(given.twin.traces.begin(), given.twin.traces.end(),
                        [&](const auto& trace) { return trace.first == name; });
   };
+  const auto is_replaced = [&](const MeasurementKind& kind, const std::string& name) {
+    return &kind == &kinds::traces ? is_made(name) : &kind == &kinds::surfaces && name == source_name;
+  };
   for (const auto& section : given.observations.sections())
     for (const std::string& name : section->names())
-      if (&section->kind() != &kinds::traces || !is_made(name)) set(section->kind().name, name, "");
+      if (!is_replaced(section->kind(), name)) set(section->kind().name, name, "");
   set("surfaces", source_name, source_of(given, frames));
   for (const auto& [name, trace] : given.twin.traces) set("traces", name, source_of(name, trace));
   write_overlay(file, overlay);

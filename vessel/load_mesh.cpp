@@ -5,7 +5,7 @@
 #include "vessel/anatomy/centreline_file.hpp"
 #include "vessel/check.hpp"
 #include "vessel/contours.hpp"
-#include "vessel/growth/thickness.hpp"
+#include "vessel/grown_wall.hpp"
 #include "vessel/mesh_case.hpp"
 #include "vessel/sweep.hpp"
 #include "vessel/vessel_files.hpp"
@@ -66,21 +66,15 @@ VesselMesh swept(const SweptCase& given, const UnitSystem& units, const Where& w
   return sweep(settings);
 }
 
-Thickness thickness_of(const ThicknessCase& given) {
-  return {given.thickness, given.fraction_of_radius};
-}
-
 void set_grown_wall(VesselFiles& files, const std::optional<GrownWallCase>& given, const std::string& section,
                     const Where& where) {
   if (!given) return;
-  files.extrusion = {given->thickness.thickness.value_or(0), given->layers, given->smoothing};
-  files.extrusion.least_share = given->least_share;
+  files.extrusion = extrusion_of(*given);
+  files.extrusion.thickness = given->thickness.thickness.value_or(0);
   const bool by_radius = given->thickness.fraction_of_radius.has_value();
   files.extrusion.field = named(where, section + (by_radius ? ".fraction_of_radius" : ".thickness"));
   if (files.anatomy && (by_radius || !given->branches.empty())) {
-    TreeThickness tree{thickness_of(given->thickness), {}, given->blend};
-    for (const auto& [name, own] : given->branches) tree.branches.emplace_back(name, thickness_of(own));
-    files.extrusion.varying = [tree, anatomy = files.anatomy](const Points& places) {
+    files.extrusion.varying = [tree = thickness_of(*given), anatomy = files.anatomy](const Points& places) {
       return thickness_at(places, tree, *anatomy);
     };
   }

@@ -52,6 +52,7 @@ Surrogate::Surrogate(const std::string& case_file, const std::filesystem::path& 
   const SetEvidence told(drawn, {});
   visible = detectable_sizes(drawn, {}, posterior_of(drawn, told, std::vector<bool>(problem.candidates.size(), false)),
                              d.alpha);
+  for (double& size : visible) size = std::abs(size);
   saturation = VectorXd::Constant(problem.changes.cols(), infinite);
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (problem.candidates[c].kind != Candidate::Kind::effect) continue;

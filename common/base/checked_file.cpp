@@ -17,7 +17,7 @@ namespace {
 /// At the beginning of each file; all members are 8 bytes.
 struct Header {
   std::array<char, 8> magic{'T', 'E', 'T', 'H', 'E', 'R', 'C', 'P'};
-  std::uint64_t version = 10;
+  std::uint64_t version = 11;
   std::uint64_t fingerprint = 0;
   std::int64_t step = 0;
   std::uint64_t size = 0;      ///< of the bytes that follow

@@ -8,6 +8,10 @@
 
 namespace tether {
 
+double onset(double time, double ramp) {
+  return ramp > 0 ? 0.5 * (1 - std::cos(std::numbers::pi * std::clamp(time / ramp, 0.0, 1.0))) : 1.0;
+}
+
 Curve::Curve(std::vector<double> times, std::vector<double> values, const CurveShape& shape)
     : times_(std::move(times)), values_(std::move(values)), shape_(shape) {
   TETHER_ASSERT(!times_.empty() && times_.size() == values_.size(), "{} {}", times_.size(), values_.size());
@@ -22,8 +26,7 @@ Curve::Curve(std::vector<double> times, std::vector<double> values, const CurveS
 }
 
 double Curve::operator()(double time) const {
-  const double s = shape_.ramp > 0.0 ? std::clamp(time / shape_.ramp, 0.0, 1.0) : 1.0;
-  return shape_.scale * 0.5 * (1.0 - std::cos(std::numbers::pi * s)) * interpolated(time);
+  return shape_.scale * onset(time, shape_.ramp) * interpolated(time);
 }
 
 double Curve::interpolated(double time) const {

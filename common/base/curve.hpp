@@ -4,6 +4,9 @@
 
 namespace tether {
 
+/// From 0 at t = 0 to 1 at t = ramp, smoothly: (1 - cos(pi t/ramp))/2; 1 without a ramp.
+double onset(double time, double ramp);
+
 /// How a table of times and values becomes a function of time.
 struct CurveShape {
   double period = 0.0;  ///< the table repeats; 0: it does not, and its ends are held

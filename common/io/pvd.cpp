@@ -5,6 +5,7 @@
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -100,6 +101,10 @@ PvdSeries PvdSeries::rescued(const std::filesystem::path& path, double last_time
                series.entries_.size());
     return series;
   }
+}
+
+PvdSeries PvdSeries::rescued_before(const std::filesystem::path& path, double time) {
+  return rescued(path, time - std::max(1e-12 * std::abs(time), 1e-300));
 }
 
 void PvdSeries::add(double time, const std::string& file) {

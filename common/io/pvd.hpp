@@ -18,6 +18,8 @@ class PvdSeries {
   /// The same of a series that this class wrote, without files that are gone, and of a damaged one what it still
   /// names; both are told on stderr.
   static PvdSeries rescued(const std::filesystem::path& path, double last_time);
+  /// The same without what it has at `time` already, or later: that is written now.
+  static PvdSeries rescued_before(const std::filesystem::path& path, double time);
 
   /// file: as seen from the series' folder. Throws RunError if the series cannot be written.
   void add(double time, const std::string& file);

@@ -22,6 +22,15 @@ double total_area(const Points& points, const std::vector<Triangle>& triangles) 
   return sum;
 }
 
+VectorXd nodal_areas(const Points& points, const std::vector<Triangle>& triangles) {
+  VectorXd areas = VectorXd::Zero(points.cols());
+  for (const Triangle& t : triangles) {
+    const double third = area_vector(points, t).norm() / 3;
+    for (const int node : t) areas[node] += third;
+  }
+  return areas;
+}
+
 Vec3 centroid(const Points& points, const std::vector<Triangle>& triangles) {
   Vec3 sum = Vec3::Zero();
   double area = 0;

@@ -15,6 +15,9 @@ Vec3 total_area_vector(const Points& points, const std::vector<Triangle>& triang
 
 double total_area(const Points& points, const std::vector<Triangle>& triangles);
 
+/// A third of each triangle's area to each of its nodes; one value a point of `points` [length^2].
+VectorXd nodal_areas(const Points& points, const std::vector<Triangle>& triangles);
+
 /// Area-weighted mean position.
 Vec3 centroid(const Points& points, const std::vector<Triangle>& triangles);
 

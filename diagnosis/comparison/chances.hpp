@@ -10,6 +10,9 @@ double normal_tail(double z);
 /// Probability that Student's t with n degrees of freedom exceeds t.
 double student_tail(double t, int n);
 
+/// Deviations on either side of the mean between which a normal number lies with 95 %.
+inline constexpr double two_sided_95 = 1.96;
+
 /// z with the probability p below it, 0 < p < 1, standard normal.
 double normal_quantile(double p);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <optional>
 
 namespace tether {
 
@@ -74,9 +75,32 @@ std::vector<std::string> sentences_of(const Comparison& comparison) {
   return all;
 }
 
+namespace {
+
+/// Of the source and the frames in which the model is off by most of their noise; none if it is nowhere.
+std::optional<std::string> worst_failure(const Comparison& comparison) {
+  std::optional<std::string> sentence;
+  double most = 0;
+  for (const SourceDiscrepancy& source : comparison.sources)
+    for (const bool held_out : {false, true}) {
+      const Judgement judgement = judge(source, held_out);
+      const Failure* worst = worst_of(judgement);
+      if (worst == nullptr || worst->size() / source.noise.deviation <= most) continue;
+      most = worst->size() / source.noise.deviation;
+      sentence = sentences_of(judgement, source, held_out, comparison.units).front();
+    }
+  return sentence;
+}
+
+}  // namespace
+
 std::vector<std::string> first_look_of(const Comparison& comparison) {
   std::vector<std::string> all = before_any_physics(comparison);
-  if (std::vector<std::string> found = findings(comparison); !found.empty()) all.push_back(std::move(found.front()));
+  std::vector<std::string> found = findings(comparison);
+  if (std::optional<std::string> worst = worst_failure(comparison))
+    all.push_back(std::move(*worst));
+  else if (!found.empty())
+    all.push_back(std::move(found.front()));
   return all;
 }
 

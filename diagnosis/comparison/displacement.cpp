@@ -1,5 +1,7 @@
 #include "diagnosis/comparison/displacement.hpp"
 
+#include "common/mesh/surface.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,7 @@
 #include "diagnosis/evidence/curvature.hpp"
 
+#include "common/mesh/surface.hpp"
+
 #include <Eigen/Geometry>
 #include <map>
 

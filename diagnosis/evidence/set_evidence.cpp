@@ -77,12 +77,20 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
       assumed_(assumed),
       discrepancies_(sizes_of(problem.pattern_deviation.size() > 0)),
       curves_(problem.candidates.size()) {
-  MatrixXd columns = problem.changes;
-  VectorXd precision = VectorXd::Zero(problem.precision.size());
-  precision(rows) = problem.precision(rows);
-  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+  MatrixXd columns = columns_of_curves(runs, rows);
+  append_columns(columns, problem.residual);
+  multiply_out(MatrixXd(columns(rows, Eigen::all)), rows);
+  settle_numerics();
+}
+
+/// What each number does to first order, then what each run of a candidate by itself showed, of which curves are made.
+MatrixXd SetEvidence::columns_of_curves(const std::vector<ShownRun>& runs, const std::vector<Index>& rows) {
+  MatrixXd columns = problem_.changes;
+  VectorXd precision = VectorXd::Zero(problem_.precision.size());
+  precision(rows) = problem_.precision(rows);
+  for (std::size_t c = 0; c < problem_.candidates.size(); ++c) {
     if (!is_scalar(c)) continue;
-    const Index own = problem.candidates[c].amplitudes.front();
+    const Index own = problem_.candidates[c].amplitudes.front();
     curves_[c].resize(2);
     const auto add = [&](const AmplitudeCurve::Point& point) { curves_[c][point.size > 0 ? 0 : 1].add(point); };
     if (const Amplitude& amplitude = amplitude_of({c}); amplitude.step != 0)
@@ -90,7 +98,7 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     for (const ShownRun& run : runs)
       if (run.of != RunOf::finer && shows_alone(run, own)) {
         add({run.amplitudes(own), columns.cols(), 1, run.of == RunOf::coarser});
-        append_columns(columns, problem.residual - run.residual);
+        append_columns(columns, problem_.residual - run.residual);
       }
     for (AmplitudeCurve& side : curves_[c]) side.settle(columns, precision);
     std::optional<ShownNumerics> numerics = add_refined(c, runs, columns);
@@ -99,32 +107,39 @@ SetEvidence::SetEvidence(const EffectProblem& problem, const std::vector<ShownRu
     numerics->data = columns.col(numerics->column);
     numerics_.push_back(std::move(*numerics));
   }
-  append_columns(columns, problem.residual);
-  columns = MatrixXd(columns(rows, Eigen::all));
+  return columns;
+}
 
+/// Errors that are allowed, the ordinary ones first, those that are patterns last.
+SetEvidence::Errors SetEvidence::errors_on(const std::vector<Index>& rows) const {
   std::vector<Index> ordinary;
-  for (Index k = 0; k < problem.allowed.cols(); ++k)
-    if (std::count(problem.allowed_patterns.begin(), problem.allowed_patterns.end(), k) == 0) ordinary.push_back(k);
-  const Index own = static_cast<Index>(ordinary.size());
-  const Index patterns = problem.pattern_deviation.size();
-  MatrixXd errors(columns.rows(), own + patterns);
-  errors << problem.allowed(rows, ordinary), problem.patterns(rows, Eigen::seqN(0, patterns));
-  const VectorXd root = problem.precision(rows).cwiseSqrt() / assumed.noise;
-  errors = root.asDiagonal() * errors;
+  for (Index k = 0; k < problem_.allowed.cols(); ++k)
+    if (std::count(problem_.allowed_patterns.begin(), problem_.allowed_patterns.end(), k) == 0) ordinary.push_back(k);
+  const auto count = static_cast<Index>(ordinary.size()), patterns = problem_.pattern_deviation.size();
+  Errors errors{MatrixXd(static_cast<Index>(rows.size()), count + patterns), problem_.allowed_deviation(ordinary)};
+  errors.columns << problem_.allowed(rows, ordinary), problem_.patterns(rows, Eigen::seqN(0, patterns));
+  return errors;
+}
+
+/// Products of all columns on these rows [m x c], in M of each discrepancy.
+void SetEvidence::multiply_out(MatrixXd columns, const std::vector<Index>& rows) {
+  Errors errors = errors_on(rows);
+  const VectorXd root = problem_.precision(rows).cwiseSqrt() / assumed_.noise;
+  errors.columns = root.asDiagonal() * errors.columns;
   columns = root.asDiagonal() * columns;
-  const MatrixXd among = errors.transpose() * errors, across = errors.transpose() * columns,
+  const MatrixXd among = errors.columns.transpose() * errors.columns, across = errors.columns.transpose() * columns,
                  gram = columns.transpose() * columns;
-  VectorXd deviations(errors.cols());
-  for (Index k = 0; k < own; ++k) {
-    const double given = problem.allowed_deviation(ordinary[static_cast<std::size_t>(k)]);
-    deviations(k) = std::isfinite(given) ? given : among(k, k) > 0 ? anything / std::sqrt(among(k, k)) : 0;
-  }
+  VectorXd deviations(errors.columns.cols());
+  for (Index k = 0; k < errors.given.size(); ++k)
+    deviations(k) = std::isfinite(errors.given(k)) ? errors.given(k)
+                    : among(k, k) > 0              ? anything / std::sqrt(among(k, k))
+                                                   : 0;
   for (const DiscrepancySize& discrepancy : discrepancies_) {
-    deviations.tail(patterns) = assumed.discrepancy * discrepancy.size * problem.pattern_deviation;
+    deviations.tail(problem_.pattern_deviation.size()) =
+        assumed_.discrepancy * discrepancy.size * problem_.pattern_deviation;
     Taken taken = take_out(gram, among, across, deviations);
     products_.push_back({std::move(taken.gram), taken.log_norm});
   }
-  settle_numerics();
 }
 
 /// By a run of the finer model and one of the model itself, of the same size.

@@ -114,6 +114,12 @@ class SetEvidence {
     double log_norm = 0;
   };
 
+  /// Of all kinds that are allowed.
+  struct Errors {
+    MatrixXd columns;  ///< [n x e]
+    VectorXd given;    ///< deviation of each of the first, which are ordinary; infinite: any
+  };
+
   /// An amplitude that is summed over; of one of several the deviation of its normal prior.
   struct Summand {
     std::size_t candidate;
@@ -121,6 +127,10 @@ class SetEvidence {
     double deviation = 0;
   };
   using Summands = std::vector<Summand>;
+
+  MatrixXd columns_of_curves(const std::vector<ShownRun>& runs, const std::vector<Eigen::Index>& rows);
+  Errors errors_on(const std::vector<Eigen::Index>& rows) const;
+  void multiply_out(MatrixXd columns, const std::vector<Eigen::Index>& rows);
 
   const Amplitude& amplitude_of(const Summand& summand) const;
   std::vector<Eigen::Index> columns_of(const std::vector<std::size_t>& members) const;

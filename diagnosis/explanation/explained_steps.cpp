@@ -138,8 +138,15 @@ std::vector<ExplainedStep> ExplainedSteps::all() const {
   return steps;
 }
 
+/// Steps that were made before and have not had their turn yet are still there: whoever makes one anew, or is broken
+/// off, does not forget those behind it.
 void ExplainedSteps::save() const {
-  write_record(output_ / "steps.json", StepsMade{done_});
+  StepsMade all{done_};
+  for (const StepMade& before : before_)
+    if (std::none_of(done_.begin(), done_.end(),
+                     [&](const StepMade& made) { return made.step.folder == before.step.folder; }))
+      all.steps.push_back(before);
+  write_record(output_ / "steps.json", all);
 }
 
 }  // namespace tether

@@ -198,7 +198,7 @@ class Explainer {
     PathModel& model = best();
     for (const Finding& effect : accepted_of(*model.diagnosis, false))
       for (const FoundAmplitude& amplitude : effect.parameters) model.refused.push_back(amplitude.parameter);
-    return path_.models.size() - 1 - path_.best <= often_enough;
+    return path_.refused_since_best() <= often_enough;
   }
 
   int effects_added() const {

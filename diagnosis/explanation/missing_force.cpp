@@ -10,6 +10,8 @@
 #include "common/base/csv.hpp"
 #include "common/config/case_tree.hpp"
 #include "common/config/files_to_go_on_with.hpp"
+#include "common/mesh/surface.hpp"
+#include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/explanation/force_law.hpp"
 #include "diagnosis/results/diagnosis.hpp"
 
@@ -58,16 +60,6 @@ VectorXd derivative(const VectorXd& values, const std::vector<double>& times) {
     slope(i) = (values(b) - values(a)) / (times[static_cast<std::size_t>(b)] - times[static_cast<std::size_t>(a)]);
   }
   return slope;
-}
-
-/// Outward normals of the imaged lumen at its nodes.
-Points nodal_normals(const LumenSurface& lumen) {
-  Points sum = Points::Zero(3, lumen.points.cols());
-  for (const Triangle& t : lumen.triangles) {
-    const Vec3 a = lumen.points.col(t[0]), b = lumen.points.col(t[1]), c = lumen.points.col(t[2]);
-    for (const auto node : t) sum.col(node) += (b - a).cross(c - a);
-  }
-  return sum.colwise().normalized();
 }
 
 /// Distinct moments at which a lumen was measured.
@@ -168,7 +160,7 @@ std::vector<Overlay::Value> MissingForce::with_tractions() {
 ForceLaw MissingForce::law_of_traction(const RegionForce& traction, const StoredRun& run) const {
   const auto n = static_cast<Eigen::Index>(traction.time.size());
   const LumenSurface& lumen = given_.lumen;
-  const Points normals = nodal_normals(lumen);
+  const Points normals = nodal_normals(lumen.points, lumen.triangles);
   const VectorXd areas = nodal_areas(lumen.points, lumen.triangles);
   const auto region = std::find(lumen.region_names.begin(), lumen.region_names.end(), traction.region);
   const int number = region == lumen.region_names.end() ? -1 : static_cast<int>(region - lumen.region_names.begin());
@@ -188,7 +180,7 @@ ForceLaw MissingForce::law_of_traction(const RegionForce& traction, const Stored
     motion.displacement(i) = weight.dot(displaced.cwiseProduct(normals).colwise().sum().transpose());
     motion.pressure(i) = at(times, pressures, time);
     force(i) = traction.value[k];
-    deviation(i) = (traction.upper[k] - traction.lower[k]) / (2 * 1.96);
+    deviation(i) = (traction.upper[k] - traction.lower[k]) / (2 * two_sided_95);
   }
   motion.velocity = derivative(motion.displacement, traction.time);
   motion.acceleration = derivative(motion.velocity, traction.time);

@@ -32,6 +32,11 @@ ExplainedModel told(const PathModel& model) {
 
 }  // namespace
 
+std::size_t ExplanationPath::refused_since_best() const {
+  return static_cast<std::size_t>(std::count_if(models.begin() + static_cast<long>(best) + 1, models.end(),
+                                                [](const PathModel& model) { return !model.told.added.empty(); }));
+}
+
 const Diagnosis* first_diagnosis(const ExplanationPath& path) {
   const auto first = std::find_if(path.models.begin(), path.models.end(), [](const auto& m) { return m.diagnosis; });
   return first == path.models.end() ? nullptr : &*first->diagnosis;

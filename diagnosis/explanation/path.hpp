@@ -31,7 +31,10 @@ struct ExplanationPath {
   std::optional<Gain> held_out;         ///< of the best model against the one as given
   std::vector<ExplainedStep> steps;
 
-  bool was_last_refused() const { return models.size() > best + 1; }
+  /// Models that diagnoses asked for, tried since the best one and not kept. That the case's own parameters, once
+  /// identified, make no better model refuses nothing that a diagnosis said.
+  std::size_t refused_since_best() const;
+  bool was_last_refused() const { return refused_since_best() > 0; }
 };
 
 /// The diagnosis of the first model that has one; null: none was made.

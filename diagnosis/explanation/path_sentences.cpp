@@ -74,9 +74,7 @@ void add_remarks(Sentences& all, const ExplanationPath& path) {
 Sentences sentences_of(const ExplanationPath& path) {
   Sentences all{headline_of(path)};
   if (path.held_out && path.best > 0) all.push_back(held_out_sentence(path));
-  if (const auto corrected = corrected_case(path))
-    all.push_back(
-        fmt::format("Is it so? Then look again without these errors of the data: tether explain {}", *corrected));
+  if (corrected_case(path)) all.push_back("Is it so? Then explain the case with these errors taken off the data");
   for (const std::string& sentence : path.failure) all.push_back("The model as given: " + sentence);
   add_remarks(all, path);
   for (const Finding& frame : frames_left_out(path))

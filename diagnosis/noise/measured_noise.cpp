@@ -43,10 +43,13 @@ NoiseCheck check_of(const std::vector<NoisePosterior>& shapes, const NoiseFit& b
   return check;
 }
 
+bool has_data_to_spare(const NoiseField& field) {
+  return !field.frames.empty() && field.places.cols() >= 2 * field.free.cols() + 8;
+}
+
 /// Those with data to spare, thinned to what the work allows.
 std::vector<NoiseField> usable(std::vector<NoiseField> fields, Eigen::Index most) {
-  std::erase_if(fields,
-                [](const NoiseField& f) { return f.frames.empty() || f.places.cols() < 2 * f.free.cols() + 8; });
+  std::erase_if(fields, [](const NoiseField& field) { return !has_data_to_spare(field); });
   if (fields.empty()) throw run_error("noise cannot be measured: too few data in each frame");
   const double share = std::cbrt(static_cast<double>(fields.size()));
   return thinned(std::move(fields),
@@ -54,6 +57,10 @@ std::vector<NoiseField> usable(std::vector<NoiseField> fields, Eigen::Index most
 }
 
 }  // namespace
+
+bool can_be_measured(const std::vector<NoiseField>& fields) {
+  return std::any_of(fields.begin(), fields.end(), has_data_to_spare);
+}
 
 MeasuredNoise measured_noise(const std::vector<NoiseField>& all, const Noise& stated, Eigen::Index most) {
   const RestrictedLikelihood likelihood(usable(all, most));

@@ -6,10 +6,13 @@
 
 namespace tether {
 
+/// Whether some field has enough more data than columns.
+bool can_be_measured(const std::vector<NoiseField>& fields);
+
 /// Deviation, correlation length, nugget and shape of what is seen of errors, with 95 % intervals, and the correlation
 /// time where there are three frames of the same places at least. stated: held against it, where a deviation and a
 /// length are given. most: data of a frame that are used, drawn from all; the work grows with its cube, and less where
-/// there are many fields. Throws RunError if no field has more data than columns. (D.23)
+/// there are many fields. Throws RunError if it cannot be measured. (D.23)
 MeasuredNoise measured_noise(const std::vector<NoiseField>& fields, const Noise& stated, Eigen::Index most = 600);
 
 /// What a datum's errors have in common with those of the same place at other moments, of one spatial correlation.

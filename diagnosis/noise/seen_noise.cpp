@@ -163,6 +163,23 @@ std::optional<NoiseField> differences(const SeenSeries& one, const SeenSeries& o
 
 }  // namespace
 
+namespace {
+
+/// The series of the other source that shows the same: its only one of surfaces, the slice of that name of contours.
+const SeenSeries* same_in(const std::vector<SeenSeries>& others, const LumenSeries& other, const SeenSeries& series,
+                          const LumenSeries& one) {
+  const auto name = [](const LumenSeries& data, const SeenSeries& seen) {
+    return data.series_names()[static_cast<std::size_t>(seen.series)];
+  };
+  const bool has_slices = one.sample_dimension() == 1;
+  const auto found = std::find_if(others.begin(), others.end(), [&](const SeenSeries& s) {
+    return has_slices ? name(other, s) == name(one, series) : s.series == series.series;
+  });
+  return found == others.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 std::vector<SeenNoise> repeated_noise(const Observations& data, const RunMotion& run) {
   std::vector<SeenNoise> all;
   const LumenAt imaged = [&](double) { return run.imaged; };
@@ -173,9 +190,10 @@ std::vector<SeenNoise> repeated_noise(const Observations& data, const RunMotion&
       SeenNoise seen{
           NoiseOrigin::repeated, one.facts().field() + " and " + other.settings().name, {}, one.facts().noise, {}};
       const auto first = seen_series(one, run, imaged), second = seen_series(other, run, imaged);
-      for (std::size_t s = 0; s < std::min(first.size(), second.size()); ++s)
-        if (auto field = differences(first[s], second[s], 1e-6 * (run.end - run.start), seen, one))
-          seen.fields.push_back(std::move(*field));
+      for (const SeenSeries& series : first)
+        if (const SeenSeries* same = same_in(second, other, series, one))
+          if (auto field = differences(series, *same, 1e-6 * (run.end - run.start), seen, one))
+            seen.fields.push_back(std::move(*field));
       if (!seen.fields.empty()) all.push_back(std::move(seen));
     }
   return all;

@@ -22,9 +22,10 @@ MatrixXd unpacked(const PackedFloats& packed) {
   const std::string bytes = from_base64(packed.float32);
   if (packed.shape.size() != 2 || packed.shape[0] < 0 || packed.shape[1] < 0)
     throw input_error("packed numbers have no rows and columns");
+  const auto count = static_cast<std::size_t>(packed.shape[0]) * static_cast<std::size_t>(packed.shape[1]);
+  if (bytes.size() % sizeof(float) != 0 || bytes.size() / sizeof(float) != count)
+    throw input_error("{} bytes are not {} x {} numbers", bytes.size(), packed.shape[0], packed.shape[1]);
   RowMajor rows(packed.shape[0], packed.shape[1]);
-  if (bytes.size() != sizeof(float) * static_cast<std::size_t>(rows.size()))
-    throw input_error("{} bytes are not {} x {} numbers", bytes.size(), rows.rows(), rows.cols());
   std::memcpy(rows.data(), bytes.data(), bytes.size());
   return rows.cast<double>();
 }

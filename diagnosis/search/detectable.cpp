@@ -15,7 +15,6 @@ constexpr double named_at = 0.95;              ///< probability of what is named
 constexpr double in_80_of_100 = 0.842;         ///< quantile of the normal distribution
 constexpr double faint = 2.5;                  ///< deviations of a signal that is named by none
 constexpr double wider = 1.3, precise = 1.02;  ///< of a size, as factors
-constexpr double much_the_same = 0.5;          ///< squared cosine
 constexpr int most_steps = 40;
 
 /// What would be named if one candidate were all that the model lacks.
@@ -49,7 +48,7 @@ class Power {
       const double between = unseen * std::sqrt(seen / unseen);
       (is_named(candidate, between, group) ? seen : unseen) = between;
     }
-    return std::abs(seen);
+    return seen;
   }
 
  private:
@@ -60,7 +59,7 @@ class Power {
   std::vector<std::size_t> group_of(std::size_t candidate) const {
     std::vector<std::size_t> group{candidate};
     for (std::size_t c = 0; c < problem_.candidates.size(); ++c)
-      if (c != candidate && !posterior_.left_out[c] && std::pow(evidence_.cosine(c, candidate), 2) > much_the_same)
+      if (c != candidate && !posterior_.left_out[c] && std::pow(evidence_.cosine(c, candidate), 2) > look_alike)
         group.push_back(c);
     return group;
   }

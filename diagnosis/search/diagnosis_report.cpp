@@ -1,9 +1,10 @@
 #include "diagnosis/search/diagnosis_report.hpp"
 
-#include "diagnosis/search/probability_table.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/search/probability_table.hpp"
 
 namespace tether {
 namespace {
@@ -44,7 +45,7 @@ Detectable detectable_of(const EffectProblem& problem, const TestedEffect& effec
           first.value(effect.visible),
           first.unit,
           first.base,
-          effect.visible / first.scale};
+          std::abs(effect.visible) / first.scale};
 }
 
 Attempt attempt_of(const EffectProblem& problem, const SearchStep& step) {
@@ -144,7 +145,7 @@ FoundValue value_of(const EffectProblem& problem, const TestedEffect& effect, In
   const Amplitude& amplitude = amplitude_of(problem, effect, own);
   const double size = effect.amplitudes(own);
   if (size == 0) {
-    const double half = 1.96 * effect.deviations(own);
+    const double half = two_sided_95 * effect.deviations(own);
     return {amplitude.value(0), amplitude.value(amplitude.one_sided ? 0 : -half), amplitude.value(half)};
   }
   const AmplitudeRange range = range_of(problem, effect, own);

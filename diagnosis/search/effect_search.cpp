@@ -79,7 +79,7 @@ class Search {
     const Candidate& candidate = problem_.candidates[effect.candidate];
     const double scale = problem_.amplitudes[static_cast<std::size_t>(candidate.amplitudes.front())].scale;
     effect.visible = result_.weighed.detectable[effect.candidate];
-    effect.testable = !(effect.visible > beyond_patients * scale);  // errors of the data have no scale
+    effect.testable = !(std::abs(effect.visible) > beyond_patients * scale);  // errors of the data have no scale
   }
 
   double dispersion(const VectorXd& residual) const {
@@ -431,7 +431,7 @@ class Search {
     return std::any_of(result_.effects.begin(), result_.effects.end(), [&](const TestedEffect& effect) {
       const Candidate& candidate = problem_.candidates[effect.candidate];
       const double scale = problem_.amplitudes[static_cast<std::size_t>(candidate.amplitudes.front())].scale;
-      return candidate.kind == Candidate::Kind::effect && effect.visible < scale;
+      return candidate.kind == Candidate::Kind::effect && std::abs(effect.visible) < scale;
     });
   }
 

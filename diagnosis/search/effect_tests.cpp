@@ -5,14 +5,12 @@
 #include <cmath>
 
 #include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/results/further_data.hpp"
 
 namespace tether {
 namespace {
 
 using Index = Eigen::Index;
-
-/// A difference of the misfits of two effects that tells them apart with 80 % probability (D.15).
-constexpr double tells = 12;
 
 std::vector<bool> sides(const EffectProblem& problem, const std::vector<Index>& of) {
   std::vector<bool> one_sided;
@@ -145,7 +143,7 @@ AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect
   const Candidate& candidate = problem.candidates[effect.candidate];
   const Amplitude& amplitude =
       problem.amplitudes[static_cast<std::size_t>(candidate.amplitudes[static_cast<std::size_t>(own)])];
-  const double size = effect.amplitudes(own), half = 1.96 * effect.deviations(own) / std::abs(size);
+  const double size = effect.amplitudes(own), half = two_sided_95 * effect.deviations(own) / std::abs(size);
   if (size == 0) return {};
   const double c = std::max(0.0, effect.saturation);
   const auto& interval = effect.intervals.empty() ? std::nullopt : effect.intervals[static_cast<std::size_t>(own)];
@@ -234,7 +232,8 @@ void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem
     for (TestedEffect* other : order) {
       if (other == first || other->group >= 0 || other->accepted) continue;
       const double c = cosine(problem, scores, *first, *other);
-      if (rival_of[other->candidate] != first->candidate && (c * c <= look_alike || first->gain * (1 - c * c) >= tells))
+      if (rival_of[other->candidate] != first->candidate &&
+          (c * c <= look_alike || first->gain * (1 - c * c) >= telling))
         continue;
       other->group = groups;
       other->cosine = c;

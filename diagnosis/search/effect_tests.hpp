@@ -28,7 +28,8 @@ struct TestedEffect {
   int group = -1;        ///< effects that look alike have the same number
   double cosine = 0;     ///< with the first of the group
   bool testable = true;  ///< the data would show it at a size that it may have
-  double visible = 0;  ///< smallest size of its first amplitude that the data would show, in 80 of 100 such sets (D.12)
+  double visible = 0;  ///< smallest size of its first amplitude that the data would show, in 80 of 100 such sets; below
+                       ///< zero where only smaller values are admissible (D.12)
 };
 
 /// Smallest and largest of an amplitude, as factors of what was found.

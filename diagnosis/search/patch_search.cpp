@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "common/mesh/surface.hpp"
 #include "diagnosis/search/spread_points.hpp"
 
 namespace tether {

@@ -52,7 +52,9 @@ std::vector<double> log_odds(const EffectProblem& problem) {
 }
 
 constexpr double improbable = 7;  ///< logarithm of odds
-constexpr double about = 1.5;     ///< factor within which a run tells what an amplitude does
+/// Factor of the size within which a run tells what an amplitude does. Wider than `near_a_run`, at which runs are made,
+/// so that one still counts when later runs have moved what is most probable.
+constexpr double about = 1.5;
 
 class Sets {
  public:
@@ -92,7 +94,7 @@ class Sets {
   }
 
  private:
-  struct Weighed {
+  struct LogWeights {
     double as_it_is, with_more;  ///< logarithms
     double size;                 ///< of the discrepancy, as it is: expected
     double all() const { return std::max(as_it_is, with_more); }
@@ -145,7 +147,7 @@ class Sets {
     double prior = 0;
     for (const std::size_t c : members) prior += log_odds_[c];
     const auto& sizes = evidence_.discrepancies();
-    Weighed weighed{-infinite, -infinite, 0};
+    LogWeights weighed{-infinite, -infinite, 0};
     const bool with_large = may_need_more(members);
     for (std::size_t s = 0; s < sizes.size(); ++s) {
       if (sizes[s].size > 1 && !with_large) continue;
@@ -256,7 +258,7 @@ class Sets {
   std::vector<double> log_odds_;
   std::vector<bool> takes_runs_;
   Members candidates_;
-  std::map<Members, Weighed> sets_;
+  std::map<Members, LogWeights> sets_;
 };
 
 /// By what factors what is assumed is wrong, at least now and then.

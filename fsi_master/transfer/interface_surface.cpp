@@ -9,12 +9,7 @@ double diagonal(const Points& points) {
 }
 
 VectorXd nodal_areas(const InterfaceSurface& surface) {
-  VectorXd areas = VectorXd::Zero(surface.points.cols());
-  for (const Triangle& triangle : surface.triangles) {
-    const double third = area_vector(surface.points, triangle).norm() / 3;
-    for (const int node : triangle) areas(node) += third;
-  }
-  return areas;
+  return nodal_areas(surface.points, surface.triangles);
 }
 
 }  // namespace tether

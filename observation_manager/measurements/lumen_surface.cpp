@@ -54,11 +54,4 @@ LumenSurface lumen_of(const VesselMesh& vessel) {
   return lumen;
 }
 
-VectorXd nodal_areas(const Points& points, const std::vector<Triangle>& triangles) {
-  VectorXd areas = VectorXd::Zero(points.cols());
-  for (const Triangle& t : triangles)
-    for (const int node : t) areas[node] += area_vector(points, t).norm() / 3.0;
-  return areas;
-}
-
 }  // namespace tether

@@ -19,7 +19,4 @@ struct LumenSurface {
 
 LumenSurface lumen_of(const VesselMesh& vessel);
 
-/// A third of the areas of each node's triangles [length^2].
-VectorXd nodal_areas(const Points& points, const std::vector<Triangle>& triangles);
-
 }  // namespace tether

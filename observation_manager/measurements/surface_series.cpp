@@ -2,6 +2,7 @@
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
+#include "common/mesh/surface.hpp"
 
 namespace tether {
 namespace {

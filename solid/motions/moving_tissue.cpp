@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/curve.hpp"
 #include "solid/motions/registry.hpp"
 #include "solid/supports/harmonics.hpp"
 

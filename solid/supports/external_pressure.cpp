@@ -1,3 +1,4 @@
+#include "common/base/curve.hpp"
 #include "solid/supports/harmonics.hpp"
 #include "solid/supports/registry.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -23,11 +22,6 @@ inline double harmonics(std::span<const double> amplitudes, double phase) {
     sum += amplitudes[2 * k - 1] * std::cos(angle) + amplitudes[2 * k] * std::sin(angle);
   }
   return sum;
-}
-
-/// From 0 at t = 0 to 1 at t = ramp, smoothly; 1 without a ramp.
-inline double onset(double time, double ramp) {
-  return ramp > 0 ? 0.5 * (1 - std::cos(std::numbers::pi * std::clamp(time / ramp, 0.0, 1.0))) : 1.0;
 }
 
 /// The seven amplitudes of a load, named prefix + "constant", "cosine_1", "sine_1", ...; `scale` in Pa.

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 
+#include "common/base/curve.hpp"
 #include "solid/supports/harmonics.hpp"
 #include "solid/supports/registry.hpp"
 

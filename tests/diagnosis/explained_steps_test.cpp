@@ -66,6 +66,28 @@ TEST_F(ExplainedStepsTest, WhoseResultsAreDamagedAreMadeAnew) {
   EXPECT_TRUE(fs::exists(folder / "out/model_0/notes.csv"));
 }
 
+/// A step that is made again, or a person who breaks the path off behind it, does not forget the later ones.
+TEST_F(ExplainedStepsTest, AreKeptBehindOneThatIsMadeAgain) {
+  const auto made = [&](std::size_t until) {
+    std::vector<std::string> all;
+    const InputWatch inputs(folder / "case.yaml");
+    ExplainedSteps steps(folder / "out", inputs, true);
+    const std::vector<std::string> names{"model_0", "diagnosis_0", "model_1"};
+    for (std::size_t i = 0; i < until; ++i) {
+      fs::create_directories(folder / "out" / names[i]);
+      steps.make(names[i], folder / "case.yaml", names[i], "result.json", [&](bool) {
+        all.push_back(names[i]);
+        folder.file("out/" + names[i] + "/result.json", "{}");
+      });
+    }
+    return all;
+  };
+  EXPECT_EQ(made(3).size(), 3U);
+  folder.file("out/model_0/result.json", "damaged");
+  EXPECT_EQ(made(1), std::vector<std::string>{"model_0"});
+  EXPECT_EQ(made(3), std::vector<std::string>{});
+}
+
 /// What it read before and after is not known: it is not among the steps that were made.
 TEST_F(ExplainedStepsTest, DuringWhichAFileIsWrittenAreNone) {
   const InputWatch inputs(folder / "case.yaml");

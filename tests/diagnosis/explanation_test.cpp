@@ -44,7 +44,7 @@ PathModel model(int number, std::optional<Diagnosis> diagnosed, std::vector<Find
 }
 
 PathModel refused(int number, const std::string& name) {
-  PathModel made = model(number, std::nullopt, {});
+  PathModel made = model(number, std::nullopt, {effect("of_" + name, Role::accepted, 1)});
   made.told.name = name;
   made.told.accepted = false;
   made.told.objection = Objection::not_confirmed;
@@ -114,6 +114,22 @@ TEST(Explanation, KeepsWhatIsSureIfTheNextIsNotConfirmed) {
   EXPECT_EQ(verdict_of(path), Verdict::missing);
   EXPECT_EQ(said_of(path).front(), "MISSING: contact at spine, factor 7 (3.5 .. 14)");
   EXPECT_EQ(said_of(path).back(), "Tried and not kept: with spring at spine: held-out data do not confirm it");
+}
+
+/// Its own parameters are no effect that a diagnosis asked for.
+TEST(Explanation, IsNotUndecidedSinceTheCasesOwnParametersGainNothing) {
+  PathModel own = model(1, std::nullopt, {});
+  own.told.name = "with its own parameters identified";
+  own.told.accepted = false;
+  own.told.objection = Objection::not_confirmed;
+  ExplanationPath path;
+  path.models = {model(0, diagnosis(Verdict::nothing_missing, {}), {}), own};
+  EXPECT_EQ(path.refused_since_best(), 0U);
+  EXPECT_EQ(verdict_of(path), Verdict::nothing_missing);
+  EXPECT_TRUE(said_of(path).front().starts_with("NOTHING MISSING")) << said_of(path).front();
+  path.models.push_back(refused(2, "with contact at spine"));
+  EXPECT_EQ(path.refused_since_best(), 1U);
+  EXPECT_EQ(verdict_of(path), Verdict::undecided);
 }
 
 TEST(Explanation, IsUndecidedIfNothingWasConfirmed) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "diagnosis/comparison/chances.hpp"
+#include "diagnosis/comparison/comparison.hpp"
 #include "tests/diagnosis/beating_tube.hpp"
 
 namespace tether::testing {
@@ -83,6 +84,26 @@ TEST(Verdict, SaysHowLargeAnOffsetWouldHaveBeenSeen) {
   EXPECT_EQ(sentences(source),
             std::vector<std::string>{"ct: all 10 regions and frames are within the noise; a region's offset of 0.7 to "
                                      "0.7 mm in one frame would have been seen"});
+}
+
+/// Whichever source it is of, and if held-out frames alone show it.
+TEST(Verdict, FirstTellsWhereTheModelFailsWorst) {
+  Comparison comparison;
+  comparison.units = cgs;
+  comparison.sources = {source_of({0, 0.01, 0}), source_of({0, 0.15, 0}), source_of({0, -0.2, 0})};
+  comparison.sources[0].name = "fits";
+  comparison.sources[1].name = "fails";
+  comparison.sources[2].name = "fails more, with larger noise";
+  comparison.sources[2].noise.deviation = 0.06;
+  EXPECT_EQ(first_look_of(comparison),
+            std::vector<std::string>{"fails: right, 0.2 s: the model lies 1.5 mm too far inward (10.0 sigma)"});
+  for (Moment& moment : comparison.sources[1].moments) moment.held_out = true;
+  EXPECT_EQ(first_look_of(comparison),
+            std::vector<std::string>{
+                "fails, held-out frames: right, 0.2 s: the model lies 1.5 mm too far inward (10.0 sigma)"});
+  comparison.sources.resize(1);
+  ASSERT_EQ(first_look_of(comparison).size(), 1U);
+  EXPECT_NE(first_look_of(comparison)[0].find("within the noise"), std::string::npos);
 }
 
 TEST(Verdict, WithoutNoiseCallsNothingSignificant) {

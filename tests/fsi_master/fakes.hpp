@@ -43,7 +43,7 @@ class Fluid : public FluidPartner {
  public:
   explicit Fluid(const Vessel& vessel) : mass_(vessel.added_mass()), velocity_(VectorXd::Zero(vessel.wet())) {}
   Trouble trouble;
-  bool tangent = true, with_state = true, answers_nan = false;
+  bool tangent = true, with_state = true, answers_nan = false, refuses_the_end = false;
   int evaluations = 0, writes = 0;
 
   std::string name() const override { return "fake fluid"; }
@@ -55,6 +55,9 @@ class Fluid : public FluidPartner {
     return Later<Done>(Done{});
   }
   Later<std::vector<double>> end_step(bool accepted) override {
+    if (refuses_the_end)
+      return Later<std::vector<double>>(std::function<std::vector<double>()>(
+          []() -> std::vector<double> { throw StepFailure("no section is left"); }));
     if (accepted) velocity_ = candidate_;
     return Later<std::vector<double>>({velocity_.norm()});
   }

@@ -90,6 +90,24 @@ TEST(TimeLoop, FailureNamesStepAndHistoryAndRestoresTheLastGoodState) {
   EXPECT_EQ(after.displacement, good.displacement);
 }
 
+/// The solid has accepted the step by then: both together are no state that could be saved or tried again.
+TEST(TimeLoop, ACodeThatFailsAsTheStepIsAcceptedIsNoStepThatFailed) {
+  Coupled coupled;
+  coupled.advance(0);
+  std::vector<std::pair<double, double>> begun;
+  coupled.fluid.trouble = noting(begun, [](double, double) { return false; });
+  coupled.fluid.refuses_the_end = true;
+  try {
+    coupled.advance(1);
+    FAIL() << "no error";
+  } catch (const StepFailure&) {
+    FAIL() << "a failed step would be saved";
+  } catch (const RunError& error) {
+    EXPECT_STREQ(error.what(), "step 1, as it was accepted: no section is left");
+  }
+  EXPECT_EQ(begun.size(), 1u) << "is not tried in halves";
+}
+
 TEST(TimeLoop, AResumedRunGivesTheSameNumbersBitForBit) {
   for (const std::string method : {"newton_krylov", "iqn_ils"}) {
     const fake::Vessel vessel{.hardening = 2e4};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mesh/surface.hpp"
 #include "tests/observation_manager/lumens.hpp"
 
 namespace tether::testing {

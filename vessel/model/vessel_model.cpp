@@ -5,8 +5,8 @@
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
 #include "vessel/check.hpp"
+#include "vessel/grown_wall.hpp"
 #include "vessel/growth/prism_shape.hpp"
-#include "vessel/growth/thickness.hpp"
 #include "vessel/volume/tetrahedra.hpp"
 
 namespace tether {
@@ -15,19 +15,12 @@ namespace {
 
 constexpr double poor_radius_ratio = 0.1, poor_jacobian = 0.2, thinner = 0.95;
 
-Thickness thickness_of(const ThicknessCase& given) {
-  return {given.thickness, given.fraction_of_radius};
-}
-
-ExtrusionSettings extrusion_of(const GrownWallCase& given, const Anatomy& anatomy) {
-  TreeThickness tree{thickness_of(given.thickness), {}, given.blend};
-  for (const auto& [name, own] : given.branches) tree.branches.emplace_back(name, thickness_of(own));
-  ExtrusionSettings settings;
-  settings.layers = given.layers;
-  settings.smoothing = given.smoothing;
-  settings.least_share = given.least_share;
+ExtrusionSettings extrusion_on(const Anatomy& anatomy, const GrownWallCase& given) {
+  ExtrusionSettings settings = extrusion_of(given);
   settings.field = "model.wall.thickness";
-  settings.varying = [tree, &anatomy](const Points& places) { return thickness_at(places, tree, anatomy); };
+  settings.varying = [tree = thickness_of(given), &anatomy](const Points& places) {
+    return thickness_at(places, tree, anatomy);
+  };
   return settings;
 }
 
@@ -125,7 +118,7 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
   const Anatomy anatomy(tree);
   VesselModel model;
   model.mesh.fluid = fill_with_tetrahedra(surface, study.longest_edge);
-  model.growth = grow_wall(model.mesh.fluid, extrusion_of(study.wall, anatomy));
+  model.growth = grow_wall(model.mesh.fluid, extrusion_on(anatomy, study.wall));
   WallMesh& wall = model.mesh.wall = std::move(model.growth.wall);
   if (!study.regions.empty())
     wall.outside = divide_by_rules(
