@@ -182,23 +182,16 @@ void drop_damaged_rest(const fs::path& output) {
   }
 }
 
-/// A direct run.
-void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const InputWatch& inputs,
-              std::span<Partner> processes) {
-  CoupledCodes codes(master, processes);
-  inputs.check();  // all programs have read them
-  const std::string fluid_case = processes[0].hello().effective_case, solid_case = processes[1].hello().effective_case;
-  const std::uint64_t model = fingerprint(cases_of(processes, master), plan.dt, codes.interface().points);
+/// Which run this is, and from which state it begins.
+void identify(RunPlan& plan, const MasterCase& master, std::span<Partner> processes, const Points& interface) {
+  const std::uint64_t model = fingerprint(cases_of(processes, master), plan.dt, interface);
   plan.fingerprint = of_run(model, master.file);
-  plan.origin = origin_of(master.file, codes.interface().points, model);
+  plan.origin = origin_of(master.file, interface, model);
   if (master.initial_state) plan.initial = initial_state_of(*master.initial_state, master.file, plan.origin);
-  const std::vector<std::string> notices = notices_of(codes, plan);
-  Crew crew = codes.crew();
-  crew.usage = [&crew, processes] { return costs(crew, processes); };
-  for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
-  Simulation simulation(plan, crew, master.coupling.halvings);
-  check_followed(master.file, codes.interface().points);
-  check_columns(master.flow, simulation.columns(), master.file);
+}
+
+/// Takes up what is there, or takes it away.
+void begin(Simulation& simulation, const RunPlan& plan, const MasterCase& master) {
   if (plan.resume) {
     simulation.begin();
     mark_output(plan.output, master.file.path());
@@ -209,21 +202,39 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const Inpu
     mark_output(plan.output, master.file.path());
     simulation.begin();
   }
+}
+
+/// A direct run.
+void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const InputWatch& inputs,
+              std::span<Partner> processes) {
+  CoupledCodes codes(master, processes);
+  inputs.check();  // all programs have read them
+  identify(plan, master, processes, codes.interface().points);
+  const std::vector<std::string> notices = notices_of(codes, plan);
+  Crew crew = codes.crew();
+  crew.usage = [&crew, processes] { return costs(crew, processes); };
+  for (const Measurement* source : master.flow.all()) check_velocities(*source, codes.fluid(), master.file);
+  Simulation simulation(plan, crew, master.coupling.halvings);
+  check_followed(master.file, codes.interface().points);
+  check_columns(master.flow, simulation.columns(), master.file);
+  begin(simulation, plan, master);
   simulation.run();
-  RunFacts facts{
-      master.file.common().name,
-      master.file.common().title,
-      fs::absolute(master.file.path()).string(),
-      codes.coupling().name(),
-      processes_of(processes),
-      merged_json({own_sections(master), fluid_case, solid_case}),
-      master.file.common().observer.largest_gain(),
-      notices,
-      from,
-      codes.interface_record(),
-      periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start, plan.image_pressure, plan.units),
-      rest_in(plan.output),
-      hashes_of_results(plan.output)};
+  const CommonCase& common = master.file.common();
+  const RunFacts facts{.case_name = common.name,
+                       .title = common.title,
+                       .case_file = fs::absolute(master.file.path()).string(),
+                       .method = codes.coupling().name(),
+                       .processes = processes_of(processes),
+                       .effective_case = merged_json({own_sections(master), processes[0].hello().effective_case,
+                                                      processes[1].hello().effective_case}),
+                       .observer_gain = common.observer.largest_gain(),
+                       .notices = notices,
+                       .made_from = from,
+                       .interface = codes.interface_record(),
+                       .periodicity = periodicity_of(plan.output / "timeseries.csv", master.file.path(), plan.start,
+                                                     plan.image_pressure, plan.units),
+                       .rest = rest_in(plan.output),
+                       .written = hashes_of_results(plan.output)};
   check_held(plan.output);
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }

@@ -156,13 +156,12 @@ Later<PartnerUsage> MessageFluid::usage() {
 }
 
 Later<VectorXd> MessageFluid::load(const Motion& motion) {
-  return ask_later(partner_,
-                   protocol::FluidEvaluate{map_.to_fluid(motion.displacement), map_.to_fluid(motion.velocity)},
-                   [this, V = motion.velocity](const protocol::Load& load) {
-                     VectorXd forces = received(load);
-                     if (!map_.is_node_for_node()) balance_.worst_of(map_.balance(load.forces, V));
-                     return forces;
-                   });
+  const protocol::FluidEvaluate asked{map_.to_fluid(motion.displacement), map_.to_fluid(motion.velocity)};
+  return ask_later(partner_, asked, [this, V = motion.velocity, there = asked.velocity](const protocol::Load& load) {
+    VectorXd forces = received(load);
+    if (!map_.is_node_for_node()) balance_.worst_of(map_.balance({load.forces, there}, {forces, V}));
+    return forces;
+  });
 }
 
 Later<VectorXd> MessageFluid::load_change(const VectorXd& velocity_change) {

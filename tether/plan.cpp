@@ -6,7 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "common/base/session_folder.hpp"
-#include "common/config/case_tree.hpp"
+#include "common/config/identified_parameters.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/coarse_runs.hpp"
@@ -40,10 +40,7 @@ MeasuredSteps measured(const fs::path& case_file) {
 }
 
 int parameters_of(const fs::path& case_file) {
-  const YamlNode tree = read_case_tree(case_file);
-  const YamlNode* section = tree.find("identification");
-  const YamlNode* parameters = section == nullptr ? nullptr : section->find("parameters");
-  return parameters == nullptr ? 0 : static_cast<int>(parameters->entries.size());
+  return static_cast<int>(identified_parameters(case_file).size());
 }
 
 /// The runs that show what each number does, of those that the programs announce, and the models beside it.

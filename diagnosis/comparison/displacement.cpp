@@ -1,7 +1,5 @@
 #include "diagnosis/comparison/displacement.hpp"
 
-#include "common/mesh/surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +7,7 @@ namespace tether {
 
 double displacement_between(const FinishedMotion& run, const FinishedMotion& other, const LumenSurface& lumen,
                             const std::vector<double>& times) {
-  const VectorXd area = nodal_areas(lumen.points, lumen.triangles);
+  const VectorXd area = nodal_areas(lumen);
   double most = 0;
   for (const double time : times) {
     const Points apart = run.motion.positions(time) - other.motion.positions(time);

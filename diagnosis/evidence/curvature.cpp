@@ -1,7 +1,5 @@
 #include "diagnosis/evidence/curvature.hpp"
 
-#include "common/mesh/surface.hpp"
-
 #include <Eigen/Geometry>
 #include <map>
 
@@ -40,7 +38,7 @@ VectorXd curvatures(const LumenSurface& lumen) {
       normal.col(t[k]) += area;
     }
   }
-  const VectorXd areas = nodal_areas(lumen.points, lumen.triangles);
+  const VectorXd areas = nodal_areas(lumen);
   const std::vector<bool> rim = rim_of(lumen);
   VectorXd all = VectorXd::Zero(n), sum = VectorXd::Zero(n), count = VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i)

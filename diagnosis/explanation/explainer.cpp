@@ -6,8 +6,8 @@
 
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
-#include "common/config/case_tree.hpp"
 #include "common/config/files_to_go_on_with.hpp"
+#include "common/config/identified_parameters.hpp"
 #include "common/config/named_path.hpp"
 #include "common/io/record_file.hpp"
 #include "diagnosis/comparison/finished_run.hpp"
@@ -33,13 +33,8 @@ std::string list_text(const std::vector<std::string>& words) {
 /// Numbers that a case identifies.
 std::vector<std::string> identified_numbers(const fs::path& case_file) {
   std::vector<std::string> all;
-  const YamlNode tree = read_case_tree(case_file);
-  const YamlNode* section = tree.find("identification");
-  const YamlNode* parameters = section ? section->find("parameters") : nullptr;
-  if (parameters == nullptr) return all;
-  for (const auto& parameter : parameters->entries)
-    if (const YamlNode* of = parameter.value.find("of"))
-      for (const YamlNode& number : of->items) all.push_back(number.text);
+  for (const IdentifiedParameter& parameter : identified_parameters(case_file))
+    all.insert(all.end(), parameter.of.begin(), parameter.of.end());
   return all;
 }
 

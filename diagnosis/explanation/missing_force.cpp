@@ -8,9 +8,8 @@
 #include <set>
 
 #include "common/base/csv.hpp"
-#include "common/config/case_tree.hpp"
 #include "common/config/files_to_go_on_with.hpp"
-#include "common/mesh/surface.hpp"
+#include "common/config/identified_parameters.hpp"
 #include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/explanation/force_law.hpp"
 #include "diagnosis/results/diagnosis.hpp"
@@ -120,11 +119,8 @@ double MissingForce::prior_deviation() const {
 
 std::vector<Overlay::Value> MissingForce::identification() const {
   std::vector<Overlay::Value> values = values_;
-  const YamlNode tree = read_case_tree(given_.file.path());
-  if (const YamlNode* section = tree.find("identification")) {
-    if (const YamlNode* parameters = section->find("parameters"))
-      for (const auto& entry : parameters->entries) values.push_back({"identification.parameters." + entry.key, ""});
-  }
+  for (const IdentifiedParameter& parameter : identified_parameters(given_.file.path()))
+    values.push_back({"identification.parameters." + parameter.name, ""});
   const TimeCase& time = given_.file.common().time;
   const double deviation = prior_deviation(), walk = deviation / std::sqrt((time.end - time.start) / turns_in_a_beat);
   for (const RegionForce& traction : tractions_) {
@@ -160,8 +156,8 @@ std::vector<Overlay::Value> MissingForce::with_tractions() {
 ForceLaw MissingForce::law_of_traction(const RegionForce& traction, const StoredRun& run) const {
   const auto n = static_cast<Eigen::Index>(traction.time.size());
   const LumenSurface& lumen = given_.lumen;
-  const Points normals = nodal_normals(lumen.points, lumen.triangles);
-  const VectorXd areas = nodal_areas(lumen.points, lumen.triangles);
+  const Points normals = nodal_normals(lumen);
+  const VectorXd areas = nodal_areas(lumen);
   const auto region = std::find(lumen.region_names.begin(), lumen.region_names.end(), traction.region);
   const int number = region == lumen.region_names.end() ? -1 : static_cast<int>(region - lumen.region_names.begin());
   VectorXd weight = areas;

@@ -185,85 +185,146 @@ DiagnosisCost cost_of(const DiagnosedModel& model, const Sensitivities& sensitiv
   return cost;
 }
 
+/// A diagnosis while it is made. What each member is made from stands before it.
+class DiagnosisRun {
+ public:
+  DiagnosisRun(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects, const DiagnosedModel& model,
+               const DiagnosisSettings& settings)
+      : given_(given),
+        model_(model),
+        how_(search_settings(given.diagnosis, settings)),
+        effects_(effects),
+        first_order_(model.coarse != nullptr ? *model.coarse : model.runs),
+        division_(effects, varied_numbers(model.runs.parameters(), given.diagnosis, given.file)),
+        sensitivities_(sensitivities_of(first_order_, division_.undivided())),
+        base_(model.coarse != nullptr ? base_of(model.runs) : sensitivities_.motions.front()),
+        evidence_(given.data, given.lumen, base_),
+        as_data_(problem_of_data()),
+        whitening_(evidence_, as_data_),
+        report_(begun_report()),
+        trials_(report_.problem, evidence_, whitening_, base_, model.runs),
+        first_trials_(report_.problem, evidence_, whitening_, sensitivities_.motions.front(), first_order_) {
+    for (const RefinedRun& refined : model.refined)
+      if (refined.tells_effects && !refined.motion.failed())
+        finer_trials_.emplace(report_.problem, evidence_, whitening_, refined.motion, *refined.runs);
+    if (finer_trials_)
+      finer_at_ = [this](const MatrixXd& amplitudes) { return finer_trials_->residual_at(amplitudes); };
+  }
+
+  DiagnosisReport run() {
+    weigh_at_any_size();
+    divide_places();
+    const MisfitMap map = misfit_map(report_.problem, given_, evidence_, whitening_);
+    weigh_what_is_probable();
+    search_patches(map);
+    report_.found = search_effects(report_.problem, how_, residual_at_, weighing_, finer_at_);
+    conclude(map);
+    return std::move(report_);
+  }
+
+ private:
+  /// What data and model are, before they are whitened.
+  EffectProblem problem_of_data() {
+    sensitivities_.is_coarse = model_.coarse != nullptr;
+    EffectProblem problem = problem_of(given_, evidence_, base_, sensitivities_, effects_);
+    add_refined(problem, evidence_, model_.refined);
+    return problem;
+  }
+
+  DiagnosisReport begun_report() {
+    DiagnosisReport report;
+    report.case_name = given_.file.common().name;
+    report.title = given_.file.common().title;
+    report.alpha = given_.diagnosis.alpha;
+    report.effects = effects_;
+    report.noise_factors = widen_noise(whitening_, evidence_, whitening_(as_data_));
+    report.problem = whitening_(as_data_);
+    return report;
+  }
+
+  void weigh_at_any_size(std::vector<ShownRun> shown = {}) {
+    const ShowingRuns exploring{sensitivities_.is_coarse ? first_at_ : residual_at_,
+                                sensitivities_.is_coarse ? RunOf::coarser : RunOf::model};
+    weighing_ = weigh_effects(report_.problem, how_, exploring, RunsFor::exploring, std::move(shown));
+  }
+  void weigh_what_is_probable() {
+    weighing_ =
+        weigh_effects(report_.problem, how_, {residual_at_}, RunsFor::telling, std::move(weighing_.shown), finer_at_);
+  }
+
+  /// Asks for more numbers, and weighs anew.
+  void explore(const std::vector<VariedNumber>& more) {
+    std::vector<FinishedMotion> motions{sensitivities_.motions.front()};
+    for (FinishedMotion& motion : add_sensitivities(sensitivities_, first_order_, more))
+      motions.push_back(std::move(motion));
+    add_model_changes(report_.problem,
+                      {more, whitening_(residuals_of(evidence_, motions, as_data_.residual)), sensitivities_.is_coarse},
+                      report_.effects, given_.diagnosis);
+    weigh_at_any_size(as_many(weighing_.shown, report_.problem.changes.cols()));
+  }
+
+  void divide_places() {
+    while (true) {
+      const std::vector<VariedNumber> parts =
+          division_.next(report_.problem, weighing_.weighed, SetEvidence(report_.problem, weighing_.shown));
+      if (parts.empty()) return;
+      explore(parts);
+    }
+  }
+
+  /// Where what leads leaves something, places of the wall that no region is are asked too.
+  void search_patches(const MisfitMap& map) {
+    if (!model_.extend) return;
+    const std::vector<Ball> starts =
+        misfits_left(report_.problem, weighing_.weighed, residual_at_, first_at_, map, given_.diagnosis.alpha);
+    if (starts.empty()) return;
+    PatchSearch patches(effects_, given_.lumen, given_.file.units().symbol(dimension::length));
+    while (true) {
+      const std::vector<PatchEffect> wanted = patches.next(report_.problem, weighing_, starts);
+      if (wanted.empty()) break;
+      model_.extend(effects_of(wanted));
+      for (const PatchEffect& patch : wanted) report_.effects.push_back(patch.effect);
+      explore(numbers_of(wanted, varied_numbers(first_order_.parameters(), given_.diagnosis, given_.file)));
+    }
+    settle(report_.problem.candidates, patches.place());
+    report_.patch = patches.place();
+    weigh_what_is_probable();
+  }
+
+  /// What is told beside what was found.
+  void conclude(const MisfitMap& map) {
+    locate_misfit(report_, given_, map);
+    report_.noise = noise_left(report_.found.amplitudes, evidence_, as_data_, trials_);
+    report_.splits = splits_of(given_, report_, evidence_, trials_, sensitivities_.motions, model_.runs.columns());
+    report_.published = published_models(given_, evidence_, report_, trials_, base_, model_.runs);
+    report_.cost = cost_of(model_, sensitivities_);
+  }
+
+  const DiagnosedCase& given_;
+  const DiagnosedModel& model_;
+  const SearchSettings how_;
+  const std::vector<PlacedEffect>& effects_;
+  ModelRuns& first_order_;  ///< for what numbers do to first order
+  Division division_;
+  Sensitivities sensitivities_;
+  const FinishedMotion base_;
+  const Evidence evidence_;
+  const EffectProblem as_data_;
+  Whitening whitening_;
+  DiagnosisReport report_;
+  Trials trials_, first_trials_;
+  std::optional<Trials> finer_trials_;
+  Weighing weighing_;
+  const ResidualAt residual_at_ = [this](const MatrixXd& amplitudes) { return trials_.residual_at(amplitudes); };
+  const ResidualAt first_at_ = [this](const MatrixXd& amplitudes) { return first_trials_.residual_at(amplitudes); };
+  ResidualAt finer_at_;  ///< of a finer model, if there is one
+};
+
 }  // namespace
 
 DiagnosisReport diagnose(const DiagnosedCase& given, const std::vector<PlacedEffect>& effects,
                          const DiagnosedModel& model, const DiagnosisSettings& settings) {
-  DiagnosisReport report;
-  report.case_name = given.file.common().name;
-  report.title = given.file.common().title;
-  report.alpha = given.diagnosis.alpha;
-  report.effects = effects;
-  Division division(effects, varied_numbers(model.runs.parameters(), given.diagnosis, given.file));
-  ModelRuns& first_order = model.coarse != nullptr ? *model.coarse : model.runs;
-  Sensitivities sensitivities = sensitivities_of(first_order, division.undivided());
-  sensitivities.is_coarse = model.coarse != nullptr;
-  const FinishedMotion base = sensitivities.is_coarse ? base_of(model.runs) : sensitivities.motions.front();
-  const Evidence evidence(given.data, given.lumen, base);
-  EffectProblem problem = problem_of(given, evidence, base, sensitivities, effects);
-  add_refined(problem, evidence, model.refined);
-  const EffectProblem as_data = problem;
-  Whitening whitening(evidence, problem);
-  report.noise_factors = widen_noise(whitening, evidence, whitening(problem));
-  report.problem = whitening(std::move(problem));
-  Trials trials(report.problem, evidence, whitening, base, model.runs);
-  Trials first_trials(report.problem, evidence, whitening, sensitivities.motions.front(), first_order);
-  const SearchSettings how = search_settings(given.diagnosis, settings);
-  const ResidualAt residual_at = [&](const MatrixXd& amplitudes) { return trials.residual_at(amplitudes); };
-  const ResidualAt first_at = [&](const MatrixXd& amplitudes) { return first_trials.residual_at(amplitudes); };
-  const ShowingRuns exploring{sensitivities.is_coarse ? first_at : residual_at,
-                              sensitivities.is_coarse ? RunOf::coarser : RunOf::model};
-  std::optional<Trials> finer_trials;
-  for (const RefinedRun& refined : model.refined)
-    if (refined.tells_effects && !refined.motion.failed())
-      finer_trials.emplace(report.problem, evidence, whitening, refined.motion, *refined.runs);
-  ResidualAt finer_at;
-  if (finer_trials) finer_at = [&](const MatrixXd& amplitudes) { return finer_trials->residual_at(amplitudes); };
-  Weighing weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring);
-  const auto explore = [&](const std::vector<VariedNumber>& more) {
-    std::vector<FinishedMotion> motions{sensitivities.motions.front()};
-    for (FinishedMotion& motion : add_sensitivities(sensitivities, first_order, more))
-      motions.push_back(std::move(motion));
-    add_model_changes(report.problem,
-                      {more, whitening(residuals_of(evidence, motions, as_data.residual)), sensitivities.is_coarse},
-                      report.effects, given.diagnosis);
-    weighing = weigh_effects(report.problem, how, exploring, RunsFor::exploring,
-                             as_many(weighing.shown, report.problem.changes.cols()));
-  };
-  while (true) {
-    const std::vector<VariedNumber> parts =
-        division.next(report.problem, weighing.weighed, SetEvidence(report.problem, weighing.shown));
-    if (parts.empty()) break;
-    explore(parts);
-  }
-  const MisfitMap map = misfit_map(report.problem, given, evidence, whitening);
-  PatchSearch patches(effects, given.lumen, given.file.units().symbol(dimension::length));
-  const auto tell = [&] {
-    weighing = weigh_effects(report.problem, how, {residual_at}, RunsFor::telling, std::move(weighing.shown), finer_at);
-  };
-  tell();
-  std::vector<Ball> starts;
-  if (model.extend)
-    starts = misfits_left(report.problem, weighing.weighed, residual_at, first_at, map, given.diagnosis.alpha);
-  while (!starts.empty()) {
-    const std::vector<PatchEffect> wanted = patches.next(report.problem, weighing, starts);
-    if (wanted.empty()) break;
-    model.extend(effects_of(wanted));
-    for (const PatchEffect& patch : wanted) report.effects.push_back(patch.effect);
-    explore(numbers_of(wanted, varied_numbers(first_order.parameters(), given.diagnosis, given.file)));
-  }
-  if (!starts.empty()) {
-    settle(report.problem.candidates, patches.place());
-    report.patch = patches.place();
-    tell();
-  }
-  report.found = search_effects(report.problem, how, residual_at, weighing, finer_at);
-  locate_misfit(report, given, map);
-  report.noise = noise_left(report.found.amplitudes, evidence, as_data, trials);
-  report.splits = splits_of(given, report, evidence, trials, sensitivities.motions, model.runs.columns());
-  report.published = published_models(given, evidence, report, trials, base, model.runs);
-  report.cost = cost_of(model, sensitivities);
-  return report;
+  return DiagnosisRun(given, effects, model, settings).run();
 }
 
 }  // namespace tether

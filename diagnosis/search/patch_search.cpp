@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include "common/mesh/surface.hpp"
 #include "diagnosis/search/spread_points.hpp"
 
 namespace tether {
@@ -80,10 +79,7 @@ Leading leading_in(const Weighed& weighed) {
 }
 
 PatchSearch::PatchSearch(const std::vector<PlacedEffect>& effects, const LumenSurface& lumen, std::string length)
-    : laws_(laws_on_regions(effects)),
-      lumen_(lumen),
-      length_(std::move(length)),
-      areas_(nodal_areas(lumen.points, lumen.triangles)) {
+    : laws_(laws_on_regions(effects)), lumen_(lumen), length_(std::move(length)), areas_(nodal_areas(lumen)) {
   for (const PlacedEffect& effect : effects) paths_.insert(effect.path);
 }
 

@@ -140,12 +140,11 @@ VectorXd InterfaceMap::to_solid(const std::vector<double>& fluid) const {
   return rows_.transpose() * load;
 }
 
-InterfaceBalance InterfaceMap::balance(const std::vector<double>& load, const VectorXd& motion) const {
-  const std::vector<double> there = to_fluid(motion);
+InterfaceBalance InterfaceMap::balance(const AtFluid& fluid, const AtSolid& solid) const {
   const auto vector = [](const std::vector<double>& values) {
     return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
-  return tether::balance({fluid_, vector(load), vector(there)}, {solid_, to_solid(load), motion});
+  return tether::balance({fluid_, vector(fluid.load), vector(fluid.motion)}, {solid_, solid.forces, solid.motion});
 }
 
 void InterfaceMap::solve_mass(Eigen::Ref<VectorXd> fluid, bool transposed) const {

@@ -36,7 +36,17 @@ class InterfaceMap {
   std::vector<double> to_fluid(const VectorXd& solid) const;
   VectorXd to_solid(const std::vector<double>& fluid) const;
   /// Of a fluid's load and a solid's motion, over both sides.
-  InterfaceBalance balance(const std::vector<double>& load, const VectorXd& motion) const;
+  InterfaceBalance balance(const std::vector<double>& load, const VectorXd& motion) const {
+    return balance({load, to_fluid(motion)}, {to_solid(load), motion});
+  }
+  /// What was mapped already, the load and its forces, the motion and that of the fluid.
+  struct AtFluid {
+    std::vector<double> load, motion;
+  };
+  struct AtSolid {
+    VectorXd forces, motion;
+  };
+  InterfaceBalance balance(const AtFluid& fluid, const AtSolid& solid) const;
 
   bool is_node_for_node() const { return node_for_node_; }
   int fluid_nodes() const { return static_cast<int>(rows_.rows() / 3); }

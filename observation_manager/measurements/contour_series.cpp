@@ -12,12 +12,10 @@ namespace {
 
 /// Mean distance from a contour's points to the nearest point of a piece.
 double separation(const Contour& contour, const CutPiece& piece, const SlicePlane& plane) {
+  Eigen::Matrix2Xd places(2, piece.points.cols());
+  for (Eigen::Index i = 0; i < places.cols(); ++i) places.col(i) = plane.flat(piece.points.col(i));
   double sum = 0;
-  for (const auto& p : contour.points().colwise()) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& q : piece.points.colwise()) nearest = std::min(nearest, (plane.flat(q) - p).squaredNorm());
-    sum += std::sqrt(nearest);
-  }
+  for (const auto& p : contour.points().colwise()) sum += (places.colwise() - p).colwise().norm().minCoeff();
   return sum / static_cast<double>(contour.points().cols());
 }
 
@@ -67,13 +65,15 @@ void ContourSeries::orient(std::size_t t, const LumenSurface& lumen) {
 std::vector<CutStation> ContourSeries::stations(const Points& x, std::size_t t) const {
   const ContourTrack& track = tracks_[t];
   const std::vector<CutPiece> pieces = cut_by_plane(x, triangles_, track.plane);
-  const CutPiece* best = nullptr;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const CutPiece& piece : pieces) {
-    const double apart = separation(track.contours.front(), piece, track.plane);
-    if (apart < smallest) smallest = apart, best = &piece;
+  if (pieces.empty()) return {};
+  const CutPiece* best = &pieces.front();
+  if (pieces.size() > 1) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const CutPiece& piece : pieces)
+      if (const double apart = separation(track.contours.front(), piece, track.plane); apart < smallest)
+        smallest = apart, best = &piece;
   }
-  return best == nullptr ? std::vector<CutStation>{} : stations_along(*best, track.plane, samples_);
+  return stations_along(*best, track.plane, samples_);
 }
 
 double ContourSeries::cut_length(const Points& x, std::size_t t) const {

@@ -54,4 +54,12 @@ LumenSurface lumen_of(const VesselMesh& vessel) {
   return lumen;
 }
 
+VectorXd nodal_areas(const LumenSurface& lumen) {
+  return nodal_areas(lumen.points, lumen.triangles);
+}
+
+Points nodal_normals(const LumenSurface& lumen) {
+  return nodal_normals(lumen.points, lumen.triangles);
+}
+
 }  // namespace tether

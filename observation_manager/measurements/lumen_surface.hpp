@@ -19,4 +19,9 @@ struct LumenSurface {
 
 LumenSurface lumen_of(const VesselMesh& vessel);
 
+/// At its nodes: a third of the areas of their triangles [length^2], and outward unit normals
+/// (common/mesh/surface.hpp).
+VectorXd nodal_areas(const LumenSurface& lumen);
+Points nodal_normals(const LumenSurface& lumen);
+
 }  // namespace tether

@@ -25,7 +25,7 @@ SurfaceSeries::SurfaceSeries(SourceSettings settings, std::vector<SurfaceFrame> 
     : settings_(std::move(settings)),
       times_(times_of(frames), settings_.period, settings_.time_tolerance, held_out),
       frames_(std::move(frames)),
-      areas_(nodal_areas(lumen.points, lumen.triangles)),
+      areas_(nodal_areas(lumen)),
       notes_(std::move(notes)) {}
 
 Sample SurfaceSeries::sample_of_node(Eigen::Index node, const Vec3& x) const {

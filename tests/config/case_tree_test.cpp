@@ -1,6 +1,7 @@
 #include "common/config/case_tree.hpp"
 
 #include "common/base/error.hpp"
+#include "common/config/identified_parameters.hpp"
 #include "common/config/output_folder.hpp"
 #include "tests/config/case_text.hpp"
 
@@ -232,6 +233,20 @@ TEST(YamlText, HasNoLineThatIsTooLongToBeRead) {
 
 TEST(YamlValue, IsOneValue) {
   EXPECT_EQ(input_error_of([] { yaml_value("[5] x"); }).substr(0, 8), "'[5] x':");
+}
+
+/// Of the case that it builds on too; one that is removed is none.
+TEST(IdentifiedParameters, AreThoseOfTheWholeCase) {
+  EXPECT_TRUE(identified_parameters(write_file("none.yaml", "name: tube\nunits: cgs\n")).empty());
+  write_file("base.yaml", "identification: {parameters: {young: {of: [a, b]}, flow: {of: [c]}, ring: {}}}\n");
+  const auto all = identified_parameters(
+      write_file("case.yaml", "base: base.yaml\nidentification: {parameters: {flow: , spring: {of: [d]}}}\n"));
+  std::vector<std::string> names;
+  for (const IdentifiedParameter& parameter : all) names.push_back(parameter.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"young", "ring", "spring"}));
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].of, (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(all[1].of.empty());
 }
 
 }  // namespace case_tree_test
