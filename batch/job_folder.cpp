@@ -21,8 +21,15 @@ constexpr const char* record_name = "job.json";
 constexpr const char* aside_name = ".job_before";  ///< no case's: no name begins with a dot
 constexpr const char* way_out = "choose another folder with --output";
 
+/// Whether a submission was killed that had set a job aside: put_back_job takes nobody's place then.
+bool is_to_be_put_back(const fs::path& folder) {
+  const fs::path aside = folder / aside_name;
+  return fs::exists(aside / job_files) && !(fs::exists(aside / results_table) && fs::exists(folder / results_table));
+}
+
 /// A folder without a job. Nothing is lost with one that is empty.
 void check_is_nobodys(const fs::path& folder) {
+  if (is_to_be_put_back(folder)) return;
   const fs::path files = folder / job_files, table = folder / results_table;
   std::error_code none;
   const bool is_free = !fs::exists(fs::symlink_status(files)) || (fs::is_directory(files) && fs::is_empty(files, none));
@@ -98,7 +105,7 @@ void put_back_job(const fs::path& folder) {
   const fs::path aside = folder / aside_name, files = folder / job_files;
   if (!fs::exists(aside / job_files) || is_in_its_place(folder)) return;
   fs::remove_all(files);
-  for (const char* name : {job_files, results_table})
+  for (const char* name : {results_table, job_files})  // the job last: a kill in between leaves it to be put back
     if (fs::exists(aside / name)) put_in_place(aside / name, folder / name);
   fs::remove_all(aside);
 }
@@ -107,12 +114,12 @@ NewJob::NewJob(fs::path folder, const Job& job) : folder_(std::move(folder)) {
   const fs::path aside = folder_ / aside_name, files = folder_ / job_files;
   fs::remove_all(aside);  // of one that was replaced
   has_old_ = fs::exists(files / record_name);
-  if (has_old_) {
-    make_folder(aside);
-    if (fs::exists(folder_ / results_table)) put_in_place(folder_ / results_table, aside / results_table);
-    put_in_place(files, aside / job_files);
-  }
   try {
+    if (has_old_) {  // the job first: while it is aside put_back_job knows of what else is
+      make_folder(aside);
+      put_in_place(files, aside / job_files);
+      if (fs::exists(folder_ / results_table)) put_in_place(folder_ / results_table, aside / results_table);
+    }
     fs::create_directories(files / "ended");
     write_record(files / record_name, job);
   } catch (...) {

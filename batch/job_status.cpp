@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "batch/job_script.hpp"
 #include "common/base/error.hpp"
 #include "common/base/input_stream.hpp"
 #include "common/base/name.hpp"
+#include "common/base/way_on.hpp"
 #include "common/io/record_file.hpp"
 
 namespace tether {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Whether a line only tells how to go on, which the job's script knows.
-bool is_about_going_on(const std::string& line) {
-  constexpr std::array beginnings{"To continue: ", "The state after ", "No state is saved"};
-  return std::any_of(beginnings.begin(), beginnings.end(), [&](const char* text) { return line.starts_with(text); });
-}
 
 /// What a job's script has written into a file; nothing if it has not come to that.
 std::optional<std::string> word_in(const fs::path& file) {
@@ -32,7 +26,7 @@ std::optional<std::string> word_in(const fs::path& file) {
   return word;
 }
 
-/// The last line of a log, which may be long, that tells what happens.
+/// The last line of a log, which may be long, that tells what happens. How to go on the job's script knows.
 std::string last_line_of(const fs::path& file) {
   constexpr std::streamoff enough = 4000;  // bytes
   std::ifstream log = input_stream(file, std::ios::binary);

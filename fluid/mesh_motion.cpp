@@ -50,12 +50,14 @@ MeshMotionKind mesh_motion_named(const std::string& name) {
 
 MeshMotion::MeshMotion(const FluidMesh& mesh, std::vector<int> boundary_nodes, MeshMotionKind kind)
     : boundary_(std::move(boundary_nodes)), components_(kind == MeshMotionKind::harmonic ? 1 : 3) {
-  std::vector<int> place(static_cast<std::size_t>(mesh.points.cols()),
-                         -1);  // of inner nodes: their number; of others: -1 - number
+  constexpr int unnumbered = -1;
+  const auto of_boundary = [](int number) { return -2 - number; };  // its own inverse
+  // Of each node: its number among the inner ones, from 0, or of_boundary of that among the boundary's.
+  std::vector<int> place(static_cast<std::size_t>(mesh.points.cols()), unnumbered);
   for (std::size_t i = 0; i < boundary_.size(); ++i)
-    place[static_cast<std::size_t>(boundary_[i])] = -2 - static_cast<int>(i);
+    place[static_cast<std::size_t>(boundary_[i])] = of_boundary(static_cast<int>(i));
   for (std::size_t node = 0; node < place.size(); ++node)
-    if (place[node] == -1) {
+    if (place[node] == unnumbered) {
       place[node] = static_cast<int>(inner_.size());
       inner_.push_back(static_cast<int>(node));
     }
@@ -66,7 +68,7 @@ MeshMotion::MeshMotion(const FluidMesh& mesh, std::vector<int> boundary_nodes, M
     const int row = place[static_cast<std::size_t>(row_node)], column = place[static_cast<std::size_t>(column_node)];
     if (row < 0) return;
     auto& target = column >= 0 ? inner : coupling;
-    const int column_number = column >= 0 ? column : -2 - column;
+    const int column_number = column >= 0 ? column : of_boundary(column);
     if (c == 1) {
       target.emplace_back(row, column_number, harmonic_entry(g, a, b));
       return;

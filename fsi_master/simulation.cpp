@@ -4,6 +4,7 @@
 
 #include "common/base/end_request.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/base/way_on.hpp"
 #include "common/protocol/signals.hpp"
 
 namespace tether {
@@ -234,8 +235,8 @@ void Simulation::save(std::int64_t step) {
 }
 
 std::string Simulation::what_is_saved() const {
-  if (!saved_step_) return "No state is saved yet";
-  return fmt::format("The state after {} steps is in {}", *saved_step_, (plan_.output / "checkpoint").string());
+  if (!saved_step_) return fmt::format("{} yet", no_state_saved);
+  return fmt::format("{}{} steps is in {}", state_after, *saved_step_, (plan_.output / "checkpoint").string());
 }
 
 }  // namespace tether

@@ -107,7 +107,8 @@ std::vector<ParticleReport> GroupPool::advance(const EnsembleStep& step, const s
   };
   const auto take = [&](std::size_t i, protocol::Advanced reply) {
     if (static_cast<Eigen::Index>(reply.state.size()) != states.rows())
-      throw run_error("sigma point {} came back with {} numbers instead of {}", i, reply.state.size(), states.rows());
+      throw run_error("sigma point {} of {} came back with {} numbers instead of {}", i + 1, values.size(),
+                      reply.state.size(), states.rows());
     states.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const VectorXd>(reply.state.data(), states.rows());
     memories[i] = std::move(reply.memory);
     reports[i] = {

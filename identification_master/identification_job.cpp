@@ -9,6 +9,7 @@
 #include "common/base/folder_lock.hpp"
 #include "common/base/process.hpp"
 #include "common/base/progress_line.hpp"
+#include "common/base/way_on.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
@@ -185,8 +186,8 @@ class Job {
     saved_ = filter_.state().step;
   }
   std::string what_is_saved() const {
-    if (!saved_) return "No state is saved yet";
-    return fmt::format("The state after {} steps is in {}", *saved_, (output_ / "checkpoint").string());
+    if (!saved_) return fmt::format("{} yet", no_state_saved);
+    return fmt::format("{}{} steps is in {}", state_after, *saved_, (output_ / "checkpoint").string());
   }
   /// Of these steps, and of those before a continuation.
   IdentificationCost cost() {

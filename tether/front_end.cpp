@@ -46,58 +46,104 @@ int told(const CommandLine& command) {
   return exit_done;
 }
 
+constexpr Argument measured_case{
+    "CASE.yaml", "the case file, with measurements",
+    "or: tether measure-noise FIRST SECOND [--output DIR] [--overwrite]: two surface files, "
+    "segmentations of the same moment"},
+    twin_case{"CASE.yaml|DIR", "the case that tether twin wrote, or its folder"},
+    results_folder{"DIR", "the folder of results of tether explain, compare, diagnose, identify or simulate"},
+    study_file{"STUDY.yaml", "the study file: a surface or an image, its openings, the model's wall"},
+    outlets_file{"OUTLETS.yaml", "the outlets file: a flow, the pressures that it is to make, its split"},
+    ring_file{"RING.yaml", "the ring file: the frames of a lumen, and which opening is followed"};
+
 struct Verb {
   const char *name, *purpose;
   int (*act)(const CommandLine&);
-  bool makes_steps = false, shares_work = false, needs_case = true, shares_runs = false;
+  std::optional<Argument> argument = Argument{};
+  bool makes_steps = false, shares_work = false, shares_runs = false;
   std::string (*reference)(const std::string& format) = case_reference;
   void (*check)(const CommandLine&) = check_case;
   std::string (*plan)(const CommandLine&) = nullptr;
 };
 
-constexpr Verb planned(Verb verb, std::string (*plan)(const CommandLine&)) {
-  verb.plan = plan;
-  return verb;
-}
-
 constexpr std::array verbs{
-    planned({"simulate", "run a case: progress, results, plots and a summary", told<RunSummary, simulate>, true},
-            plan<JobVerb::simulate>),
-    planned({"compare", "compare a run with the measurements; simulates first if need be",
-             told<ComparisonResult, compare>, true, false, true, false, case_reference, check_for<JobVerb::compare>},
-            plan<JobVerb::compare>),
-    planned({"explain", "compare, find what is missing, add it, watch the error fall: the whole path",
-             told<Explanation, explain>, false, true, true, true, case_reference, check_for<JobVerb::explain>},
-            plan<JobVerb::explain>),
-    planned({"diagnose", "find which effect the model lacks, from the measurements", told<Diagnosis, diagnose>, false,
-             true, true, true, case_reference, check_for<JobVerb::diagnose>},
-            plan<JobVerb::diagnose>),
-    Verb{"twin", "make data with a hidden effect from another run, and a case to try on them",
-         told<fs::path, make_twin>},
-    Verb{"score", "hold a diagnosis of such data against the sealed answer", told<Score, score>},
-    planned({"identify", "find parameters of the model from the measurements", told<Estimate, identify>, true, true,
-             true, false, case_reference, check_for<JobVerb::identify>},
-            plan<JobVerb::identify>),
-    Verb{"measure-noise", "measure the noise of the data, which a diagnosis wants stated: of a case, or of two files",
-         told<NoiseMeasurements, measure_noise>},
-    Verb{"report", "make one page of a folder of results, to look at and to mail: tether report DIR",
-         told<fs::path, report>},
-    Verb{"build-model", "make a lumen with named openings and centrelines of a surface, as a study file says",
-         told<SurfaceSummary, build_model>, false, false, true, false, study_reference, check_study},
-    Verb{"fit-outlets", "find Windkessels from pressures, a flow and its split, and the state in which they begin",
-         told<FittedOutlets, fit_outlets>, false, false, true, false, outlets_reference, check_outlets},
-    Verb{"track-ring", "follow the ring of an opening through the frames of a segmented lumen: a table of its motion",
-         told<TrackedRing, track_ring>, false, false, true, false, ring_reference, check_ring},
-    Verb{"validate", "find mistakes in a case without running it", validate},
-    Verb{"mesh", "write the meshes of a case for viewing", write_meshes},
-    Verb{"describe", "list every field of a case file with unit, default and meaning", describe, false, false, false},
+    Verb{.name = "simulate",
+         .purpose = "run a case: progress, results, plots and a summary",
+         .act = told<RunSummary, simulate>,
+         .makes_steps = true,
+         .plan = plan<JobVerb::simulate>},
+    Verb{.name = "compare",
+         .purpose = "compare a run with the measurements; simulates first if need be",
+         .act = told<ComparisonResult, compare>,
+         .check = check_for<JobVerb::compare>,
+         .plan = plan<JobVerb::compare>},
+    Verb{.name = "explain",
+         .purpose = "compare, find what is missing, add it, watch the error fall: the whole path",
+         .act = told<Explanation, explain>,
+         .shares_work = true,
+         .shares_runs = true,
+         .check = check_for<JobVerb::explain>,
+         .plan = plan<JobVerb::explain>},
+    Verb{.name = "diagnose",
+         .purpose = "find which effect the model lacks, from the measurements",
+         .act = told<Diagnosis, diagnose>,
+         .shares_work = true,
+         .shares_runs = true,
+         .check = check_for<JobVerb::diagnose>,
+         .plan = plan<JobVerb::diagnose>},
+    Verb{.name = "twin",
+         .purpose = "make data with a hidden effect from another run, and a case to try on them",
+         .act = told<fs::path, make_twin>},
+    Verb{.name = "score",
+         .purpose = "hold a diagnosis of such data against the sealed answer",
+         .act = told<Score, score>,
+         .argument = twin_case},
+    Verb{.name = "identify",
+         .purpose = "find parameters of the model from the measurements",
+         .act = told<Estimate, identify>,
+         .makes_steps = true,
+         .shares_work = true,
+         .check = check_for<JobVerb::identify>,
+         .plan = plan<JobVerb::identify>},
+    Verb{.name = "measure-noise",
+         .purpose = "measure the noise of the data, which a diagnosis wants stated: of a case, or of two surfaces",
+         .act = told<NoiseMeasurements, measure_noise>,
+         .argument = measured_case},
+    Verb{.name = "report",
+         .purpose = "make one page of a folder of results, to look at and to mail",
+         .act = told<fs::path, report>,
+         .argument = results_folder},
+    Verb{.name = "build-model",
+         .purpose = "make a lumen with named openings and centrelines of a surface or an image, and a model of it",
+         .act = told<SurfaceSummary, build_model>,
+         .argument = study_file,
+         .reference = study_reference,
+         .check = check_study},
+    Verb{.name = "fit-outlets",
+         .purpose = "find Windkessels from pressures, a flow and its split, and the state in which they begin",
+         .act = told<FittedOutlets, fit_outlets>,
+         .argument = outlets_file,
+         .reference = outlets_reference,
+         .check = check_outlets},
+    Verb{.name = "track-ring",
+         .purpose = "follow the ring of an opening through the frames of a segmented lumen: a table of its motion",
+         .act = told<TrackedRing, track_ring>,
+         .argument = ring_file,
+         .reference = ring_reference,
+         .check = check_ring},
+    Verb{.name = "validate", .purpose = "find mistakes in a case without running it", .act = validate},
+    Verb{.name = "mesh", .purpose = "write the meshes of a case for viewing", .act = write_meshes},
+    Verb{.name = "describe",
+         .purpose = "list every field of a case file with unit, default and meaning",
+         .act = describe,
+         .argument = std::nullopt},
 };
 
 Program program_of(const Verb& verb) {
   Program program;
   program.name = std::string("tether ") + verb.name;
   program.purpose = verb.purpose;
-  program.needs_case = verb.needs_case;
+  program.argument = verb.argument;
   program.shares_work = verb.shares_work;
   program.shares_runs = verb.shares_runs;
   program.makes_steps = verb.makes_steps;
@@ -110,12 +156,6 @@ Program program_of(const Verb& verb) {
 
 /// tether conform PROGRAM [ARGUMENTS]: whether a code of one's own keeps the contract of docs/protocol.md.
 int conform(int argc, char** argv) {
-  if (argc == 0 || std::string(argv[0]) == "--help") {
-    std::cout << "tether conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]: starts a fluid or solid program, "
-                 "plays its master, and checks that it keeps the contract of docs/protocol.md; --with: and that its "
-                 "interface fits that of the other code, which gets the same arguments\n";
-    return argc == 0 ? exit_input_wrong : exit_done;
-  }
   return guarded("tether conform", [&] {
     Command command{{sibling("tether_conform").string()}, {}};
     command.words.insert(command.words.end(), argv, argv + argc);
@@ -125,14 +165,16 @@ int conform(int argc, char** argv) {
 
 std::string usage() {
   std::string text =
-      "Fluid-structure models of vessels that agree with images.\n\nUsage: tether VERB CASE.yaml [options]\n\n";
-  for (const auto& verb : verbs) text += fmt::format("  {:<13} {}\n", verb.name, verb.purpose);
-  text += fmt::format("  {:<13} {}\n", "conform",
-                      "check a fluid or solid program of one's own: tether conform PROGRAM [ARGUMENTS]");
-  text += fmt::format("  {:<13} {}\n", "submit", "give cases to Slurm: tether submit VERB CASE.yaml|FOLDER [options]");
-  text += fmt::format("  {:<13} {}\n", "status", "tell what became of such a job: tether status FOLDER");
-  text += fmt::format("  {:<13} {}\n", "results", "make one table of what its cases found: tether results FOLDER");
-  text += fmt::format("  {:<13} {}\n", "schema", "print the JSON schema of a file of results: tether schema [FILE]");
+      "Fluid-structure models of vessels that agree with images.\n\nUsage: tether VERB ARGUMENT [options]\n\n";
+  const auto add = [&](const char* verb, const char* argument, const char* purpose) {
+    text += fmt::format("  {:<13} {:<22} {}\n", verb, argument, purpose);
+  };
+  for (const Verb& verb : verbs) add(verb.name, verb.argument ? verb.argument->name : "", verb.purpose);
+  add("conform", "PROGRAM [ARGUMENTS]", "check a fluid or solid program of one's own");
+  add("submit", "VERB CASE.yaml|FOLDER", "give cases to Slurm");
+  add("status", "FOLDER", "tell what became of such a job");
+  add("results", "FOLDER", "make one table of what its cases found");
+  add("schema", "[FILE]", "print the JSON schema of a file of results");
   return text + "\ntether VERB --help lists the options of a verb.\n";
 }
 

@@ -113,6 +113,12 @@ fs::path job_folder(const Typed& typed) {
   return fs::absolute(fs::path("out") / ((is_named_by_folder ? named.filename() : named.stem()).string() + "_job"));
 }
 
+/// What would be reserved and never used.
+void check_processes(const Typed& typed) {
+  if (typed.processes > 0 && !makes_many_runs(*from_word<JobVerb>(typed.verb)))
+    throw input_error("--processes: tether {} makes one run: leave it out", typed.verb);
+}
+
 /// What is wrong is told before it waits for its turn, of all cases at once.
 void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
   std::string wrong;
@@ -181,6 +187,7 @@ void place_job(const Typed& typed, const fs::path& folder, Job& job, const std::
 int act(const Typed& typed) {
   const fs::path folder = job_folder(typed), files = folder / job_files;
   check_resources(typed.resources);
+  check_processes(typed);
   check_replaced(folder, typed.overwrite);
   const ScratchFolder tried("tether_cases");
   Job job{*from_word<JobVerb>(typed.verb),         "", sibling("tether").string(),

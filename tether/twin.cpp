@@ -171,7 +171,7 @@ std::string source_of(const std::string& name, const TwinTraceCase& trace) {
 /// The case without its section `twin`, with the twin's data in the place of its own measurements.
 void write_case(const fs::path& file, const CaseWithTwin& given, const TwinFrames& frames) {
   const CommonCase& common = given.file.common();
-  Overlay overlay{given.file.path(), common.name + "_blind", common.title + ", against data of a twin", {{"twin", ""}}};
+  Overlay overlay{given.file.path(), common.name + "_blind", common.titled(", against data of a twin"), {{"twin", ""}}};
   const auto set = [&](const std::string& kind, const std::string& name, const std::string& text) {
     overlay.values.push_back({"observations." + kind + "." + name, text});
   };

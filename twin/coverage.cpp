@@ -6,8 +6,9 @@
 namespace tether {
 namespace {
 
-/// Twice the area of (a, b, p) in the plane z = 0. Taken from the lower to the higher node, so that both triangles of
-/// an edge get the same number, and each line falls into exactly one of them.
+/// Whether p lies left of the way from a to b in the plane z = 0, by the area of (a, b, p). That is taken from the
+/// lower to the higher node, so that both triangles of an edge get the same number, and each line falls into exactly
+/// one of them.
 bool is_left(const Points& x, int a, int b, double px, double py) {
   const int low = std::min(a, b), high = std::max(a, b);
   const double area = (x(0, high) - x(0, low)) * (py - x(1, low)) - (x(1, high) - x(1, low)) * (px - x(0, low));

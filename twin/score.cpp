@@ -68,6 +68,13 @@ bool is_right(const Score& score) {
   return true;
 }
 
+std::string judgement_of(const Score& score) {
+  if (score.verdict != score.true_verdict) return fmt::format("wrong, the answer is {}", word_of(score.true_verdict));
+  if (score.verdict_right) return "right";
+  return score.verdict == Verdict::missing ? "right; what was accepted is not what was hidden"
+                                           : "right; what was hidden is not in a group of what was accepted";
+}
+
 std::string line_of(const FoundEffect& found) {
   std::string line = place_of(found.hidden.name, found.hidden.where) + ": ";
   if (!found.rank) return line + "not among the effects of the diagnosis\n";
@@ -104,8 +111,7 @@ Score score_of(const Claim& claim, const Answer& answer) {
 }
 
 std::string text_of(const Score& score) {
-  std::string text = fmt::format("verdict: {}: {}", word_of(score.verdict), score.verdict_right ? "right" : "wrong");
-  text += score.verdict == score.true_verdict ? "\n" : fmt::format(", the answer is {}\n", word_of(score.true_verdict));
+  std::string text = fmt::format("verdict: {}: {}\n", word_of(score.verdict), judgement_of(score));
   for (const FoundEffect& found : score.found) text += line_of(found);
   for (const std::string& effect : score.wrongly_accepted) text += effect + ": accepted, but was not hidden\n";
   if (score.held_out_gain) text += fmt::format("held-out distance: {:.1f} % less\n", 100 * *score.held_out_gain);

@@ -7,6 +7,19 @@
 
 namespace tether {
 
+namespace {
+
+bool is_whole(const std::filesystem::path& file) {
+  try {
+    read_checked(file);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 std::uint64_t hash_of_states(std::span<const std::byte> fluid, std::span<const std::byte> solid) {
   return hash_bytes(solid.data(), solid.size(), hash_bytes(fluid.data(), fluid.size(), fluid.size()));
 }
@@ -26,6 +39,19 @@ bool is_whole_state(const std::filesystem::path& folder) {
 
 std::filesystem::path newest_state(const std::filesystem::path& output) {
   return output / (is_whole_state(output / fresh_checkpoint) ? fresh_checkpoint : newest_checkpoint);
+}
+
+bool has_state(const std::filesystem::path& output, StateOf what) {
+  if (what == StateOf::run) {
+    const auto has_master = [&](const char* folder) {
+      return std::filesystem::exists(output / folder / run_state_files.front());
+    };
+    return has_master(newest_checkpoint) || has_master(earlier_checkpoint) || is_whole_state(output / fresh_checkpoint);
+  }
+  const auto& [newest, fresh, before] = identification_state_files;
+  const std::filesystem::path folder = output / newest_checkpoint;
+  return std::filesystem::exists(folder / newest) || std::filesystem::exists(folder / before) ||
+         is_whole(folder / fresh);
 }
 
 void remove_states(const std::filesystem::path& output) {

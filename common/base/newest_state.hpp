@@ -28,6 +28,11 @@ bool is_whole_state(const std::filesystem::path& folder);
 /// checkpoint, whatever that is like.
 std::filesystem::path newest_state(const std::filesystem::path& output);
 
+enum class StateOf { run, identification };
+/// Whether there is one to go on from: the newest, the one before, or one that was not put in its place yet, if that is
+/// whole.
+bool has_state(const std::filesystem::path& output, StateOf what);
+
 /// Takes away what runs and identifications saved in these folders; what else is in them stays.
 void remove_states(const std::filesystem::path& output);
 

@@ -52,6 +52,9 @@ struct CommonCase {
   ObserverCase observer;
   OutputCase output;
   void declare(Fields& f);
+  /// The title of a case that builds on this one, by `addition` as ", with corrected data"; of a case without a title
+  /// the name begins it.
+  std::string titled(const std::string& addition) const { return (title.empty() ? name : title) + addition; }
 };
 
 /// The top level of a case file: each section and the program that reads it. Others skip it, all know its name.

@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 
 #include "common/base/error.hpp"
 #include "common/base/folder_lock.hpp"
+#include "common/base/number_text.hpp"
 #include "common/base/process.hpp"
 #include "common/config/case.hpp"
 #include "common/config/describe.hpp"
@@ -40,27 +40,30 @@ struct Typed {
 /// "--steps: 0: must be a whole number, at least 1"
 CLI::Validator whole_and_positive() {
   return {[](const std::string& text) {
-            int number = 0;
-            const char* end = text.data() + text.size();
-            const auto [last, error] = std::from_chars(text.data(), end, number);
-            const bool fits = error == std::errc{} && last == end && number >= 1;
+            const bool fits = number_in<int>(text).value_or(0) >= 1;
             return fits ? std::string() : text + ": must be a whole number, at least 1";
           },
           "", "whole and positive"};
 }
 
-void add_options(CLI::App& app, const Program& program, Typed& typed) {
-  CommandLine& c = typed.command;
-  app.add_option("case", c.case_file, "the case file")->type_name("CASE.yaml");
-  app.add_flag("--validate", c.validate, "check the case and all it refers to, then end");
-  if (program.plan)
-    app.add_flag("--plan", c.plan, "tell how many runs, how much memory and time it would take, then end");
+void add_reference(CLI::App& app, Typed& typed) {
   app.add_option("--describe-config", typed.describe_format,
                  "list every field of the case file that this program reads")
       ->expected(0, 1)
       ->default_str("text")
       ->type_name("[text|markdown|effects]")
       ->check(CLI::IsMember({"text", "markdown", "effects"}));
+}
+
+void add_options(CLI::App& app, const Program& program, Typed& typed) {
+  add_reference(app, typed);
+  if (!program.argument) return;
+  CommandLine& c = typed.command;
+  app.add_option(program.argument->name, c.case_file, program.argument->meaning)->type_name("");
+  app.footer(program.argument->otherwise);
+  app.add_flag("--validate", c.validate, "check the case and all it refers to, then end");
+  if (program.plan)
+    app.add_flag("--plan", c.plan, "tell how many runs, how much memory and time it would take, then end");
   if (program.list_effects)
     app.add_flag("--list-effects", c.list_effects, "list what could be added to the case, as JSON");
   app.add_option("--output", c.output, "folder for the results (default out/NAME)")->type_name("DIR");
@@ -88,8 +91,8 @@ int act(const Program& program, const Typed& typed) {
     std::cout << reference(program, typed.describe_format);
     return exit_done;
   }
-  if (program.needs_case && typed.command.case_file.empty())
-    throw input_error("which case? Give the path of a case file, or --help");
+  if (program.argument && typed.command.case_file.empty())
+    throw input_error("{} is missing: {}; --help tells more", program.argument->name, program.argument->meaning);
   if (typed.command.list_effects) {
     std::cout << program.list_effects(typed.command) << "\n";
     return exit_done;

@@ -20,6 +20,12 @@ struct CommandLine {
   bool validate = false, plan = false, list_effects = false, resume = false, overwrite = false, quiet = false;
 };
 
+/// What a program works on, as its help tells it.
+struct Argument {
+  const char *name = "CASE.yaml", *meaning = "the case file";
+  const char* otherwise = "";  ///< another way to call the program, told below the options
+};
+
 /// A program as its main presents it.
 struct Program {
   std::string name = {}, purpose = {};
@@ -37,7 +43,8 @@ struct Program {
   std::function<int(const CommandLine&)> run = {};
   /// What it may be, the first by default, if there is a choice: --role.
   std::vector<std::string> roles = {};
-  bool needs_case = true;
+  /// Nothing where it only tells of itself: it has no options for results either.
+  std::optional<Argument> argument = Argument{};
   bool shares_work = false;  ///< has the option --processes
   bool shares_runs = false;  ///< has the option --runs
   bool makes_steps = true;   ///< has the options --steps and --resume

@@ -17,10 +17,12 @@
 #include "common/base/folder_lock.hpp"
 #include "common/base/interruption.hpp"
 #include "common/base/limits.hpp"
+#include "common/base/newest_state.hpp"
 #include "common/base/process.hpp"
 #include "common/base/session_folder.hpp"
 #include "common/base/shell_quoted.hpp"
 #include "common/base/temporary_folder.hpp"
+#include "common/base/way_on.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/nodes.hpp"
@@ -137,10 +139,7 @@ std::string as_word(const std::string& text) {
 std::string way_on(const std::string& master, const char* verb, const CommandLine& command) {
   const std::filesystem::path output = known_output(command);
   if (output.empty() || WhenInterrupted::is_told()) return {};
-  const bool is_run = master == "fsi_master";
-  const std::filesystem::path newest = is_run ? "checkpoint/master.bin" : "checkpoint/identification.bin",
-                              before = is_run ? "checkpoint.previous/master.bin" : "checkpoint/identification.previous";
-  if (!std::filesystem::exists(output / newest) && !std::filesystem::exists(output / before)) return {};
+  if (!has_state(output, master == "fsi_master" ? StateOf::run : StateOf::identification)) return {};
   CommandLine resumed = command;
   resumed.output = output;
   resumed.resume = true;
@@ -148,7 +147,7 @@ std::string way_on(const std::string& master, const char* verb, const CommandLin
   std::vector<std::string> words{"tether", verb, command.case_file.string()};
   add_options(words, resumed);
   for (std::string& word : words) word = as_word(word);
-  return fmt::format("To continue: {}\n", fmt::join(words, " "));
+  return fmt::format("{}{}\n", to_continue, fmt::join(words, " "));
 }
 
 /// The nodes of the job that do not answer any more, "h1, h2"; nothing if all do.

@@ -104,7 +104,8 @@ std::string nothing_seen(const Judgement& verdict, const UnitSystem& units) {
   for (const auto& [region, offset] : verdict.visible)
     smallest = std::min(smallest, offset), largest = std::max(largest, offset);
   return fmt::format(
-      "all {} regions and frames are within the noise; a region's offset of {:.2g} to {:.2g} mm in one frame would "
+      "in all {} pairs of region and frame the model is within the noise; a region's offset of {:.2g} to {:.2g} mm in "
+      "one frame would "
       "have been seen",
       verdict.tests, units.to_mm(smallest), units.to_mm(largest));
 }

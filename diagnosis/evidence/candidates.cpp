@@ -177,10 +177,8 @@ void check_diagnosis(const fs::path& case_file) {
 void write_candidates(const fs::path& file, const CaseFile& from, const Observations& data,
                       const std::vector<PlacedEffect>& effects) {
   const CommonCase& common = from.common();
-  Overlay overlay{fs::absolute(from.path()),
-                  common.name + "_candidates",
-                  (common.title.empty() ? common.name : common.title) + ", with all candidates absent",
-                  {}};
+  Overlay overlay{
+      fs::absolute(from.path()), common.name + "_candidates", common.titled(", with all candidates absent"), {}};
   for (const PlacedEffect& effect : effects) {
     if (!effect.is_new) continue;
     overlay.values.push_back({effect.path + ".type", effect.type});

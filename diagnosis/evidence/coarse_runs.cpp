@@ -47,7 +47,7 @@ std::filesystem::path write_coarse(const std::filesystem::path& candidates, cons
   const std::string tolerance = given.file.given("coupling.tolerance");
   if (tolerance.empty() || std::stod(tolerance) < coupled_to)
     values.push_back({"coupling.tolerance", number_text(coupled_to)});
-  write_overlay(file, {candidates, common.name + "_coarse", common.title + ", coarser", values});
+  write_overlay(file, {candidates, common.name + "_coarse", common.titled(", coarser"), values});
   return file;
 }
 

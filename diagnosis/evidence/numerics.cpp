@@ -17,7 +17,7 @@ RefinedCase write(const std::filesystem::path& candidates, const DiagnosedCase& 
   const std::filesystem::path file =
       candidates.parent_path() / (beside_candidates(candidates, "refined") + suffix + ".yaml");
   const CommonCase& common = given.file.common();
-  write_overlay(file, {candidates, common.name + suffix, common.title + ", refined", values});
+  write_overlay(file, {candidates, common.name + suffix, common.titled(", refined"), values});
   return {name, meaning, file};
 }
 

@@ -100,8 +100,7 @@ class Explainer {
 
   Overlay overlay(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
     const CommonCase& common = given_.file.common();
-    const std::string& of = common.title.empty() ? common.name : common.title;
-    return {given_.file.path(), common.name + "_" + name, of + title, values};
+    return {given_.file.path(), common.name + "_" + name, common.titled(title), values};
   }
   void write_case(const std::string& name, const std::string& title, const std::vector<Overlay::Value>& values) const {
     write_overlay(case_of(name), overlay(name, title, values));

@@ -203,7 +203,7 @@ ForceFound MissingForce::laws() const {
   if (found.suggested_case)
     make_to_go_on_with(folder_, suggested_file, [&](const std::filesystem::path& file) {
       write_overlay(file, {given_.file.path(), common.name + "_with_law",
-                           common.title + ", with laws suggested for a missing force", values});
+                           common.titled(", with laws suggested for a missing force"), values});
     });
   return found;
 }

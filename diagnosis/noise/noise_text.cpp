@@ -35,8 +35,9 @@ std::string line_of(const MeasuredNoise& noise) {
 
 std::string shape_text(const MeasuredNoise& noise) {
   const bool exponential = noise.fits.front().shape == CorrelationShape::exponential;
-  return fmt::format("{} shape {} (log likelihood {:.1f} above the other's)", exponential ? "exponential" : "Gaussian",
-                     noise.shape_is_told ? "told" : "likelier, and not told", noise.shape_difference);
+  return fmt::format("{} shape fits better{} (log likelihood higher by {:.1f})",
+                     exponential ? "an exponential" : "a Gaussian",
+                     noise.shape_is_told ? "" : ", but not significantly", noise.shape_difference);
 }
 
 std::string time_text(const MeasuredNoise& noise) {

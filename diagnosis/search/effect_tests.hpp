@@ -73,9 +73,9 @@ struct LackOfFit {
 };
 LackOfFit lack_of_fit(const EffectProblem& problem, const Trained& trained, const VectorXd& residual);
 
-/// Numbers those that look alike, in what they do at their best amplitudes: the cosine of two exceeds 0.9 (D.9). The
-/// accepted ones come first, then by evidence; `rival_of`: of each candidate the accepted one that it rivals, or
-/// itself.
+/// Numbers those that look alike, in what they do at their best amplitudes: the square of the cosine of two exceeds a
+/// half, and the one leaves less than 12 of the other's gain (D.9); and rivals. The accepted ones come first, then by
+/// evidence; `rival_of`: of each candidate the accepted one that it rivals, or itself.
 void set_groups(std::vector<TestedEffect>& effects, const EffectProblem& problem, const Scores& scores, double count,
                 const std::vector<std::size_t>& rival_of);
 

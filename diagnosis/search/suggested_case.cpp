@@ -57,7 +57,7 @@ bool write_corrected(const std::filesystem::path& file, const DiagnosedCase& giv
   if (corrections.empty()) return false;
   const CommonCase& common = given.file.common();
   write_overlay(file, {std::filesystem::absolute(given.file.path()), common.name + "_corrected",
-                       (common.title.empty() ? common.name : common.title) + ", with corrected data", corrections});
+                       common.titled(", with corrected data"), corrections});
   return true;
 }
 
@@ -65,7 +65,7 @@ bool write_suggested(const std::filesystem::path& file, const DiagnosedCase& giv
   const std::vector<PlacedEffect>& effects = report.effects;
   const CaseFile& from = given.file;
   Overlay overlay{std::filesystem::absolute(from.path()), from.common().name + "_suggested",
-                  from.common().title + ", with what the diagnosis adds", corrections_of(report, given.observations)};
+                  from.common().titled(", with what the diagnosis adds"), corrections_of(report, given.observations)};
   std::vector<std::string> added;
   bool nothing_added = true;
   for (const TestedEffect& effect : report.found.effects) {

@@ -18,7 +18,7 @@ struct UnitsUsed {
   std::string system, length, pressure, flow;
 
   static void fields(auto& self, auto&& field) {
-    field("system", self.system, "cgs, si or mm_s");
+    field("system", self.system, "cgs, SI or mm-g-s");
     field("length", self.length, "its symbol");
     field("pressure", self.pressure, "its symbol");
     field("flow", self.flow, "its symbol");

@@ -79,7 +79,7 @@ double reach_of(const LumenDataCase& data, const LumenSurface& lumen) {
 }
 
 std::string share_text(double share, double reach) {
-  return fmt::format("{:.2g} % of the places of the lumen that it faces lie within {:.3g} of it", 100 * share, reach);
+  return fmt::format("{:.0f} % of the places of the lumen that it faces lie within {:.3g} of it", 100 * share, reach);
 }
 
 }  // namespace tether

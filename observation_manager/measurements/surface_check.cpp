@@ -109,7 +109,7 @@ void keep_large_parts(const std::string& name, TriangleSurface& surface, std::ve
   for (const double a : area) of_small += a < smallest ? a : 0;
   if (of_small > 0.5 * whole)
     throw input_error(
-        "{}: falls into {} separate pieces, the largest with {:.2g} % of the area: must be one surface. Are the "
+        "{}: falls into {} separate pieces, the largest with {:.0f} % of the area: must be one surface. Are the "
         "corners of "
         "neighbouring triangles at slightly different points? Then merge them",
         name, parts.count, 100 * largest / whole);

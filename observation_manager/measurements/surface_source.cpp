@@ -61,7 +61,7 @@ double checked_placing(const std::string& name, CheckedSurface& checked, const L
   const Placing found = placing_of(checked.surface, lumen, reach);
   if (found.opposed > 0.5)
     throw input_error(
-        "{}: its normals look against those of the model's lumen at {:.2g} % of the places that it faces: is it the "
+        "{}: its normals look against those of the model's lumen at {:.0f} % of the places that it faces: is it the "
         "surface of the wall, and not of the lumen alone?",
         name, 100 * found.opposed);
   const std::string near = share_text(found.near, reach) + " and look the same way";
@@ -70,7 +70,7 @@ double checked_placing(const std::string& name, CheckedSurface& checked, const L
                       placement(checked.surface.points, lumen.points));
   if (found.near < least_share) checked.notes.push_back("only " + near);
   if (found.faced < least_share)
-    checked.notes.push_back(fmt::format("faces {:.2g} % of the model's lumen only", 100 * found.faced));
+    checked.notes.push_back(fmt::format("faces {:.0f} % of the model's lumen only", 100 * found.faced));
   return found.near;
 }
 

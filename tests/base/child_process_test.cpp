@@ -117,15 +117,18 @@ TEST(RunInForeground, HandsSignalsOn) {
   EXPECT_FALSE(end.was_killed);
 }
 
-/// As where a group of processes and each of it get the same one.
+/// As where a group of processes and each of it get the same one: what comes within a second is one.
 TEST(RunInForeground, HandsOnOnceWhatComesFromSeveralSides) {
-  const std::string waits = "n=0; trap 'n=$((n+1))' TERM; sleep 0.2; ";
-  const ForegroundEnd end =
-      run_in_foreground(shell(waits + "for i in 1 2 3; do kill -TERM $PPID; sleep 0.05; done; sleep 0.3; exit $n"));
+  const std::string begin = "n=0; trap 'n=$((n+1))' TERM; sleep 0.2; ";
+  const auto until = [](int count) {
+    return "for i in $(seq 100); do [ $n -ge " + std::to_string(count) + " ] && break; sleep 0.1; done; ";
+  };
+  const ForegroundEnd end = run_in_foreground(
+      shell(begin + "for i in 1 2 3; do kill -TERM $PPID; sleep 0.05; done; " + until(1) + "sleep 0.3; exit $n"));
   EXPECT_EQ(end.exit_code, 1);
-  EXPECT_EQ(
-      run_in_foreground(shell(waits + "kill -TERM $PPID; sleep 1.2; kill -TERM $PPID; sleep 0.3; exit $n")).exit_code,
-      2)
+  EXPECT_EQ(run_in_foreground(shell(begin + "kill -TERM $PPID; sleep 3; kill -TERM $PPID; " + until(2) + "exit $n"))
+                .exit_code,
+            2)
       << "who asks again is obeyed";
 }
 

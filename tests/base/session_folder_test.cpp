@@ -1,6 +1,7 @@
 #include "common/base/session_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 
@@ -10,13 +11,14 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(SessionFolder, TakesAwayWhatKilledProcessesLeft) {
-  const std::string name = "tether_session_of_a_test";
-  const auto hours_ago = fs::file_time_type::clock::now() - std::chrono::hours(2);
+  const std::string name = "tether_session_of_test_" + std::to_string(getpid());
+  const auto now = fs::file_time_type::clock::now(), hours_ago = now - std::chrono::hours(2);
   const fs::path left = temporary_folder() / (name + "_left"), young = temporary_folder() / (name + "_young"),
-                 other = temporary_folder() / "tether_other_session_of_a_test";
+                 other = temporary_folder() / ("tether_other_session_" + std::to_string(getpid()));
   for (const fs::path& folder : {left, young, other}) fs::create_directories(folder / "files");
   const SessionFolder held(name);
   for (const fs::path& folder : {left, other, held.path()}) fs::last_write_time(folder, hours_ago);
+  fs::last_write_time(young, now);
   fs::path second;
   {
     const SessionFolder session(name);

@@ -110,6 +110,23 @@ TEST_F(Jobs, ComeBackWhereTheNewOneIsNotKept) {
   EXPECT_TRUE(is_old());
 }
 
+/// The job is set aside first, and put back last.
+TEST_F(Jobs, LoseNoTableWhereAKillComesBetweenTwoRenames) {
+  write("results.csv", "old"), write("job/number", "9");
+  write_record(folder_ / "job/job.json", job(JobVerb::simulate, 1));
+  const fs::path aside = folder_ / ".job_before";
+  fs::create_directories(aside);
+  fs::rename(folder_ / "job", aside / "job");
+  EXPECT_NO_THROW(check_replaced(folder_, false)) << "the table is the job's";
+  write(".job_before/results.csv", "old");
+  EXPECT_THROW(check_replaced(folder_, false), InputError) << "the table is somebody's";
+  fs::remove(aside / "results.csv");
+  put_back_job(folder_);
+  EXPECT_EQ(read_job(folder_).number, "9");
+  EXPECT_TRUE(fs::exists(folder_ / "results.csv"));
+  EXPECT_FALSE(fs::exists(aside));
+}
+
 TEST_F(Jobs, ThatArePerhapsSubmittedAreNotSubmittedAgain) {
   Job one = job(JobVerb::simulate, 1);
   one.number.clear();

@@ -9,18 +9,13 @@
 
 #include "batch/job.hpp"
 #include "common/base/error.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 
 /// A folder for a job, and jobs of cases in it.
 class Jobs : public ::testing::Test {
  protected:
-  Jobs()
-      : folder_(std::filesystem::temp_directory_path() / "tether_tests" /
-                ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
@@ -41,7 +36,7 @@ class Jobs : public ::testing::Test {
       job.cases.push_back({"case_" + std::to_string(k), (folder_ / "a case.yaml").string()});
     return job;
   }
-  const std::filesystem::path folder_;
+  const std::filesystem::path folder_ = test_folder();
 };
 
 }  // namespace tether

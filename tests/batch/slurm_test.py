@@ -28,7 +28,9 @@ class Jobs(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder, True)
         cls.addClassCleanup(cls.cluster.stop)
         cases.write_tube(cls.folder, CONFIGS, more="output: {checkpoint_every: 20}\n")
-        cls.tether("simulate", "tube.yaml", "--output", "undisturbed", "--quiet")
+        (cls.folder / "long.yaml").write_text("base: tube.yaml\nname: long\ntime: {end: 6.6}\n")  # eight beats: it still runs when a test disturbs it
+        for case, output in (("tube.yaml", "undisturbed"), ("long.yaml", "undisturbed_long")):
+            cls.tether("simulate", case, "--output", output, "--quiet")
 
     @classmethod
     def run_tether(cls, *words):
@@ -78,34 +80,34 @@ class Jobs(unittest.TestCase):
         self.assertFalse((self.folder / "walls/cases.new").exists())
 
     def test_at_its_limit_of_time_it_saves_and_goes_on_to_the_same_bits(self):
-        number = self.submit("limited", "simulate", "tube.yaml")
-        self.wait_for_state_of("limited/tube")
+        number = self.submit("limited", "simulate", "long.yaml")
+        self.wait_for_state_of("limited/long")
         self.cluster.ask("scancel", "--signal=USR1", "--batch", number)
-        self.wait_for("limited", "done")
-        log = (self.folder / "limited/job/tube.log").read_text()
+        self.wait_for("limited", "done", 300)
+        log = (self.folder / "limited/job/long.log").read_text()
         self.assertIn("told to save its state and end in step", log)
-        self.assertEqual(content(self.folder / "limited/tube"), content(self.folder / "undisturbed"))
+        self.assertEqual(content(self.folder / "limited/long"), content(self.folder / "undisturbed_long"))
 
     def test_a_task_at_its_limit_leaves_the_others_of_its_array_alone(self):
         """The last task of an array has the array's own number."""
         (self.folder / "pair.csv").write_text("name, solid.material.young [kPa]\none, 400\ntwo, 400\n")
-        number = self.submit("pair", "simulate", "tube.yaml", "--table", "pair.csv")
+        number = self.submit("pair", "simulate", "long.yaml", "--table", "pair.csv")
         self.wait_for_state_of("pair/two")
         self.cluster.ask("scancel", "--signal=USR1", "--batch", f"{number}_1")
-        self.wait_for("pair", "done")
+        self.wait_for("pair", "done", 300)
         restarts = {k: self.cluster.ask("scontrol", "show", "job", f"{number}_{k}") for k in (0, 1)}
         self.assertIn("Restarts=0", restarts[0])
         self.assertIn("Restarts=1", restarts[1])
         for name in ("one", "two"):
-            self.assertEqual(content(self.folder / "pair" / name), content(self.folder / "undisturbed"), name)
+            self.assertEqual(content(self.folder / "pair" / name), content(self.folder / "undisturbed_long"), name)
 
     def test_preempted_it_goes_on_from_its_latest_state_to_the_same_bits(self):
-        self.submit("preempted", "simulate", "tube.yaml")
-        self.wait_for_state_of("preempted/tube")
+        self.submit("preempted", "simulate", "long.yaml")
+        self.wait_for_state_of("preempted/long")
         self.cluster.ask("sbatch", "--partition=urgent", "--nodes=3", "--exclusive", "--output=/dev/null", "--wrap=sleep 3")
-        self.cluster.wait(lambda: self.states("preempted") == {"tube": "waiting"}, 60, "preempted")
-        self.wait_for("preempted", "done")
-        self.assertEqual(content(self.folder / "preempted/tube"), content(self.folder / "undisturbed"))
+        self.cluster.wait(lambda: self.states("preempted") == {"long": "waiting"}, 60, "preempted")
+        self.wait_for("preempted", "done", 300)
+        self.assertEqual(content(self.folder / "preempted/long"), content(self.folder / "undisturbed_long"))
 
     def test_a_diagnosis_which_calls_mpirun_twice_comes_to_its_end(self):
         self.make_twin()
@@ -145,11 +147,11 @@ class Jobs(unittest.TestCase):
             self.assertIn("done", told.stdout)
 
     def test_what_a_person_cancels_stays_so(self):
-        number = self.submit("cancelled", "simulate", "tube.yaml")
-        self.wait_for_state_of("cancelled/tube")
+        number = self.submit("cancelled", "simulate", "long.yaml")
+        self.wait_for_state_of("cancelled/long")
         self.cluster.ask("scancel", number)
-        self.cluster.wait(lambda: self.states("cancelled") != {"tube": "running"}, 60, "cancelled")
-        self.assertIn(self.states("cancelled")["tube"], ("gone", "failed"))
+        self.cluster.wait(lambda: self.states("cancelled") != {"long": "running"}, 60, "cancelled")
+        self.assertIn(self.states("cancelled")["long"], ("gone", "failed"))
         self.assertNotIn("PENDING", self.cluster.ask("squeue", "--noheader", "--jobs", number, "--format=%T"))
 
     def test_an_identification_has_its_models_on_three_nodes(self):

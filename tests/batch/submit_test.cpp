@@ -86,6 +86,13 @@ TEST_F(Submit, TellsTheNumberThatItCannotRecord) {
   EXPECT_EQ(submit().exit_code, 2);
 }
 
+TEST_F(Submit, ReservesNoProcessesForOneRun) {
+  const ChildEnd end = submit({"--processes", "4"});
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_EQ(end.errors, "--processes: tether simulate makes one run: leave it out\n");
+  EXPECT_FALSE(fs::exists(job()));
+}
+
 TEST_F(Submit, RefusedItLeavesTheJobThatIsThere) {
   is_answered_by("sbatch", "echo 7");
   ASSERT_EQ(submit().exit_code, 0);
@@ -99,6 +106,29 @@ TEST_F(Submit, RefusedItLeavesTheJobThatIsThere) {
   EXPECT_EQ(status(), before);
   EXPECT_TRUE(before.starts_with("job 7, simulate, 1 case: 1 done")) << before;
   EXPECT_TRUE(fs::exists(folder_ / "out/results.csv"));
+}
+
+/// At any rename, of what is set aside and of what is put back.
+TEST_F(Submit, KilledItLosesNothingOfTheJobThatIsThere) {
+  is_answered_by("sbatch", "echo 7");
+  ASSERT_EQ(submit().exit_code, 0);
+  folder_.file("out/job/ended/model", "0\n"), folder_.file("out/results.csv", "of job 7");
+  const std::string before = status();
+  is_answered_by("sbatch", "echo 'sbatch: error: no such account' >&2; exit 1");
+  const char* others = std::getenv("LD_PRELOAD");
+  const std::string faults = (others == nullptr ? "" : std::string(others) + ":") + TETHER_FAULTS;
+  int kills = 0;
+  for (int nth = 1; nth < 20; ++nth) {
+    const ChildEnd end = submit({"--overwrite"}, {{"LD_PRELOAD", faults},
+                                                  {"TETHER_FAULT_ROOT", job()},
+                                                  {"TETHER_FAULT", fmt::format("tether:rename:-:{}:KILL", nth)}});
+    if (end.exit_code != 128 + SIGKILL) break;
+    ++kills;
+    EXPECT_EQ(submit({"--overwrite"}).exit_code, 2) << "refused by sbatch";
+    EXPECT_EQ(status(), before) << "killed at rename " << nth;
+    EXPECT_TRUE(fs::exists(folder_ / "out/results.csv")) << "killed at rename " << nth;
+  }
+  EXPECT_GE(kills, 4) << "job and table, aside and back";
 }
 
 /// What a site has wrapped around sbatch may write more than sbatch does.

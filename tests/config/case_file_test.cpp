@@ -63,6 +63,10 @@ fluid:
   file.read("fluid", blood);
   file.finish();
   EXPECT_EQ(file.common().title, "A tube");
+  EXPECT_EQ(file.common().titled(", coarser"), "A tube, coarser");
+  CommonCase nameless = file.common();
+  nameless.title.clear();
+  EXPECT_EQ(nameless.titled(", coarser"), nameless.name + ", coarser");
   EXPECT_EQ(file.common().output.points[0].first, "middle");
   EXPECT_DOUBLE_EQ(file.common().output.points[0].second.z(), 5.0);
   EXPECT_EQ(file.common().output.checkpoint_every, 50);

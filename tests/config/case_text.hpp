@@ -8,16 +8,9 @@
 
 #include "common/base/error.hpp"
 #include "common/config/case_file.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace tether {
-
-/// A folder of its own for a test's files.
-inline std::filesystem::path test_folder() {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::temp_directory_path() / "tether_tests" / test->test_suite_name() / test->name();
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 inline std::filesystem::path write_file(const std::string& name, const std::string& text) {
   const auto path = test_folder() / name;

@@ -45,7 +45,6 @@ struct Blood {
 class CaseTree : public ::testing::Test {
  protected:
   void SetUp() override {
-    fs::remove_all(test_folder());
     for (const char* folder : {"base", "over"}) fs::create_directories(test_folder() / folder);
     for (const char* file : {"base/flow.csv", "over/other.csv"}) write_file(file, "t\n");
     write_file("base/case.yaml",

@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 class InputFiles : public ::testing::Test {
  protected:
   InputFiles() {
-    fs::remove_all(test_folder());
     for (const char* folder : {"data", "mesh", "mesh/surfaces"}) fs::create_directories(test_folder() / folder);
   }
   /// The hash of the path before and after a file is written.

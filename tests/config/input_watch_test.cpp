@@ -10,7 +10,6 @@ namespace fs = std::filesystem;
 class WatchedInputs : public ::testing::Test {
  protected:
   WatchedInputs() {
-    fs::remove_all(test_folder());
     fs::create_directories(test_folder() / "mesh/surfaces");
     write_file("base.yaml", "name: base\nfluid: {flow: flow.csv}\nmesh: {fluid: mesh}\n");
     write_file("case.yaml", "base: base.yaml\nobservations: {surfaces: {file: list.csv}}\n");

@@ -19,10 +19,7 @@ std::string claim(const std::string& name, bool overwrite = false, const std::st
   return input_error_of([&] { claim_and_mark_output(command, CaseFile(path)); });
 }
 
-class OutputFolder : public ::testing::Test {
- protected:
-  void SetUp() override { std::filesystem::remove_all(test_folder()); }
-};
+class OutputFolder : public ::testing::Test {};
 
 TEST_F(OutputFolder, IsMadeAndMayBeUsedAgainByTheSameCase) {
   EXPECT_EQ(claim("tube"), "no error");
@@ -133,7 +130,7 @@ TEST_F(OutputFolder, IsNotTouchedWhereItIsRefused) {
 /// To open a pipe that nobody writes to would wait without end.
 TEST_F(OutputFolder, IsRefusedWhereAPipeStandsForAFile) {
   for (const char* name : {"case_as_run.yaml", "timeseries.csv"}) {
-    std::filesystem::remove_all(test_folder());
+    std::filesystem::remove_all(test_folder() / "results");
     EXPECT_EQ(claim("tube"), "no error");
     std::filesystem::remove(test_folder() / "results" / name);
     ASSERT_EQ(mkfifo((test_folder() / "results" / name).c_str(), 0600), 0);
@@ -230,7 +227,6 @@ TEST_F(OutputFolder, IsNotWhereACaseReadsFrom) {
 class MadeFolder : public OutputFolder {
  protected:
   void SetUp() override {
-    OutputFolder::SetUp();
     write_file("ct.stl", "a surface");
     study_ = write_file("study.yaml", "name: arch\nsurface: {file: ct.stl}\n");
   }

@@ -82,8 +82,8 @@ TEST(Verdict, SaysHowLargeAnOffsetWouldHaveBeenSeen) {
   ASSERT_EQ(verdict.visible.size(), 2U);
   EXPECT_NEAR(verdict.visible[0].second, (verdict.limit + 1.644854) * 0.03 / 2, 1e-6);
   EXPECT_EQ(sentences(source),
-            std::vector<std::string>{"ct: all 10 regions and frames are within the noise; a region's offset of 0.7 to "
-                                     "0.7 mm in one frame would have been seen"});
+            std::vector<std::string>{"ct: in all 10 pairs of region and frame the model is within the noise; a "
+                                     "region's offset of 0.7 to 0.7 mm in one frame would have been seen"});
 }
 
 /// Whichever source it is of, and if held-out frames alone show it.

@@ -98,15 +98,30 @@ TEST_F(Tangent, IsTheDerivativeOfEvaluations) {
   EXPECT_NEAR(coarse / fine, 100, 10);  // central differences: order 2
 }
 
-TEST_F(Tangent, IsSymmetricAndNegativeSemiDefiniteAtRest) {
-  const Points none = 0 * random(0);
+/// The largest |a.T b - b.T a| / (|a| |T b|) of random a and b, of the tangent T of a step dt in which the wall rests.
+double asymmetry(double dt) {
+  FluidSolver solver(tube(1, 2, 12, 6), beating());
+  beat(solver, 0, 2);
+  const Points none = zero_on_sigma(solver);
+  solver.begin_step(0.02, dt, none);
   solver.evaluate(none, none);
+  double largest = 0;
   for (unsigned seed = 0; seed < 5; ++seed) {
-    const Points a = random(2 * seed), b = random(2 * seed + 1);
+    const Points a = random_points(none.cols(), 1, 2 * seed), b = random_points(none.cols(), 1, 2 * seed + 1);
     const Points Ta = solver.tangent(a), Tb = solver.tangent(b);
-    EXPECT_NEAR(a.cwiseProduct(Tb).sum(), b.cwiseProduct(Ta).sum(), 2e-2 * a.norm() * Tb.norm());
     EXPECT_LT(a.cwiseProduct(Ta).sum(), 0);
+    const double difference = a.cwiseProduct(Tb).sum() - b.cwiseProduct(Ta).sum();
+    largest = std::max(largest, std::abs(difference) / (a.norm() * Tb.norm()));
   }
+  return largest;
+}
+
+/// What is not symmetric is what the motion of Sigma does to flux and force.
+TEST(TangentAtRest, IsNegativeAndSymmetricToFirstOrderInTheStep) {
+  EXPECT_LT(asymmetry(1e-2), 2e-3);  // 6.5e-4 when this was written
+  const double coarse = asymmetry(2e-3), fine = asymmetry(1e-3);
+  report("asymmetry of the tangent", coarse, fine);
+  EXPECT_NEAR(order(coarse, fine), 1, 0.3);
 }
 
 TEST(Parameters, AreSetByNameAndMatter) {

@@ -44,8 +44,34 @@ TEST(Windkessel, StiffOnesStayStableAtAnyStep) {
   EXPECT_NEAR(observed(solver, "outlet.windkessel_pressure"), 1e7 * (1 - std::pow(1 + 1e-4 / 1e-2, -200)), 1);
 }
 
-/// Two outlets share the flow as the inverse of their resistances; a pressure inlet drives what the resistances let
-/// through.
+/// A box whose top is an outlet on the left, one on the right, and a strip of wall between them.
+FluidMesh box_with_two_outlets() {
+  FluidMesh mesh = box_vessel({1, 1, 1}, {5, 4, 4});
+  const std::vector<Triangle> top = mesh.outlets.front().triangles;
+  mesh.outlets = {{"left", {}}, {"right", {}}};
+  for (const Triangle& t : top) {
+    const double x = (mesh.points.col(t[0]) + mesh.points.col(t[1]) + mesh.points.col(t[2])).x() / 3;
+    (x < 0.4 ? mesh.outlets[0].triangles : x > 0.6 ? mesh.outlets[1].triangles : mesh.interface).push_back(t);
+  }
+  return mesh;
+}
+
+/// Where the resistances are large against the vessel's own, outlets share the flow as their inverses.
+TEST(Openings, OutletsShareTheFlowAsTheirResistancesSay) {
+  FluidSettings chosen = settings(1.06, 0.04);
+  chosen.outlets.clear();
+  chosen.outlets["left"].effect = {"resistance", {{"resistance", 1e4}}};
+  chosen.outlets["right"].effect = {"resistance", {{"resistance", 3e4}}};
+  FluidSolver solver(box_with_two_outlets(), chosen);
+  run_rigid(solver, 0.1, 50);
+  const double left = observed(solver, "left.flow"), right = observed(solver, "right.flow");
+  EXPECT_NEAR(left + right, 1, 1e-11);
+  EXPECT_NEAR(left / right, 3, 3e-3);
+  EXPECT_NEAR(observed(solver, "left.pressure"), 1e4 * left, 1e-7);
+  EXPECT_NEAR(observed(solver, "right.pressure"), 3e4 * right, 1e-7);
+}
+
+/// A pressure inlet drives what the resistance lets through.
 TEST(Openings, PressureDrivesFlowThroughAResistance) {
   FluidSettings chosen = settings(1.06, 0.04);
   chosen.inlets["inlet"] = {{"pressure", {{"offset", 60}, {"scale", 2}}}, Curve::constant(20)};

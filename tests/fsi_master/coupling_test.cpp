@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "common/base/effect.hpp"
 #include "fsi_master/convergence.hpp"
 #include "fsi_master/extrapolation.hpp"
@@ -299,6 +301,7 @@ TEST(Extrapolation, TakesLessOfAChangeThatRings) {
 
 /// Changes that repeat themselves, ring, or do both at once, are foreseen from two of them.
 TEST(Extrapolation, ForeseesTwoModes) {
+  std::srand(7);
   const VectorXd slow = VectorXd::Random(12), ringing = VectorXd::Random(12);
   const auto change = [&](int k) -> VectorXd { return std::pow(0.95, k) * slow + std::pow(-0.9, k) * ringing; };
   Extrapolation extrapolation;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/io/temporary_folder.hpp"
 #include "tests/study/bent_tube.hpp"
 #include "vessel/image/image_file.hpp"
 #include "vessel/study/build_surface.hpp"
@@ -33,11 +34,7 @@ ImageVolume tube_image(const Vec3& spacing = Vec3::Constant(0.15), const Mat3& a
 }
 
 struct Folder {
-  fs::path path;
-  explicit Folder(const std::string& name) : path(fs::path(::testing::TempDir()) / ("image_" + name)) {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
+  const fs::path path = test_folder();
   /// A study of an image; line 2 is the section `image`.
   StudyCase study(const std::string& image, const std::string& in = "[4, 0, 0]",
                   const std::string& out = "[-2, 3.46, 0]") const {
@@ -72,7 +69,7 @@ struct Wrong {
 class WrongStudy : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongStudy, IsToldInOneMessageWithItsLine) {
-  const Folder folder(GetParam().name);
+  const Folder folder;
   write_image(folder.path / "grey.mha", tube_image());
   ImageVolume labels = tube_image();
   for (float& value : labels.values) value = value > 200 ? 3 : value > 60 ? 7 : 0;
@@ -149,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(BadImage, WrongStudy, ::testing::ValuesIn(wrong),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
-  const Folder folder("files");
+  const Folder folder;
   const auto refusal = [&](const std::string& file) {
     return folder.refusal("file: " + file + ", threshold: {above: 1}");
   };
@@ -190,7 +187,7 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
 
 /// ITK writes past its arrays, takes the memory or aborts.
 TEST(BadImage, HeadersThatStateTooMuchAreRefused) {
-  const Folder folder("headers");
+  const Folder folder;
   const auto refusal_of_meta = [&](const std::string& header) {
     folder.text("a.mha", header + "ElementType = MET_UCHAR\n", std::string(27, '\2'));
     return folder.refusal("file: a.mha, threshold: {above: 1}");
@@ -236,7 +233,7 @@ TEST(BadImage, HeadersThatStateTooMuchAreRefused) {
 
 /// MetaIO makes a mirrored image of them, or tells a false cause in five lines; ITK one that names its own sources.
 TEST(BadImage, PlacesAndSpacingsThatNoImageHasAreRefused) {
-  const Folder folder("geometry");
+  const Folder folder;
   const auto meta = [&](const std::string& field) {
     folder.text("a.mha", "NDims = 3\nDimSize = 3 3 3\n" + field + "\nElementType = MET_UCHAR\n", std::string(27, '\2'));
     return folder.refusal("file: a.mha, threshold: {above: 1}");
@@ -279,7 +276,7 @@ TEST(BadImage, PlacesAndSpacingsThatNoImageHasAreRefused) {
 
 /// ITK takes them for millimetres: a vessel ten times too large, or one whose spacing is right and whose place is not.
 TEST(BadImage, UnitsOtherThanMillimetresAreRefused) {
-  const Folder folder("units");
+  const Folder folder;
   const auto refusal = [&](const std::string& file) {
     return folder.refusal("file: " + file + ", threshold: {above: 1}");
   };
@@ -310,7 +307,7 @@ TEST(BadImage, UnitsOtherThanMillimetresAreRefused) {
 }
 
 TEST(BadImage, NiftisOfOtherUnitsOrTwoSpacingsAreRefused) {
-  const Folder folder("nifti");
+  const Folder folder;
   const auto refusal = [&](auto place, auto value) {
     write_image(folder.path / "a.nii", tube_image());
     std::fstream nifti(folder.path / "a.nii", std::ios::in | std::ios::out | std::ios::binary);
@@ -334,7 +331,7 @@ TEST(BadImage, NiftisOfOtherUnitsOrTwoSpacingsAreRefused) {
 
 /// A header that states a slice less than there is.
 TEST(BadImage, VoxelsBehindThoseThatTheHeaderStatesAreRefused) {
-  const Folder folder("more");
+  const Folder folder;
   const auto refusal = [&](const std::string& file) {
     return folder.refusal("file: " + file + ", threshold: {above: 1}");
   };
@@ -363,7 +360,7 @@ TEST(BadImage, VoxelsBehindThoseThatTheHeaderStatesAreRefused) {
 
 /// Voxels as text: each is a number.
 TEST(BadImage, AsManyNumbersAsVoxelsAreAskedFor) {
-  const Folder folder("text");
+  const Folder folder;
   const auto refusal = [&](const std::string& file) {
     return folder.refusal("file: " + file + ", threshold: {above: 1}");
   };
@@ -384,7 +381,7 @@ TEST(BadImage, AsManyNumbersAsVoxelsAreAskedFor) {
 
 /// A compressed file that ends early, of each kind.
 TEST(BadImage, ATruncatedFileIsRefused) {
-  const Folder folder("truncated");
+  const Folder folder;
   for (const char* file : {"cut.mha", "cut.nrrd", "cut.nii.gz", "cut.nii"}) {
     write_image(folder.path / file, tube_image());
     fs::resize_file(folder.path / file, fs::file_size(folder.path / file) / 2);
@@ -397,7 +394,7 @@ TEST(BadImage, ATruncatedFileIsRefused) {
 
 /// One byte in the middle of the compressed voxels is another.
 TEST(BadImage, DamagedVoxelsAreRefused) {
-  const Folder folder("damaged");
+  const Folder folder;
   for (const char* file : {"hurt.mha", "hurt.nrrd", "hurt.nii.gz"}) {
     write_image(folder.path / file, tube_image());
     std::fstream bytes(folder.path / file, std::ios::binary | std::ios::in | std::ios::out);
@@ -414,7 +411,7 @@ TEST(BadImage, DamagedVoxelsAreRefused) {
 }
 
 TEST(BadImage, ValuesThatAreNotFiniteAreRefused) {
-  const Folder folder("not_finite");
+  const Folder folder;
   ImageVolume image = tube_image();
   image.values[image.at(3, 2, 1)] = image.values[image.at(4, 4, 4)] = std::numeric_limits<float>::quiet_NaN();
   write_image(folder.path / "nan.mha", image);
@@ -422,7 +419,7 @@ TEST(BadImage, ValuesThatAreNotFiniteAreRefused) {
 }
 
 TEST(OddImage, ObliqueAndLeftHandedAxesGiveTheSameLumenInThePatientsCoordinates) {
-  const Folder folder("oblique");
+  const Folder folder;
   Mat3 turned = (Eigen::AngleAxisd(0.5, Vec3(1, 2, 3).normalized())).toRotationMatrix();
   Mat3 mirrored = Mat3::Identity();
   mirrored(2, 2) = -1;
@@ -443,7 +440,7 @@ TEST(OddImage, ObliqueAndLeftHandedAxesGiveTheSameLumenInThePatientsCoordinates)
 }
 
 TEST(OddImage, MixedSpacingWorksAndIsNoted) {
-  const Folder folder("mixed");
+  const Folder folder;
   write_image(folder.path / "tube.mha", tube_image({0.08, 0.1, 0.3}));
   const BuiltSurface built = build_surface(folder.study("file: tube.mha, threshold: {above: 200}"));
   EXPECT_NEAR(built.summary.surface.volume, tube_volume(), 0.03 * tube_volume());
@@ -462,7 +459,7 @@ ImageVolume with_room(double grey = 350) {
 }
 
 TEST(OddImage, ALeakIsToldWithItsPlaceAndMendedByAStop) {
-  const Folder folder("leak");
+  const Folder folder;
   write_image(folder.path / "tube.mha", with_room());
   for (const std::string method : {"threshold: {above: 200}"}) {
     const std::string image = "file: tube.mha, seeds: {middle: [2, 3.46, 0]}, " + method;
@@ -478,7 +475,7 @@ TEST(OddImage, ALeakIsToldWithItsPlaceAndMendedByAStop) {
 }
 
 TEST(OddImage, WhatDoesNotHangTogetherWithASeedIsLeftOut) {
-  const Folder folder("parts");
+  const Folder folder;
   ImageVolume image = tube_image();
   for (int k = 0; k < 20; ++k)  // a bone
     for (int j = 0; j < 12; ++j)

@@ -50,4 +50,6 @@ class Installed(unittest.TestCase):
         run([tether, "simulate", "small.yaml", "--quiet"], self.work)
         self.assertGreater((self.work / "out/small/summary.json").stat().st_size, 0)
         self.assertEqual(len((self.work / "out/small/timeseries.csv").read_text().splitlines()), 3)
+        for plot in ("pressures.png", "wall.png"):  # by gnuplot, by tether_picture
+            self.assertGreater((self.work / "out/small/plots" / plot).stat().st_size, 0)
         self.assertEqual(state_of(prefix), before)

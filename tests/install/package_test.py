@@ -10,6 +10,8 @@ HOLDS = """./usr/bin/tether -> ../libexec/tether/tether
 ./usr/libexec/tether/fsi_master
 ./usr/libexec/tether/identification_master
 ./usr/libexec/tether/observation_manager
+./usr/libexec/tether/tether_picture
+./usr/libexec/tether/tether_conform
 ./usr/include/tether.h
 ./usr/lib/libtether_client.so
 ./usr/lib/cmake/Tether/TetherConfig.cmake

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <list>
 #include <string>
 
 namespace tether {
@@ -14,9 +16,10 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string("tether_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(getpid()) +
-             "_" + std::to_string(++count_));
+    std::string name = std::string("tether_") + test->test_suite_name() + "_" + test->name() + "_" +
+                       std::to_string(getpid()) + "_" + std::to_string(++count_);
+    std::replace(name.begin(), name.end(), '/', '_');  // of a test with parameters: one folder, all of which goes away
+    path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
@@ -35,6 +38,25 @@ class TemporaryFolder {
   std::filesystem::path path_;
   static inline int count_ = 0;
 };
+
+/// The folder of the test that runs, for functions beside it. It goes away with the program, not with the test: a
+/// program holds its output folder to its end (hold_output).
+inline const std::filesystem::path& test_folder() {
+  class OfTheTests : public ::testing::EmptyTestEventListener {
+   public:
+    void OnTestEnd(const ::testing::TestInfo&) override { is_for_this_test = false; }
+    std::list<TemporaryFolder> folders;
+    bool is_for_this_test = false;
+  };
+  static OfTheTests* const made = [] {
+    auto* const listener = new OfTheTests;  // listeners() owns it
+    ::testing::UnitTest::GetInstance()->listeners().Append(listener);
+    return listener;
+  }();
+  if (!made->is_for_this_test) made->folders.emplace_back();
+  made->is_for_this_test = true;
+  return made->folders.back().path();
+}
 
 /// What the call's exception says; "accepted" if there is none.
 template <class Call>

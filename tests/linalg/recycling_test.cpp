@@ -63,6 +63,7 @@ TEST(Recycling, LeavesOneWhereTheOutlyingDirectionsWereSeen) {
 }
 
 TEST(Recycling, DropsDirectionsThatAreOfNoUse) {
+  std::srand(7);
   const MatrixXd Q = MatrixXd(random_matrix(size, 4).householderQr().householderQ()).leftCols(4);
   const MatrixXd H = MatrixXd::Identity(size, size) + Q * VectorXd::LinSpaced(4, 9, 3).asDiagonal() *
                                                           Q.transpose();  // 56 directions are left as they are

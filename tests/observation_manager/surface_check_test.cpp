@@ -158,7 +158,7 @@ TEST(SurfaceCheck, KeepsTheLargestPieceAlways) {
   TriangleSurface loose = loosened(sphere(4));
   for (Eigen::Index i = 0; i < loose.points.cols(); ++i) loose.points.col(i) *= 1 + 1e-9 * static_cast<double>(i);
   EXPECT_EQ(fault_of(loose),
-            "a.stl: falls into 192 separate pieces, the largest with 0.63 % of the area: must be one surface. Are the "
+            "a.stl: falls into 192 separate pieces, the largest with 1 % of the area: must be one surface. Are the "
             "corners of neighbouring triangles at slightly different points? Then merge them");
 }
 

@@ -15,9 +15,13 @@ const Environment python_path{{"PYTHONPATH", std::string(TETHER_SOURCE) + "/tool
                               {"TETHER_CLIENT", product_program("../lib/libtether_client.so")},
                               {"PYTHONDONTWRITEBYTECODE", "1"}};
 
+/// What a run of three steps tells of them.
 std::string steps_of(const JobResult& job) {
+  EXPECT_EQ(job.exit_code, 0) << job.errors;
   const auto start = job.output.find("step 0");
-  return start == std::string::npos ? job.output + job.errors : job.output.substr(start);
+  EXPECT_NE(start, std::string::npos) << job.output;
+  EXPECT_NE(job.output.find("step 2"), std::string::npos) << job.output;
+  return start == std::string::npos ? "" : job.output.substr(start);
 }
 
 std::string example(const std::string& name) {

@@ -7,6 +7,7 @@
 #include "common/base/csv.hpp"
 #include "common/base/error.hpp"
 #include "common/io/record_file.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "vessel/study/surface_summary.hpp"
 
@@ -15,19 +16,13 @@ namespace aortic_arch_scan_test {
 
 namespace fs = std::filesystem;
 
-fs::path folder() {
-  const fs::path path = fs::path(::testing::TempDir()) / "aortic_arch_scan";
-  fs::remove_all(path);
-  return path;
-}
-
 ChildEnd told(std::vector<std::string> words) {
   words.insert(words.begin(), TETHER_PROGRAM);
   return capture({std::move(words), {}});
 }
 
 TEST(AorticArchScan, RunsFromItsVoxels) {
-  const fs::path here = folder(), model = here / "model";
+  const fs::path here = test_folder(), model = here / "model";
   const fs::path study = case_variant(TETHER_SOURCE "/configs/aortic_arch_scan/study.yaml", here / "study",
                                       {{"longest: 4 mm", "longest: 5 mm"}});
   const ChildEnd built = told({"build-model", study.string(), "--output", model.string()});
@@ -48,6 +43,7 @@ TEST(AorticArchScan, RunsFromItsVoxels) {
       told({"simulate", (model / "model/case.yaml").string(), "--output", (here / "run").string(), "--steps", "5"});
   ASSERT_EQ(ran.exit_code, exit_done) << ran.errors << ran.output;
   const CsvTable series(here / "run/timeseries.csv", TableOf::tether);
+  ASSERT_EQ(series.rows(), 5U);
   for (const double error : series.numbers("fluid.mass_balance_error")) EXPECT_LT(std::abs(error), 1e-9) << "cm3/s";
   for (const double jacobian : series.numbers("fluid.smallest_jacobian")) EXPECT_GT(jacobian, 0.5);
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "common/base/child_process.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 namespace {
@@ -96,7 +97,7 @@ std::string spoilt(const std::string& text, const Mistake& mistake, In where) {
 
 /// The case and its curve in a folder of their own, with the mistake.
 fs::path written(const Mistake& mistake) {
-  const fs::path folder = fs::temp_directory_path() / "tether_tests" / "bad_input" / mistake.name;
+  const fs::path folder = test_folder() / mistake.name;
   fs::create_directories(folder);
   std::string text = spoilt(valid_case, mistake, In::the_case);
   if (mistake.where == In::mesh_in_files)

@@ -130,7 +130,8 @@ TEST_F(Compare, FindsWhatWasDoneToTheDataAndKeepsTheRun) {
   EXPECT_NEAR(json["traces"][0]["l2"], higher, 1e-3);
 
   EXPECT_NE(end.output.find("0.004-0.016 s: the model lies 0.48 mm too far inward"), std::string::npos) << end.output;
-  EXPECT_NE(end.output.find("ct, held-out frames: all 4 regions and frames are within the noise"), std::string::npos);
+  EXPECT_NE(end.output.find("ct, held-out frames: in all 4 pairs of region and frame the model is within the noise"),
+            std::string::npos);
   EXPECT_NE(end.output.find("ct: 1 of 5 frames are outside the run"), std::string::npos);
   EXPECT_NE(end.output.find("cuff: fluid.outlet.pressure is 0.75 mmHg too low on average"), std::string::npos);
   EXPECT_NE(end.output.find("beside an open rim"), std::string::npos) << "the surfaces end where the model does";

@@ -1,15 +1,12 @@
 #include <fmt/format.h>
 
-#include <csignal>
-#include <future>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <thread>
 
 #include "common/base/child_process.hpp"
+#include "tests/faults/fault.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
-#include "tests/scenarios/processes.hpp"
 
 /// `tether simulate` with the real programs on a coarse configs/tube: stopped or killed, then resumed, it leaves the
 /// same files as a run that was never interrupted, byte for byte.
@@ -40,24 +37,12 @@ class ResumedRun : public ::testing::Test {
     if (method != "observed") return "coupling: {method: " + method + ", ";
     return "observer: {gain: 60}\nobservations: {contours: {ring: {file: ring.csv}}}\ncoupling: {";
   }
-  ChildEnd simulate(const std::string& output, int steps, const std::vector<std::string>& options = {}) const {
+  ChildEnd simulate(const std::string& output, int steps, const std::vector<std::string>& options = {},
+                    std::vector<std::pair<std::string, std::string>> environment = {}) const {
     std::vector<std::string> words{TETHER_PROGRAM,  "simulate", case_file.string(),    "--output",
                                    folder / output, "--steps",  std::to_string(steps), "--quiet"};
     words.insert(words.end(), options.begin(), options.end());
-    return capture({words, {}});
-  }
-  /// Runs until the table has `rows` rows, then kills a partner. Returns how the run ended.
-  ChildEnd simulate_and_kill(const std::string& program, const std::string& output, std::size_t rows) const {
-    auto end = std::async(std::launch::async, [&] { return simulate(output, 10000); });
-    while (rows_of(output) < rows && end.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) continue;
-    if (const pid_t process = process_of(program, case_file)) kill(process, SIGKILL);
-    return end.get();
-  }
-  std::size_t rows_of(const std::string& output) const {
-    std::ifstream table(folder / output / "timeseries.csv");
-    std::size_t lines = 0;
-    for (std::string line; std::getline(table, line);) ++lines;
-    return lines > 0 ? lines - 1 : 0;
+    return capture({words, std::move(environment)});
   }
   nlohmann::json summary(const std::string& output) const {
     return nlohmann::json::parse(content_of(folder / output / "summary.json"));
@@ -93,11 +78,12 @@ TEST_P(Resume, LeavesTheFilesOfARunThatWasNotInterrupted) {
   EXPECT_EQ(summary("stopped")["resumed_at_step"], 6);
   expect_same_results("whole", "stopped");
 
-  const ChildEnd killed = simulate_and_kill("solid", "killed", 6);
+  const ChildEnd killed =
+      simulate("killed", all_steps, {}, with_fault("solid:open:vtk/solid_000009:1:KILL", folder / "killed"));
   EXPECT_EQ(killed.exit_code, 1);
   EXPECT_NE(killed.errors.find("solid (pid"), std::string::npos) << killed.errors;
   ASSERT_EQ(simulate("killed", all_steps, {"--resume"}).exit_code, 0);
-  EXPECT_GE(summary("killed")["resumed_at_step"], 4);
+  EXPECT_EQ(summary("killed")["resumed_at_step"], 8);
   expect_same_results("whole", "killed");
 }
 

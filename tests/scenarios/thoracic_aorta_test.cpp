@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "common/base/child_process.hpp"
@@ -9,6 +10,7 @@
 #include "common/base/error.hpp"
 #include "common/io/lumen_motion.hpp"
 #include "solid/motion_case.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "vessel/mesh_file.hpp"
 
@@ -19,19 +21,10 @@ namespace fs = std::filesystem;
 
 const std::string configs = TETHER_SOURCE "/configs/thoracic_aorta/", data = TETHER_SOURCE "/data/";
 
-fs::path folder() {
-  static const fs::path made = [] {
-    fs::path path = fs::path(::testing::TempDir()) / "thoracic_aorta";
-    fs::remove_all(path);
-    return path;
-  }();
-  return made;
-}
-
 /// A file of the config, at another size and with what it builds on in this test's folder.
 fs::path own(const std::string& name, Edits edits) {
   if (name != "outlets.yaml") edits.emplace_back("../../", TETHER_SOURCE "/");
-  return case_variant(configs + name, folder() / fs::path(name).stem(), edits);
+  return case_variant(configs + name, test_folder() / fs::path(name).stem(), edits);
 }
 
 void make(const std::string& verb, const fs::path& file, const fs::path& output) {
@@ -41,7 +34,7 @@ void make(const std::string& verb, const fs::path& file, const fs::path& output)
 
 /// Nodes of the lumen's inlet face that lie on the wall, as imaged.
 Points inlet_rim(const Points& lumen) {
-  const MeshFile faces = read_mesh_file(folder() / "model/model/lumen_faces.vtu");
+  const MeshFile faces = read_mesh_file(test_folder() / "model/model/lumen_faces.vtu");
   const auto& labels = faces.triangle_labels.at("ModelFaceID");
   std::vector<Vec3> rim;
   for (std::size_t t = 0; t < labels.size(); ++t) {
@@ -63,7 +56,7 @@ RigidMotion motion_of_the_case() {
   given.x = "x_mm", given.y = "y_mm", given.z = "z_mm";
   given.period = 0.8955, given.harmonics = 3;
   given.placement = {{0.8616, 0.4140, -0.2937}, {-0.2574, 0.8551, 0.4501}};
-  const MeshFile faces = read_mesh_file(folder() / "model/model/wall_faces.vtu");
+  const MeshFile faces = read_mesh_file(test_folder() / "model/model/wall_faces.vtu");
   const auto& labels = faces.triangle_labels.at("ModelFaceID");
   const std::int64_t last_region = 7;  // the interface is 0, six regions follow, then the rings
   Patch ring;
@@ -73,21 +66,32 @@ RigidMotion motion_of_the_case() {
 }
 
 TEST(ThoracicAorta, ComesFromItsSurfaceAndIsPulledByTheHeart) {
-  make("build-model", own("study.yaml", {}), folder() / "model");
-  make("fit-outlets", own("outlets.yaml", {{"../../out/thoracic_aorta/model", (folder() / "model/model").string()}}),
-       folder() / "fitted");
+  make("build-model", own("study.yaml", {}), test_folder() / "model");
+  make("fit-outlets",
+       own("outlets.yaml", {{"../../out/thoracic_aorta/model", (test_folder() / "model/model").string()}}),
+       test_folder() / "fitted");
   make("simulate",
        own("beat.yaml",
-           {{"../../out/thoracic_aorta_outlets", (folder() / "fitted").string()}, {"end: 0.8955", "end: 0.02"}}),
-       folder() / "run");
+           {{"../../out/thoracic_aorta_outlets", (test_folder() / "fitted").string()}, {"end: 0.8955", "end: 0.02"}}),
+       test_folder() / "run");
 
-  const CsvTable series(folder() / "run/timeseries.csv", TableOf::tether);
+  const CsvTable series(test_folder() / "run/timeseries.csv", TableOf::tether);
+  ASSERT_EQ(series.rows(), 10U);
   for (const double error : series.numbers("fluid.mass_balance_error")) EXPECT_LT(std::abs(error), 1e-9) << "cm3/s";
   for (const double jacobian : series.numbers("fluid.smallest_jacobian")) EXPECT_GT(jacobian, 0.9);
+  const std::map<std::string, double> shares{
+      {"brachiocephalic", 0.15}, {"left_carotid", 0.05}, {"left_subclavian", 0.10}, {"descending", 0.70}};
+  const auto first_flow = [&](const std::string& outlet) {
+    return series.numbers("fluid." + outlet + ".flow").front();
+  };
+  double outflow = 0;
+  for (const auto& [outlet, share] : shares) outflow += first_flow(outlet);
+  for (const auto& [outlet, share] : shares)
+    EXPECT_NEAR(first_flow(outlet) / outflow, share, 0.1) << outlet << ": as asked of a beat's mean";
   const double start = series.numbers("fluid.ascending.pressure").front() / 1333.22;
   EXPECT_NEAR(start, 0, 5) << "mmHg above the image: the outlets begin in their beat";
 
-  const LumenMotion lumen(folder() / "run/lumen.motion");
+  const LumenMotion lumen(test_folder() / "run/lumen.motion");
   const Points rim = inlet_rim(lumen.imaged());
   ASSERT_GT(rim.cols(), 20);
   const RigidMotion motion = motion_of_the_case();

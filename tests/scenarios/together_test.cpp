@@ -50,6 +50,19 @@ class Together : public ::testing::Test {
     }
     return rows;
   }
+  /// Of all steps, each number to 1e-7 of the largest of its column.
+  void expect_same_table(const std::string& one, const std::string& other) const {
+    const auto expected = table(one), found = table(other);
+    ASSERT_EQ(expected.size(), static_cast<std::size_t>(steps));
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t column = 0; column < expected.front().size(); ++column) {
+      double largest = 0;
+      for (const auto& row : expected) largest = std::max(largest, std::abs(row[column]));
+      for (std::size_t row = 0; row < expected.size(); ++row)
+        EXPECT_NEAR(found[row].at(column), expected[row][column], 1e-7 * std::max(largest, 1e-3))
+            << row << ", " << column;
+    }
+  }
   TemporaryFolder folder;
 };
 
@@ -59,15 +72,7 @@ TEST_F(Together, ItIsTheSameRun) {
     const ChildEnd end = simulate(name, name, steps);
     ASSERT_EQ(end.exit_code, 0) << end.errors;
   }
-  const auto apart = table("apart"), together = table("together");
-  ASSERT_EQ(apart.size(), static_cast<std::size_t>(steps));
-  ASSERT_EQ(together.size(), apart.size());
-  for (std::size_t column = 0; column < apart.front().size(); ++column) {
-    double largest = 0;
-    for (const auto& row : apart) largest = std::max(largest, std::abs(row[column]));
-    for (std::size_t row = 0; row < apart.size(); ++row)
-      EXPECT_NEAR(together[row][column], apart[row][column], 1e-7 * std::max(largest, 1e-3)) << row << ", " << column;
-  }
+  expect_same_table("apart", "together");
 }
 
 TEST_F(Together, ItsCostIsToldByCode) {
@@ -91,7 +96,8 @@ TEST_F(Together, GoesOnFromWhatWasSavedApart) {
   const ChildEnd on = simulate("together", "out", steps, {"--resume"});
   ASSERT_EQ(on.exit_code, 0) << on.errors;
   EXPECT_EQ(summary("out")["resumed_at_step"], saved_at);
-  EXPECT_EQ(table("out").size(), static_cast<std::size_t>(steps));
+  ASSERT_EQ(simulate("apart", "whole", steps).exit_code, 0);
+  expect_same_table("whole", "out");
 }
 
 TEST_F(Together, SaysWhatIsWrongAsACodeOfItsOwnWould) {

@@ -5,12 +5,12 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <future>
 #include <thread>
 
 #include "common/base/child_process.hpp"
+#include "tests/faults/fault.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "tests/study/bent_tube.hpp"
@@ -20,14 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A library before all others but those that are there already (a sanitizer's tests have one).
-std::string preloaded(const std::string& library) {
-  const char* before = std::getenv("LD_PRELOAD");
-  return before == nullptr ? library : library + ":" + before;
-}
-
 struct Unwritable {
   const char *name, *fault, *message;
+  bool is_saved;  ///< a state, from which the run goes on
 };
 
 void PrintTo(const Unwritable& one, std::ostream* out) {
@@ -57,16 +52,13 @@ class UnwritableFile : public ::testing::TestWithParam<Unwritable> {
 
 TEST_P(UnwritableFile, IsToldAndNothingIsLost) {
   const fs::path output = folder_ / "out";
-  const ChildEnd end = simulate("out", "--overwrite",
-                                {{"LD_PRELOAD", preloaded(TETHER_FAULTS)},
-                                 {"TETHER_FAULT_ROOT", output.string()},
-                                 {"TETHER_FAULT", GetParam().fault}});
+  const ChildEnd end = simulate("out", "--overwrite", with_fault(GetParam().fault, output));
   EXPECT_EQ(end.exit_code, 1);
   EXPECT_NE(end.errors.find(GetParam().message), std::string::npos) << end.errors;
   EXPECT_LE(std::count(end.errors.begin(), end.errors.end(), '\n'), 3) << end.errors;
 
-  const bool is_saved = fs::exists(output / "checkpoint");
-  const ChildEnd again = simulate("out", is_saved ? "--resume" : "--overwrite", {});
+  EXPECT_EQ(fs::exists(output / "checkpoint"), GetParam().is_saved);
+  const ChildEnd again = simulate("out", GetParam().is_saved ? "--resume" : "--overwrite", {});
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   ASSERT_EQ(simulate("whole", "--overwrite", {}).exit_code, 0);
   for (const char* name : {"timeseries.csv", "lumen.motion", "fluid.pvd", "vtk/solid_000012.vtu"})
@@ -76,13 +68,13 @@ TEST_P(UnwritableFile, IsToldAndNothingIsLost) {
 INSTANTIATE_TEST_SUITE_P(
     Some, UnwritableFile,
     ::testing::Values(Unwritable{"Motion", "fsi_master:write:lumen.motion:7:ENOSPC",
-                                 "lumen.motion: cannot be written: no space is left on its disk"},
+                                 "lumen.motion: cannot be written: no space is left on its disk", false},
                       Unwritable{"Checkpoint", "fsi_master:write:checkpoint.new/fluid.bin:2:EDQUOT",
-                                 "checkpoint.new/fluid.bin: cannot be written: Disk quota exceeded"},
-                      Unwritable{"Renaming", "fsi_master:rename:checkpoint:1:EIO", "Input/output error"},
-                      Unwritable{"OfAPartner", "solid:write:vtk/solid:4:ENOSPC", "vtk/solid"},
+                                 "checkpoint.new/fluid.bin: cannot be written: Disk quota exceeded", true},
+                      Unwritable{"Renaming", "fsi_master:rename:checkpoint:1:EIO", "Input/output error", false},
+                      Unwritable{"OfAPartner", "solid:write:vtk/solid_000006:1:ENOSPC", "vtk/solid", true},
                       Unwritable{"Summary", "fsi_master:open:summary.json:1:EACCES",
-                                 "summary.json: cannot be written: Permission denied"}),
+                                 "summary.json: cannot be written: Permission denied", true}),
     [](const auto& info) { return std::string(info.param.name); });
 
 /// A twin that is there stays whole until the next one is.
@@ -102,11 +94,10 @@ class UnwritableTwin : public ::testing::Test {
                                              "image: {{voxel: [0, 0, 0]}}, hidden: "
                                              "{{verdict: nothing_missing}}}}\n",
                                              frames));
+    auto environment = with_fault(fault, folder / "out");
+    environment.emplace_back("TETHER_FAULT_FLAG", (folder / "paused").string());
     return capture({{TETHER_PROGRAM, "twin", file.string(), "--output", (folder / "out").string(), "--quiet"},
-                    {{"LD_PRELOAD", preloaded(TETHER_FAULTS)},
-                     {"TETHER_FAULT_ROOT", (folder / "out").string()},
-                     {"TETHER_FAULT_FLAG", (folder / "paused").string()},
-                     {"TETHER_FAULT", fault}}});
+                    std::move(environment)});
   }
   const TemporaryFolder folder;
 };
@@ -162,9 +153,7 @@ class UnwritableMade : public ::testing::Test {
  protected:
   ChildEnd made(const char* verb, const fs::path& file, const std::string& fault) const {
     return capture({{TETHER_PROGRAM, verb, file.string(), "--output", (folder_ / "out").string()},
-                    {{"LD_PRELOAD", preloaded(TETHER_FAULTS)},
-                     {"TETHER_FAULT_ROOT", (folder_ / "out").string()},
-                     {"TETHER_FAULT", fault}}});
+                    with_fault(fault, folder_ / "out")});
   }
   std::string held(const std::vector<const char*>& names) const {
     std::string all;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tests/io/temporary_folder.hpp"
 #include "tests/study/bent_tube.hpp"
 #include "vessel/study/build_surface.hpp"
 
@@ -28,7 +29,7 @@ StudyCase study_of(const std::filesystem::path& file) {
 StudyCase spoilt(const std::string& name, const Spoil& spoil) {
   RawSurface surface = bent_tube();
   spoil(surface);
-  const auto file = std::filesystem::path(::testing::TempDir()) / (name + ".stl");
+  const auto file = test_folder() / (name + ".stl");
   testing::write_stl(file, surface);
   return study_of(file);
 }
@@ -265,10 +266,9 @@ TEST(BadSurface, AWrongUnitIsRefusedWithWhatWasMeasured) {
 
 TEST(BadSurface, FilesThatHoldNoSurfaceAreRefused) {
   bool placed = false;
-  const auto folder = std::filesystem::path(::testing::TempDir());
   const auto said = [&](const char* name, const std::string& content) {
-    std::ofstream(folder / name) << content;
-    return refusal(study_of(folder / name), placed);
+    std::ofstream(test_folder() / name) << content;
+    return refusal(study_of(test_folder() / name), placed);
   };
   EXPECT_NE(said("empty.stl", "").find("empty.stl"), std::string::npos);
   EXPECT_NE(said("no_triangle.stl", "solid s\nendsolid s\n").find("holds no triangle"), std::string::npos);

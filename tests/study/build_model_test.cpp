@@ -3,6 +3,7 @@
 #include "common/base/child_process.hpp"
 #include "common/base/error.hpp"
 #include "common/io/record_file.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/study/bent_tube.hpp"
 #include "vessel/study/study_case.hpp"
 #include "vessel/study/surface_summary.hpp"
@@ -12,11 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A study of a bent tube in a folder of its own; `more` is added to the file.
-fs::path study_in(const std::string& name, const std::string& more, const RawSurface& surface) {
-  const fs::path folder = fs::path(::testing::TempDir()) / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+/// The test's folder with a study of a surface; `more` is added to the file.
+fs::path study_with(const std::string& more, const RawSurface& surface) {
+  const fs::path& folder = test_folder();
   testing::write_stl(folder / "tube.stl", surface);
   std::ofstream(folder / "study.yaml") << "name: tube\nsurface: {file: tube.stl, unit: cm}\n"
                                           "openings:\n  in: {near: [4, 0, 0]}\n  out: {near: [-2, 3.46, 0]}\n"
@@ -31,7 +30,7 @@ ChildEnd built(const fs::path& folder) {
 }
 
 TEST(BuildModel, WritesSurfaceCentrelineAndSummary) {
-  const fs::path folder = study_in("good_study", "", testing::bent_tube());
+  const fs::path folder = study_with("", testing::bent_tube());
   const ChildEnd end = built(folder);
   ASSERT_EQ(end.exit_code, exit_done) << end.errors;
   const auto summary = read_record<SurfaceSummary>(folder / "out" / "surface.json");
@@ -43,7 +42,7 @@ TEST(BuildModel, WritesSurfaceCentrelineAndSummary) {
 
 /// From a surface to a mesh that `tether` takes, by one command.
 TEST(BuildModel, WritesAModelThatRuns) {
-  const fs::path folder = study_in("study_with_model", "model: {wall: {thickness: 1 mm}}\n", testing::bent_tube());
+  const fs::path folder = study_with("model: {wall: {thickness: 1 mm}}\n", testing::bent_tube());
   const ChildEnd end = built(folder);
   ASSERT_EQ(end.exit_code, exit_done) << end.errors;
   const auto quality = read_record<ModelQuality>(folder / "out" / "model" / "quality.json");
@@ -65,7 +64,7 @@ TEST(BuildModel, WritesAModelThatRuns) {
 }
 
 TEST(BuildModel, LeavesFilesOfOthersAlone) {
-  const fs::path folder = study_in("study_beside_others", "", testing::bent_tube());
+  const fs::path folder = study_with("", testing::bent_tube());
   fs::create_directories(folder / "out" / "model");
   std::ofstream(folder / "out" / "model" / "case.yaml") << "precious";
   std::ofstream(folder / "out" / "surface.vtp") << "precious";
@@ -83,7 +82,7 @@ TEST(BuildModel, MarksThePlaceOfWhatItRefuses) {
     const auto first = hole.triangles.begin() + 1280 + 64 * row;
     hole.triangles.erase(first, first + 14);
   }
-  const fs::path folder = study_in("study_with_hole", "", hole);
+  const fs::path folder = study_with("", hole);
   const ChildEnd end = built(folder);
   EXPECT_EQ(end.exit_code, exit_input_wrong);
   EXPECT_NE(end.errors.find("places.vtp"), std::string::npos) << end.errors;
@@ -92,7 +91,7 @@ TEST(BuildModel, MarksThePlaceOfWhatItRefuses) {
 }
 
 TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
-  const fs::path folder = study_in("wrong_study", "trunk: nowhere\nrepare: {}\n", testing::bent_tube());
+  const fs::path folder = study_with("trunk: nowhere\nrepare: {}\n", testing::bent_tube());
   std::string message;
   try {
     read_study(folder / "study.yaml");
@@ -104,11 +103,11 @@ TEST(BuildModel, MistakesOfTheFileAreToldWithTheirLines) {
 }
 
 TEST(BuildModel, DirectionsOfNoLengthAreToldWithTheirLines) {
-  const fs::path folder = study_in("study_without_directions",
-                                   "model:\n  wall: {thickness: 1 mm}\n  regions:\n"
-                                   "    arch: {planes: {a: {point: [0, 0, 0], normal: [0, 0, 0]}}}\n"
-                                   "    spine: {angle: [0, 90], angle_origin: [0, 0, 0]}\n",
-                                   testing::bent_tube());
+  const fs::path folder = study_with(
+      "model:\n  wall: {thickness: 1 mm}\n  regions:\n"
+      "    arch: {planes: {a: {point: [0, 0, 0], normal: [0, 0, 0]}}}\n"
+      "    spine: {angle: [0, 90], angle_origin: [0, 0, 0]}\n",
+      testing::bent_tube());
   std::ifstream file(folder / "study.yaml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   text.replace(text.find("near: [4, 0, 0]"), 15, "cut: {point: [4, 0, 0], outward: [0, 0, 0]}");
@@ -126,10 +125,10 @@ TEST(BuildModel, DirectionsOfNoLengthAreToldWithTheirLines) {
 }
 
 TEST(BuildModel, BranchesThatAreNoneAreToldBeforeAnythingIsBuilt) {
-  const fs::path folder = study_in("wrong_branches",
-                                   "model:\n  wall: {thickness: 2 mm, branches: {carotid: {thickness: 1 mm}}}\n"
-                                   "  regions: {arch: {branches: [trunk]}}\n",
-                                   testing::bent_tube());
+  const fs::path folder = study_with(
+      "model:\n  wall: {thickness: 2 mm, branches: {carotid: {thickness: 1 mm}}}\n"
+      "  regions: {arch: {branches: [trunk]}}\n",
+      testing::bent_tube());
   std::string message;
   try {
     read_study(folder / "study.yaml");
@@ -143,10 +142,10 @@ TEST(BuildModel, BranchesThatAreNoneAreToldBeforeAnythingIsBuilt) {
 }
 
 TEST(BuildModel, AMergeThatLeavesNothingIsToldWithItsLine) {
-  const ChildEnd end = built(study_in("study_merged", "repair: {merge: 20}\n", testing::bent_tube()));
+  const ChildEnd end = built(study_with("repair: {merge: 20}\n", testing::bent_tube()));
   EXPECT_EQ(end.exit_code, exit_input_wrong);
   EXPECT_NE(end.errors.find("study.yaml:8: repair.merge: 20 cm: leaves no triangle"), std::string::npos) << end.errors;
-  const ChildEnd beyond = built(study_in("study_merged_beyond", "repair: {merge: 1e300}\n", testing::bent_tube()));
+  const ChildEnd beyond = built(study_with("repair: {merge: 1e300}\n", testing::bent_tube()));
   EXPECT_EQ(beyond.exit_code, exit_input_wrong);
   EXPECT_NE(beyond.errors.find("study.yaml:8: repair.merge: 1e300 cm: must be at least 1e-09 and at most 100"),
             std::string::npos)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/csv.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/study/bent_tube.hpp"
 #include "vessel/centreline/curve.hpp"
 #include "vessel/study/build_surface.hpp"
@@ -16,7 +17,7 @@ using testing::bent_tube;
 StudyCase tube_study(const RawSurface& surface, const std::string& name) {
   StudyCase study;
   study.name = name;
-  study.surface = {std::filesystem::path(::testing::TempDir()) / (name + ".stl"), "cm"};
+  study.surface = {test_folder() / (name + ".stl"), "cm"};
   testing::write_stl(study.file(), surface);
   study.openings.resize(2);
   study.openings[0] = {"in", {}}, study.openings[0].second.near = {4, 0, 0};

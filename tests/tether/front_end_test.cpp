@@ -12,6 +12,7 @@
 #include "common/io/record_file.hpp"
 #include "diagnosis/results/noise.hpp"
 #include "fsi_master/results/run_summary.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/surface_file.hpp"
 #include "twin/noise.hpp"
 
@@ -56,10 +57,6 @@ cp summary_of_two_steps.json results/summary.json
 class FrontEnd : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        fs::temp_directory_path() / "tether_tests" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     fs::copy_file(TETHER_PROGRAM, folder_ / "tether");
     std::ofstream(folder_ / "case.yaml") << "name: tube\ntitle: A tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
     write_record(folder_ / "summary_of_two_steps.json", summary_of_two_steps());
@@ -78,7 +75,8 @@ class FrontEnd : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  fs::path folder_;
+  const TemporaryFolder own_;
+  const fs::path folder_ = own_.path();
 };
 
 TEST_F(FrontEnd, SimulatesDrawsAndSaysWhereToLook) {
@@ -456,6 +454,42 @@ TEST_F(FrontEnd, ListsItsVerbs) {
   EXPECT_EQ(tether("score case.yaml --resume").exit_code, 2);
 }
 
+TEST_F(FrontEnd, HelpNamesWhatEachVerbWorksOn) {
+  const std::string verbs = tether("--help").output;
+  const auto help_of = [&](const std::string& verb, const std::string& argument) {
+    const ChildEnd end = tether(verb + " --help");
+    EXPECT_EQ(end.exit_code, 0) << verb;
+    EXPECT_TRUE(std::regex_search(verbs, std::regex("\n  " + verb + " +" + argument + "  "))) << verb;
+    return end.output;
+  };
+  for (const char* verb : {"simulate", "compare", "explain", "diagnose", "twin", "identify", "validate", "mesh"}) {
+    const std::string help = help_of(verb, "CASE.yaml");
+    EXPECT_NE(help.find(std::string("Usage: tether ") + verb + " [OPTIONS] [CASE.yaml]\n"), std::string::npos) << help;
+    EXPECT_TRUE(std::regex_search(help, std::regex("\n  CASE.yaml +the case file\n"))) << help;
+  }
+  for (const auto& [verb, argument, meaning] : {std::tuple("score", "CASE.yaml|DIR", "the case that tether twin wrote"),
+                                                {"report", "DIR", "the folder of results"},
+                                                {"build-model", "STUDY.yaml", "the study file"},
+                                                {"fit-outlets", "OUTLETS.yaml", "the outlets file"},
+                                                {"track-ring", "RING.yaml", "the ring file"},
+                                                {"measure-noise", "CASE.yaml", "with measurements"}}) {
+    const std::string help = help_of(verb, std::regex_replace(argument, std::regex("\\|"), "\\|"));
+    EXPECT_NE(help.find(fmt::format("Usage: tether {} [OPTIONS] [{}]\n", verb, argument)), std::string::npos) << help;
+    EXPECT_NE(help.find(meaning), std::string::npos) << help;
+    const ChildEnd without = tether(verb);
+    EXPECT_EQ(without.exit_code, 2) << verb;
+    EXPECT_TRUE(without.errors.starts_with(std::string(argument) + " is missing: ")) << without.errors;
+  }
+  EXPECT_NE(tether("measure-noise --help").output.find("tether measure-noise FIRST SECOND"), std::string::npos);
+  for (const auto& [verb, argument] :
+       {std::pair("submit", "VERB CASE.yaml"), {"status", "FOLDER"}, {"results", "FOLDER"}, {"schema", "\\[FILE\\]"}})
+    EXPECT_FALSE(help_of(verb, std::string(argument) + ".*").empty()) << verb;
+  const std::string describe = help_of("describe", "");
+  EXPECT_NE(describe.find("Usage: tether describe [OPTIONS]\n"), std::string::npos) << describe;
+  for (const char* of_results : {"--output", "--overwrite", "--validate", "CASE"})
+    EXPECT_EQ(describe.find(of_results), std::string::npos) << of_results;
+}
+
 /// What a person was to read and did not get is no success.
 TEST_F(FrontEnd, FailsWhereWhatItTellsIsLost) {
   program("solid", "echo 'solid.density [g/cm3]  (number)'; echo '    mass per volume'");
@@ -487,6 +521,18 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
   const ChildEnd end = capture({{TETHER_PROGRAM, "conform", folder_.string()}, {}});
   EXPECT_EQ(end.exit_code, 2);
   EXPECT_EQ(end.errors, "tether_conform: the program: " + folder_.string() + " cannot be executed\n");
+  const ChildEnd help = capture({{TETHER_PROGRAM, "conform", "--help"}, {}}),
+                 without = capture({{TETHER_PROGRAM, "conform"}, {}});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_TRUE(help.output.starts_with("tether conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]: "));
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_EQ(without.errors, help.output);
+  for (const char* dt : {"1,5", "x", "0", "11", "1e-3 s"}) {
+    const ChildEnd no_step = capture({{TETHER_PROGRAM, "conform", "--dt", dt, "/bin/true"}, {}});
+    EXPECT_EQ(no_step.exit_code, 2) << dt;
+    EXPECT_NE(no_step.errors.find(fmt::format("--dt: {}: must be a number from 1e-09 to 10 s", dt)), std::string::npos)
+        << no_step.errors;
+  }
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ TEST(Score, OfAWrongEffect) {
   EXPECT_FALSE(score.verdict_right);
   EXPECT_FALSE(score.found[0].accepted);
   EXPECT_EQ(score.wrongly_accepted, std::vector<std::string>{"contact at spine"});
+  EXPECT_TRUE(text_of(score).starts_with("verdict: missing: right; what was accepted is not what was hidden\n"))
+      << text_of(score);
   EXPECT_FALSE(score_of(diagnosis("missing", true, true), spine).verdict_right) << "one too many";
 }
 
@@ -70,7 +72,11 @@ TEST(Score, OfEffectsThatLookAlike) {
   alike.verdict = Verdict::ambiguous;
   EXPECT_TRUE(score_of(diagnosis("ambiguous", false, true, R"("visco_elastic at spine")"), alike).verdict_right)
       << "its group is accepted";
-  EXPECT_FALSE(score_of(diagnosis("ambiguous", false, true), alike).verdict_right);
+  const Score other = score_of(diagnosis("ambiguous", false, true), alike);
+  EXPECT_FALSE(other.verdict_right);
+  EXPECT_TRUE(
+      text_of(other).starts_with("verdict: ambiguous: right; what was hidden is not in a group of what was accepted\n"))
+      << text_of(other);
 }
 
 TEST(Score, OfAnEffectThatIsNotListedOrInAnotherUnit) {

@@ -9,6 +9,7 @@
 #include "common/config/case_tree.hpp"
 #include "common/io/record_file.hpp"
 #include "fluid/windkessels/outlets_result.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/windkessels/beats.hpp"
 
 namespace tether {
@@ -20,12 +21,9 @@ const std::string two_outlets = "outlets: {left: {share: 0.3}, right: {share: 0.
 const std::string targets = "pressure: {mean: 93 mmHg, pulse: 50 mmHg}\n";
 const std::string flow = "flow: {file: flow.csv, value: flow, period: 0.8}\n";
 
-/// A folder with a flow and a file that asks for outlets.
+/// The test's folder with a flow and a file that asks for outlets.
 fs::path asked(const std::string& text) {
-  const fs::path folder =
-      fs::path(::testing::TempDir()) / "fit_outlets" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const fs::path& folder = test_folder();
   std::ofstream table(folder / "flow.csv");
   table << "time [s], flow [ml/s]\n";
   const PeriodicFlow beat = testing::beat_of_a_heart();

@@ -1,6 +1,6 @@
 #include <cstdio>
-#include <cstdlib>
 
+#include "common/base/number_text.hpp"
 #include "common/config/case_file.hpp"
 #include "common/protocol/run.hpp"
 #include "tether/conform/conform.hpp"
@@ -11,9 +11,10 @@ using namespace tether::protocol;
 namespace {
 
 constexpr const char* usage =
-    "usage: tether_conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]\n"
-    "Plays the master against a fluid or solid program and checks that it keeps the contract of docs/protocol.md; "
-    "--with: and that its interface fits that of the other code, which gets the same arguments.";
+    "tether conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]: starts a fluid or solid program, plays its "
+    "master, and checks that it keeps the contract of docs/protocol.md; --with: and that its interface fits that of "
+    "the "
+    "other code, which gets the same arguments";
 
 struct Options {
   double dt = 1e-3;
@@ -21,20 +22,25 @@ struct Options {
   Program program;
 };
 
+double step_in(const std::string& text) {
+  constexpr double shortest = 1e-9, longest = 10;
+  const double dt = number_in<double>(text).value_or(0);
+  if (!(dt >= shortest && dt <= longest))
+    throw input_error("--dt: {}: must be a number from {:g} to {:g} s", text, shortest, longest);
+  return dt;
+}
+
 Options options_from(std::vector<std::string> words) {
   Options options;
   for (; words.size() >= 2 && words[0].starts_with("--"); words.erase(words.begin(), words.begin() + 2)) {
     if (words[0] == "--dt")
-      options.dt = std::atof(words[1].c_str());
+      options.dt = step_in(words[1]);
     else if (words[0] == "--with")
       options.with = words[1];
     else
       throw InputError(usage);
   }
   if (words.empty()) throw InputError(usage);
-  constexpr double shortest = 1e-9, longest = 10;
-  if (!(options.dt >= shortest && options.dt <= longest))
-    throw input_error("--dt: must be from {:g} to {:g} s", shortest, longest);
   options.program = {"", words[0], {words.begin() + 1, words.end()}};
   return options;
 }
@@ -70,6 +76,12 @@ void examine(Session& session, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool asked = first == "--help" || first == "-h";
+  if (asked || first.empty()) {
+    std::fprintf(asked ? stdout : stderr, "%s\n", usage);
+    return asked ? exit_done : exit_input_wrong;
+  }
   return run_master("tether_conform", [&](Session& session) {
     examine(session, options_from({argv + 1, argv + argc}));
   });

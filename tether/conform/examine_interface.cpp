@@ -12,8 +12,9 @@ namespace tether::protocol {
 std::string Examiner::hello() {
   const Hello& hello = partner_.hello();
   require(!hello.program.empty(), "the program has no name");
-  require(!hello.has_state || hello.state_size > 0, "announces states of size {}", hello.state_size);
-  require(!hello.has_operators || hello.unknowns > 0, "announces operators for {} unknowns", hello.unknowns);
+  require(!hello.has_state || hello.state_size > 0, "announces states of size {}: must be above 0", hello.state_size);
+  require(!hello.has_operators || hello.unknowns > 0, "announces operators for {} unknowns: must be above 0",
+          hello.unknowns);
   std::set<std::string> names;
   for (const auto& p : hello.parameters) {
     require(!p.name.empty() && names.insert(p.name).second, "the parameter name \"{}\" is empty or not unique", p.name);
@@ -28,8 +29,10 @@ std::string Examiner::surface() {
   surface_ = partner_.ask(GetInterface{});
   const auto nodes = static_cast<std::int64_t>(surface_.points.size() / 3);
   const std::size_t triangles = surface_.triangles.size() / 3;
-  require(nodes >= 3 && surface_.points.size() % 3 == 0, "{} coordinates", surface_.points.size());
-  require(triangles > 0 && surface_.triangles.size() % 3 == 0, "{} triangle corners", surface_.triangles.size());
+  require(nodes >= 3 && surface_.points.size() % 3 == 0, "{} coordinates: must be 3 for each of at least 3 nodes",
+          surface_.points.size());
+  require(triangles > 0 && surface_.triangles.size() % 3 == 0,
+          "{} triangle corners: must be 3 for each of at least one triangle", surface_.triangles.size());
   require(all_finite(surface_.points), "a coordinate is not finite");
   std::vector<bool> used(static_cast<std::size_t>(nodes));
   for (const std::int64_t corner : surface_.triangles) {
@@ -39,7 +42,8 @@ std::string Examiner::surface() {
   require(std::find(used.begin(), used.end(), false) == used.end(), "node {} belongs to no triangle",
           std::find(used.begin(), used.end(), false) - used.begin());
   const auto& regions = surface_.regions;
-  require(regions.empty() || regions.size() == triangles, "{} regions for {} triangles", regions.size(), triangles);
+  require(regions.empty() || regions.size() == triangles, "{} regions for {} triangles: must be one for each, or none",
+          regions.size(), triangles);
   for (const std::int64_t region : regions)
     require(region >= -1 && region < static_cast<std::int64_t>(surface_.region_names.size()), "region {} has no name",
             region);

@@ -112,7 +112,8 @@ std::string Examiner::unknown_requests() {
 
 std::string Examiner::usage() {
   const Usage usage = partner_.ask(GetUsage{});
-  require(usage.cpu_seconds >= 0 && usage.peak_memory_mb > 0, "{} s, {} MB", usage.cpu_seconds, usage.peak_memory_mb);
+  require(usage.cpu_seconds >= 0 && usage.peak_memory_mb > 0,
+          "CPU time {} s, memory {} MB: must be at least 0 and above 0", usage.cpu_seconds, usage.peak_memory_mb);
   return fmt::format("{:.2g} s, {:.3g} MB", usage.cpu_seconds, usage.peak_memory_mb);
 }
 

@@ -105,8 +105,10 @@ std::string Examiner::velocity() {
   for (const double far : {1e6, 1e6, 1e6}) places.push_back(far);
   const Numbers found = partner_.ask(GetVelocity{places}).values;
   require(found.size() == places.size(), "{} numbers instead of {}", found.size(), places.size());
-  require(all_finite({found.begin(), found.begin() + static_cast<std::ptrdiff_t>(inside)}), "none in the lumen");
-  for (std::size_t i = inside; i < found.size(); ++i) require(std::isnan(found[i]), "one outside the lumen");
+  require(all_finite({found.begin(), found.begin() + static_cast<std::ptrdiff_t>(inside)}),
+          "no velocity at a place inside the lumen");
+  for (std::size_t i = inside; i < found.size(); ++i)
+    require(std::isnan(found[i]), "a velocity at a place outside the lumen: must be NaN");
   return fmt::format("{} places", inside / 3);
 }
 

@@ -29,15 +29,18 @@ Ray ray_from(const ImageVolume& image, const ImageVolume& gradient, std::size_t 
   return ray;
 }
 
+/// How many times lower than a ray's greatest change a peak may be, and the end of a peak than the peak.
+constexpr double times_lower = 3;
+
 /// The first peak of at least a third of the ray's greatest: noise within the lumen is lower, bone behind the wall not
-/// often higher than three times. Behind it the grey value where the change has fallen to half.
+/// often higher than three times. Behind it the grey value where the change has fallen to a third of the peak.
 void see_wall(const Ray& ray, std::vector<double>& edges, std::vector<double>& contrasts) {
   if (ray.change.empty()) return;
-  const double enough = *std::max_element(ray.change.begin(), ray.change.end()) / 3;
+  const double enough = *std::max_element(ray.change.begin(), ray.change.end()) / times_lower;
   for (std::size_t i = 1; i + 1 < ray.change.size(); ++i) {
     if (ray.change[i] < enough || ray.change[i + 1] >= ray.change[i]) continue;
     std::size_t behind = i;
-    while (behind + 1 < ray.change.size() && ray.change[behind] > ray.change[i] / 3) ++behind;
+    while (behind + 1 < ray.change.size() && ray.change[behind] > ray.change[i] / times_lower) ++behind;
     edges.push_back(ray.change[i]), contrasts.push_back(std::abs(ray.grey[behind] - ray.grey.front()));
     return;
   }
