@@ -75,6 +75,7 @@ constexpr std::array verbs{
     Verb{.name = "compare",
          .purpose = "compare a run with the measurements; simulates first if need be",
          .act = told<ComparisonResult, compare>,
+         .makes_steps = true,
          .check = check_for<JobVerb::compare>,
          .plan = plan<JobVerb::compare>},
     Verb{.name = "explain",

@@ -239,7 +239,9 @@ TEST(Diagnosis, LocatesNothingWhereNothingIsOff) {
   const DiagnosedCase given(written_in(folder, "nowhere"));
   FakeRuns runs(given.lumen, regions);
   const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs});
-  EXPECT_TRUE(!found.located.after.has_value() || found.located.after->p > 0.5);
+  ASSERT_TRUE(found.located.before.has_value() && found.located.after.has_value());
+  EXPECT_GT(found.located.before->p, 0.5);
+  EXPECT_GT(found.located.after->p, 0.5);
 }
 
 /// A coarser model tells what numbers do to first order; what is named is run with the model, and has its amplitude.

@@ -480,6 +480,19 @@ TEST_F(FrontEnd, HelpNamesWhatEachVerbWorksOn) {
     EXPECT_EQ(without.exit_code, 2) << verb;
     EXPECT_TRUE(without.errors.starts_with(std::string(argument) + " is missing: ")) << without.errors;
   }
+  const auto has = [&](const std::string& verb, const char* option) {
+    return tether(verb + " --help").output.find(option) != std::string::npos;
+  };
+  for (const auto& [verb, steps, processes, runs] : {std::tuple("simulate", true, false, false),
+                                                     {"compare", true, false, false},
+                                                     {"identify", true, true, false},
+                                                     {"diagnose", false, true, true},
+                                                     {"explain", false, true, true},
+                                                     {"twin", false, false, false}}) {
+    EXPECT_EQ(has(verb, "--steps"), steps) << verb;
+    EXPECT_EQ(has(verb, "--processes"), processes) << verb;
+    EXPECT_EQ(has(verb, "--runs"), runs) << verb;
+  }
   EXPECT_NE(tether("measure-noise --help").output.find("tether measure-noise FIRST SECOND"), std::string::npos);
   for (const auto& [verb, argument] :
        {std::pair("submit", "VERB CASE.yaml"), {"status", "FOLDER"}, {"results", "FOLDER"}, {"schema", "\\[FILE\\]"}})
