@@ -10,6 +10,7 @@
 #include "fsi_master/old_results.hpp"
 #include "fsi_master/progress.hpp"
 #include "fsi_master/time_series.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace tether {
 namespace {
@@ -19,16 +20,13 @@ namespace fs = std::filesystem;
 /// A folder of its own for each test.
 class Output : public ::testing::Test {
  protected:
-  Output() : folder(fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
   std::string content(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(folder / name).rdbuf();
     return text.str();
   }
-  fs::path folder;
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path();
 };
 
 std::string error_of(const std::function<void()>& action) {

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "tests/io/temporary_folder.hpp"
+
 namespace tether {
 namespace {
 
@@ -58,8 +60,7 @@ TEST(Periodicity, WantsTwoBeatsAndPositivePressures) {
 
 /// From the files of a run, in the case's units.
 TEST(Periodicity, OfARunsTable) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "periodicity";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   const auto wanted = settling(16, T / 90, 4);
   std::ofstream table(folder / "timeseries.csv");
   table << "time [s],fluid.in.pressure [g/(cm s2)],fluid.volume [cm3],fluid.in.pressure [mmHg]\n";

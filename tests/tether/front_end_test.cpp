@@ -106,7 +106,7 @@ void write_tube(const fs::path& path, std::uint64_t seed, double scale = 1) {
   for (int i = 0; i < x.cols(); ++i) {
     const double angle = 2 * std::numbers::pi * (i % around) / around;
     out.col(i) = Vec3(std::cos(angle), std::sin(angle), 0);
-    x.col(i) = 10 * out.col(i) + Vec3(0, 0, 60.0 / 20 * (i / around));
+    x.col(i) = 10 * out.col(i) + Vec3(0, 0, 60.0 / 20 * static_cast<double>(i / around));
   }
   const VectorXd error = 0.3 * (std::sqrt(0.8) * RandomField(5, Random(seed, 0), CorrelationShape::gaussian)(x) +
                                 std::sqrt(0.2) * RandomField(0, Random(seed, 1))(x));
