@@ -18,7 +18,7 @@ struct PatternKey {
   int region;
   std::optional<double> moment;  ///< [time]; none: the beat
   Wave wave;
-  int form;  ///< waves along the region
+  int form;  ///< half waves along the region
   auto operator<=>(const PatternKey&) const = default;
 };
 
