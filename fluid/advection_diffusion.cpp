@@ -11,15 +11,15 @@ Eigen::Index as_index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
 }
 
-/// Mean of v0 - w over a boundary triangle, through it: (v~0 - carried - w).N. (F.7)
-double relative_flux(const StageInput& input, const Surface& face, std::size_t t) {
+/// Mean of v0 - w over a boundary triangle, through it: (v~0 - carried - w).N. (F.7) element: behind it, of those held.
+double relative_flux(const StageInput& input, const Surface& face, std::size_t t, int element) {
   const auto& tri = face.triangles[t];
   Vec3 mean = Vec3::Zero();
   for (int local : tri) {
     const int node = face.nodes[static_cast<std::size_t>(local)];
     mean += (input.velocity.col(node) - input.mesh_velocity.col(node)) / 3;
   }
-  return (mean - input.carried.col(face.tetrahedra[t])).dot(face.area_vectors.col(as_index(t)));
+  return (mean - input.carried.col(element)).dot(face.area_vectors.col(as_index(t)));
 }
 
 /// For each node of a tetrahedron, whether it lies on a triangle of its face.
@@ -38,7 +38,9 @@ AdvectionDiffusion::AdvectionDiffusion(const FluidDomain& domain, std::vector<in
       map_(domain.node_count(), 1, std::span<const Tetrahedron>(domain.tetrahedra())),
       matrix_(map_.zero_matrix()),
       rhs_(3, domain.node_count()),
-      viscosity_(as_index(domain.tetrahedra().size())) {}
+      viscosity_(as_index(domain.tetrahedra().size())) {
+  if (!domain.share().is_whole()) own_.emplace(domain.share(), matrix_);
+}
 
 KrylovResult AdvectionDiffusion::solve(const FluidDomain& domain, const StageInput& input, double tolerance,
                                        Points& velocity) {
@@ -47,8 +49,20 @@ KrylovResult AdvectionDiffusion::solve(const FluidDomain& domain, const StageInp
   add_backflow(domain, input);
   if (!input.rheology.is_constant()) add_viscosity_gradient(domain, input);
   prescribe(velocity);
+  if (own_) return solve_shared(domain.share(), tolerance, velocity);
   preconditioner_.factor(matrix_);
   return bicgstab(matrix_, preconditioner_, rhs_, velocity, tolerance, max_iterations);
+}
+
+/// Each process preconditions by the incomplete factors of its own block.
+KrylovResult AdvectionDiffusion::solve_shared(const Share& share, double tolerance, Points& velocity) {
+  own_->take(matrix_);
+  share.team().each([this] { preconditioner_.factor(own_->block()); });
+  Points x = own_->all_of(velocity);
+  const KrylovResult result = bicgstab(*own_, preconditioner_, own_->own_of(rhs_), x, tolerance, max_iterations);
+  own_->put_back(x, velocity);
+  share.complete(velocity);
+  return result;
 }
 
 void AdvectionDiffusion::update_viscosity(const FluidDomain& domain, const StageInput& input) {
@@ -85,9 +99,11 @@ void AdvectionDiffusion::add_backflow(const FluidDomain& domain, const StageInpu
   if (input.backflow == 0) return;
   for (const Surface* face : input.open)
     for (std::size_t t = 0; t < face->triangles.size(); ++t) {
-      const double entering = -relative_flux(input, *face, t);
+      const int element = domain.place_of(face->tetrahedra[t]);
+      if (element < 0) continue;
+      const double entering = -relative_flux(input, *face, t, element);
       if (entering <= 0) continue;
-      const auto e = static_cast<std::size_t>(face->tetrahedra[t]);
+      const auto e = static_cast<std::size_t>(element);
       const Eigen::Vector4d on = on_triangle(domain.tetrahedra()[e], *face, t);
       Eigen::Matrix<double, 4, 4, Eigen::RowMajor> block = on * on.transpose();
       block.diagonal() += on;
@@ -110,7 +126,9 @@ void AdvectionDiffusion::add_viscosity_gradient(const FluidDomain& domain, const
   }
   for (const Surface* face : input.open)
     for (std::size_t t = 0; t < face->triangles.size(); ++t) {
-      const Vec3 traction = stress(static_cast<std::size_t>(face->tetrahedra[t])) * face->area_vectors.col(as_index(t));
+      const int element = domain.place_of(face->tetrahedra[t]);
+      if (element < 0) continue;
+      const Vec3 traction = stress(static_cast<std::size_t>(element)) * face->area_vectors.col(as_index(t));
       for (int local : face->triangles[t]) rhs_.col(face->nodes[static_cast<std::size_t>(local)]) += traction / 3;
     }
 }

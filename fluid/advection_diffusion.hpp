@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fluid/bicgstab.hpp"
@@ -15,7 +16,7 @@ struct StageInput {
   double backflow = 0;  ///< beta in (F.7)
   const Rheology& rheology;
   const Points& velocity;                   ///< v~0, all nodes
-  const Points& carried;                    ///< (dt_0/rho_0) grad p0, one column an element (F.3)
+  const Points& carried;                    ///< (dt_0/rho_0) grad p0, one column an element held (F.3)
   const Points& mesh_velocity;              ///< w, all nodes
   const Points& acceleration;               ///< f, all nodes; may be empty
   const std::vector<const Surface*>& open;  ///< faces where the velocity is free
@@ -30,7 +31,7 @@ class AdvectionDiffusion {
   /// velocity, in: a guess, with the prescribed values at the fixed nodes; out: v~. `tolerance` of the residual is
   /// relative.
   KrylovResult solve(const FluidDomain& domain, const StageInput& input, double tolerance, Points& velocity);
-  /// Viscosity of each element in the last solve.
+  /// Viscosity of each element that this process holds in the last solve.
   const VectorXd& viscosity() const { return viscosity_; }
 
  private:
@@ -39,12 +40,14 @@ class AdvectionDiffusion {
   void add_backflow(const FluidDomain& domain, const StageInput& input);
   void add_viscosity_gradient(const FluidDomain& domain, const StageInput& input);
   void prescribe(const Points& velocity);
+  KrylovResult solve_shared(const Share& share, double tolerance, Points& velocity);
 
   std::vector<int> fixed_;
   ScatterMap map_;
   SparseMatrix matrix_;
   Points rhs_;
   VectorXd viscosity_;
+  std::optional<OwnRows> own_;  // where several processes share the matrix
   Ilu0 preconditioner_;
 };
 

@@ -38,16 +38,17 @@ std::string effective_sections(BloodCase& blood) {
   return echo.json();
 }
 
-FluidServer server_of(const std::filesystem::path& case_file, const protocol::Welcome& welcome) {
+FluidServer server_of(const std::filesystem::path& case_file, const protocol::Welcome& welcome, Team& team) {
   BloodCase blood(case_file);
-  auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file));
+  auto solver = std::make_unique<FluidSolver>(blood.lumen(), make_settings(blood.fluid, blood.file), team);
   return {std::move(solver), blood.file.units(), effective_sections(blood), welcome.output,
           held_curves(blood.fluid, blood.file)};
 }
 
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToObservedFluid>(
-      "fluid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); },
+  return protocol::run_partner_together<protocol::ToObservedFluid>(
+      "fluid",
+      [&command](const protocol::Welcome& welcome, Team& team) { return server_of(command.case_file, welcome, team); },
       [&command] { return hash_files_read(command.case_file); });
 }
 
@@ -56,7 +57,7 @@ int run(const CommandLine& command) {
 protocol::Here fluid_here() {
   return protocol::partner_here<protocol::ToObservedFluid>(
       [](const protocol::Program& program, const protocol::Welcome& welcome) {
-        return server_of(program.arguments.front(), welcome);
+        return server_of(program.arguments.front(), welcome, alone());
       });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/linalg/krylov.hpp"
+#include "common/linalg/own_rows.hpp"
 #include "common/linalg/sparse.hpp"
 #include "fluid/ilu.hpp"
 
@@ -13,5 +14,9 @@ namespace tether {
 /// norm.
 KrylovResult bicgstab(const SparseMatrix& matrix, const Ilu0& preconditioner, const Points& rhs, Points& x,
                       double tolerance, int max_iterations);
+/// The same of a matrix whose rows several processes share. rhs: of the own rows; x: of all that these refer to.
+/// preconditioner: of the own block.
+KrylovResult bicgstab(const OwnRows& shared, const Ilu0& preconditioner, const Points& rhs, Points& x, double tolerance,
+                      int max_iterations);
 
 }  // namespace tether

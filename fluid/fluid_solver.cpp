@@ -76,8 +76,8 @@ constexpr double typical_shear_rate = 100;
 
 }  // namespace
 
-FluidSolver::FluidSolver(FluidMesh mesh, const FluidSettings& settings)
-    : domain_(std::move(mesh), settings.mesh_motion),
+FluidSolver::FluidSolver(FluidMesh mesh, const FluidSettings& settings, Team& team)
+    : domain_(std::move(mesh), settings.mesh_motion, team),
       blood_(blood(), settings.blood),
       rheology_(rheologies(), settings.rheology),
       flow_inlets_(make_flow_inlets(domain_, settings)),
@@ -239,17 +239,22 @@ void FluidSolver::accept() {
   begun_ = evaluated_ = false;
 }
 
-/// - int 2 mu eps(v~) n phi_a on the interface. (F.10)
+/// - int 2 mu eps(v~) n phi_a on the interface: of each triangle by the process that answers for the element behind it.
+/// (F.10)
 Points FluidSolver::viscous_forces() const {
   const Surface& sigma = domain_.sigma;
-  Points result(3, static_cast<Eigen::Index>(sigma.triangles.size()));
+  const Share& share = domain_.share();
+  Points result = Points::Zero(3, static_cast<Eigen::Index>(sigma.triangles.size()));
   for (std::size_t t = 0; t < sigma.triangles.size(); ++t) {
-    const auto e = static_cast<std::size_t>(sigma.tetrahedra[t]);
+    const int element = sigma.tetrahedra[t];
+    if (!share.answers_for(domain_.mesh().tetrahedra[static_cast<std::size_t>(element)])) continue;
+    const auto e = static_cast<std::size_t>(domain_.place_of(element));
     const Mat3 grad_v = velocity_gradient(domain_.geometry()[e], gather(trial_.velocity, domain_.tetrahedra()[e]));
     const double mu = advection_diffusion_.viscosity()[static_cast<Eigen::Index>(e)];
     const auto triangle = static_cast<Eigen::Index>(t);
     result.col(triangle) = -mu * (grad_v + grad_v.transpose()) * sigma.area_vectors.col(triangle);
   }
+  share.team().sum({result.data(), static_cast<std::size_t>(result.size())});
   return result;
 }
 

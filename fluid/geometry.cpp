@@ -1,8 +1,8 @@
 #include "fluid/geometry.hpp"
 
-#include <Eigen/Geometry>
+#include <fmt/format.h>
 
-#include "common/base/error.hpp"
+#include <Eigen/Geometry>
 
 namespace tether::fluid {
 namespace {
@@ -44,12 +44,13 @@ WorstElement worst_element(const std::vector<TetGeometry>& now, const std::vecto
   return worst;
 }
 
-void check_jacobians(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes,
-                     const Points& points, const std::vector<Tetrahedron>& tetrahedra) {
-  const auto [element, ratio] = worst_element(now, reference_volumes);
-  if (ratio >= smallest_ratio) return;
-  const Vec3 centre = gather(points, tetrahedra[element]).rowwise().mean();
-  throw run_error(
+bool is_sound(double ratio) {
+  return ratio >= smallest_ratio;
+}
+
+std::string folded_text(int element, const Nodal& corners, double ratio) {
+  const Vec3 centre = corners.rowwise().mean();
+  return fmt::format(
       "the fluid mesh breaks: element {} at ({:.4g}, {:.4g}, {:.4g}) has {:.3g} of its reference volume (at least {} "
       "is needed)",
       element, centre.x(), centre.y(), centre.z(), ratio, smallest_ratio);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/base/types.hpp"
@@ -36,9 +37,10 @@ struct WorstElement {
 };
 WorstElement worst_element(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes);
 
-/// Throws RunError naming the worst element, its position and its ratio if the mesh is folded or nearly so.
-void check_jacobians(const std::vector<TetGeometry>& now, const std::vector<double>& reference_volumes,
-                     const Points& points, const std::vector<Tetrahedron>& tetrahedra);
+/// Whether a mesh whose worst element has this ratio is not folded, nor nearly so.
+bool is_sound(double smallest_ratio);
+/// What to say of a mesh that is not: its worst element, where that is, and its ratio.
+std::string folded_text(int element, const Nodal& corners, double ratio);
 
 /// Per element: the gradient of a nodal scalar, one column an element.
 Points gradient(const std::vector<TetGeometry>& geometry, const std::vector<Tetrahedron>& tetrahedra,

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "common/linalg/cholesky.hpp"
+#include "common/linalg/symmetric_solver.hpp"
 #include "common/mesh/mesh.hpp"
 
 namespace tether::fluid {
@@ -24,18 +24,20 @@ MeshMotionKind mesh_motion_named(const std::string& name);
 class MeshMotion {
  public:
   /// boundary_nodes: ascending; their displacement is given, that of all others follows.
-  MeshMotion(const FluidMesh& mesh, std::vector<int> boundary_nodes, MeshMotionKind kind);
+  MeshMotion(const FluidMesh& mesh, std::vector<int> boundary_nodes, MeshMotionKind kind, const Share& share);
+  MeshMotion(const MeshMotion&) = delete;
+  MeshMotion& operator=(const MeshMotion&) = delete;
 
   const std::vector<int>& boundary_nodes() const { return boundary_; }
   /// on_boundary: one column a boundary node. Returns the displacement of all nodes.
   Points extend(const Points& on_boundary) const;
-  double megabytes() const { return solver_.factor_megabytes(); }
 
  private:
   std::vector<int> boundary_, inner_;
   int components_;                                         // 1: the three columns share a matrix; 3: coupled
   Eigen::SparseMatrix<double, Eigen::RowMajor> coupling_;  // inner rows, boundary columns
-  Cholesky solver_;
+  Share share_;                                            // of the inner nodes
+  std::unique_ptr<SymmetricSolver> solver_;
 };
 
 }  // namespace tether::fluid

@@ -4,12 +4,37 @@
 
 namespace tether::fluid {
 
+namespace {
+
+/// Of unknowns that each stand for one node, or for those of an opening.
+Share share_of_unknowns(const Share& nodes, const std::vector<int>& unknown_of, int unknowns) {
+  if (nodes.is_whole()) return Share(unknowns);
+  std::vector<int> owner(static_cast<std::size_t>(unknowns));
+  for (std::size_t node = 0; node < unknown_of.size(); ++node)
+    owner[static_cast<std::size_t>(unknown_of[node])] = nodes.owner(static_cast<int>(node));
+  return Share(nodes.team(), std::move(owner));
+}
+
+}  // namespace
+
 Projection::Projection(const FluidDomain& domain, const std::vector<std::vector<int>>& openings)
-    : openings_(openings.size()), unknown_of_(static_cast<std::size_t>(domain.node_count()), -1) {
+    : openings_(openings.size()), unknown_of_(static_cast<std::size_t>(domain.node_count()), -1), share_(0) {
   if (openings.empty())
     throw InputError(
         "the fluid needs an outlet, or an inlet with a given pressure: otherwise its pressure is undetermined");
-  std::vector<int> owner(unknown_of_.size(), -1);
+  number(domain, openings);
+  share_ = share_of_unknowns(domain.share(), unknown_of_, unknowns_);
+  std::vector<Tetrahedron> elements = domain.tetrahedra();
+  for (auto& element : elements)
+    for (int& node : element) node = unknown_of_[static_cast<std::size_t>(node)];
+  map_ = ScatterMap(unknowns_, 1, std::span<const Tetrahedron>(elements));
+  matrix_ = map_.zero_matrix();
+  solver_ = symmetric_solver(share_);
+  solver_->analyze(matrix_);
+}
+
+void Projection::number(const FluidDomain& domain, const std::vector<std::vector<int>>& openings) {
+  std::vector<int> owner(static_cast<std::size_t>(domain.node_count()), -1);
   for (std::size_t i = 0; i < openings.size(); ++i)
     for (int node : openings[i]) owner[static_cast<std::size_t>(node)] = static_cast<int>(i);
   for (std::size_t node = 0; node < owner.size(); ++node)
@@ -17,13 +42,6 @@ Projection::Projection(const FluidDomain& domain, const std::vector<std::vector<
   for (std::size_t node = 0; node < owner.size(); ++node)
     if (owner[node] >= 0) unknown_of_[node] = unknowns_ + owner[node];
   unknowns_ += static_cast<int>(openings_);
-
-  std::vector<Tetrahedron> elements = domain.tetrahedra();
-  for (auto& element : elements)
-    for (int& node : element) node = unknown_of_[static_cast<std::size_t>(node)];
-  map_ = ScatterMap(unknowns_, 1, std::span<const Tetrahedron>(elements));
-  matrix_ = map_.zero_matrix();
-  cholesky_.analyze(matrix_);
 }
 
 void Projection::assemble(const FluidDomain& domain, double dt_over_rho) {
@@ -44,14 +62,25 @@ void Projection::factor(const FluidDomain& domain, double dt_over_rho, std::span
   std::vector<int> prescribed;
   for (std::size_t i = 0; i < openings_; ++i) {
     const int row = opening_unknown(i);
-    for (SparseMatrix::InnerIterator entry(matrix_, row); entry; ++entry)
-      rows_[i].emplace_back(static_cast<int>(entry.col()), entry.value());
+    rows_[i] = row_of_opening(row);
     if (impedances_[i] == 0) prescribed.push_back(row);
   }
   for (std::size_t i = 0; i < openings_; ++i)
-    if (impedances_[i] > 0) matrix_.coeffRef(opening_unknown(i), opening_unknown(i)) += 1 / impedances_[i];
+    if (impedances_[i] > 0 && share_.is_own(opening_unknown(i)))
+      matrix_.coeffRef(opening_unknown(i), opening_unknown(i)) += 1 / impedances_[i];
   if (!prescribed.empty()) constrain(matrix_, prescribed, dt_over_rho);
-  cholesky_.factor(matrix_);
+  solver_->factor(matrix_);
+}
+
+/// Who does not answer for the opening has of its row what stands in the own rows too: the matrix is symmetric.
+Projection::Row Projection::row_of_opening(int row) const {
+  Row result;
+  for (SparseMatrix::InnerIterator entry(matrix_, row); entry; ++entry) {
+    const int column = static_cast<int>(entry.col());
+    if (share_.is_own(column))
+      result.emplace_back(column, share_.is_own(row) ? entry.value() : matrix_.coeff(column, row));
+  }
+  return result;
 }
 
 Projection::Solution Projection::solve(const VectorXd& rhs, const VectorXd& known) const {
@@ -68,16 +97,17 @@ Projection::Solution Projection::solve(const VectorXd& rhs, const VectorXd& know
   }
   for (std::size_t i = 0; i < openings_; ++i)
     if (impedances_[i] == 0) p[opening_unknown(i)] = 0;
-  p = cholesky_.solve(p);
+  p = solver_->solve(p);
   for (std::size_t i = 0; i < openings_; ++i)
     if (impedances_[i] == 0) p[opening_unknown(i)] = known[static_cast<Eigen::Index>(i)];
 
   Solution solution{p(unknown_of_), VectorXd(static_cast<Eigen::Index>(openings_))};
   for (std::size_t i = 0; i < openings_; ++i) {
-    double flow = condensed[opening_unknown(i)];
+    double flow = share_.is_own(opening_unknown(i)) ? condensed[opening_unknown(i)] : 0.0;
     for (const auto& [column, value] : rows_[i]) flow -= value * p[column];
     solution.flow[static_cast<Eigen::Index>(i)] = flow;
   }
+  share_.team().sum({solution.flow.data(), openings_});
   return solution;
 }
 

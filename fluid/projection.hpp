@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "common/linalg/cholesky.hpp"
+#include "common/linalg/symmetric_solver.hpp"
 #include "fluid/fluid_domain.hpp"
 
 namespace tether::fluid {
@@ -28,12 +28,14 @@ class Projection {
   /// rhs: at all nodes. known: pressure at zero flow of each opening.
   Solution solve(const VectorXd& rhs, const VectorXd& known) const;
 
-  double megabytes() const { return cholesky_.factor_megabytes(); }
+  double megabytes() const { return solver_->factor_megabytes(); }
 
  private:
   using Row = std::vector<std::pair<int, double>>;
 
+  void number(const FluidDomain& domain, const std::vector<std::vector<int>>& openings);
   void assemble(const FluidDomain& domain, double dt_over_rho);
+  Row row_of_opening(int row) const;
   int opening_unknown(std::size_t i) const { return unknowns_ - static_cast<int>(openings_) + static_cast<int>(i); }
 
   std::size_t openings_;
@@ -41,9 +43,11 @@ class Projection {
   std::vector<int> unknown_of_;  // node -> unknown; those of the openings come last
   ScatterMap map_;
   SparseMatrix matrix_;
-  Cholesky cholesky_;
+  Share share_;  // of the unknowns
+  std::unique_ptr<SymmetricSolver> solver_;
   std::vector<double> impedances_;
-  std::vector<Row> rows_;  // (dt/rho) Laplacian of each opening's unknown, before its impedance entered
+  std::vector<Row> rows_;  // (dt/rho) Laplacian of each opening's unknown at this process's unknowns, before its impedance
+                           // entered
 };
 
 }  // namespace tether::fluid

@@ -184,8 +184,8 @@ double flow_of_rows(const SectionCut& cut, const EndOfStep& end) {
   double flow = 0;
   for (const CutElement& c : cut.elements) {
     const auto e = static_cast<std::size_t>(c.element);
-    const Tetrahedron& tet = end.domain.tetrahedra()[e];
-    const TetGeometry& g = end.domain.geometry()[e];
+    const Tetrahedron& tet = end.domain.mesh().tetrahedra[e];
+    const TetGeometry g = tet_geometry(gather(end.points, tet));
     const Vec3 v = gather(end.velocity, tet).rowwise().mean() - end.dt_over_rho * g.grad_N * end.pressure(tet);
     const Vec3 grad_q = g.grad_N * (c.height.array() >= 0).cast<double>().matrix();
     flow += g.volume * v.dot(grad_q);
@@ -214,7 +214,7 @@ double flow_of_wall(const SectionCut& cut, const EndOfStep& end) {
     const auto found = std::lower_bound(cut.elements.begin(), cut.elements.end(), element,
                                         [](const CutElement& c, int e) { return c.element < e; });
     if (found == cut.elements.end() || found->element != element) continue;
-    const Tetrahedron& tet = end.domain.tetrahedra()[static_cast<std::size_t>(element)];
+    const Tetrahedron& tet = end.domain.mesh().tetrahedra[static_cast<std::size_t>(element)];
     Vec3 height;
     Mat3 V;
     for (int a = 0; a < 3; ++a) {
@@ -271,9 +271,9 @@ double Section::integral_of_velocity(const SectionCut& cut, const EndOfStep& end
   double flow = 0;
   for (const CutElement& c : cut.elements) {
     const auto e = static_cast<std::size_t>(c.element);
-    const Tetrahedron& tet = end.domain.tetrahedra()[e];
-    const Vec3 v =
-        gather(end.velocity, tet) * c.centroid - end.dt_over_rho * end.domain.geometry()[e].grad_N * end.pressure(tet);
+    const Tetrahedron& tet = end.domain.mesh().tetrahedra[e];
+    const TetGeometry g = tet_geometry(gather(end.points, tet));
+    const Vec3 v = gather(end.velocity, tet) * c.centroid - end.dt_over_rho * g.grad_N * end.pressure(tet);
     flow += c.area * plane_.normal.dot(v);
   }
   return flow;

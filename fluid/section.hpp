@@ -24,9 +24,10 @@ struct SectionCut {
   bool is_complete = true;           ///< it ends at the wall all around, nowhere at the radius
 };
 
-/// The fields at the end of a step, on the mesh as the domain stands.
+/// The fields at the end of a step, on the mesh as it stands in that step.
 struct EndOfStep {
   const FluidDomain& domain;
+  const Points& points;    ///< of all nodes
   const Points& velocity;  ///< v~
   const VectorXd& pressure;
   double dt_over_rho;

@@ -73,7 +73,7 @@ protocol::StepReport FluidServer::operator()(const protocol::EndStep& m) {
 }
 
 protocol::Ready FluidServer::operator()(const protocol::Write& m) {
-  series_.write(*solver_, static_cast<int>(m.step), m.time);
+  if (solver_->domain().share().team().rank() == 0) series_.write(*solver_, static_cast<int>(m.step), m.time);
   return {};
 }
 
@@ -95,7 +95,7 @@ protocol::Velocity FluidServer::operator()(const protocol::GetVelocity& m) {
   if (m.points.size() % 3 != 0) throw run_error("points have {} numbers, not three each", m.points.size());
   const Points now = solver_->domain().mesh().points + solver_->mesh_displacement(),
                places = Eigen::Map<const Points>(m.points.data(), 3, static_cast<Eigen::Index>(m.points.size() / 3));
-  return {as_list(vectors_in_space(places, now, solver_->domain().tetrahedra(), solver_->velocity()))};
+  return {as_list(vectors_in_space(places, now, solver_->domain().mesh().tetrahedra, solver_->velocity()))};
 }
 
 Points FluidServer::interface_points(const std::vector<double>& values, const char* what) const {

@@ -239,10 +239,11 @@ void simulate(MasterCase& master, RunPlan plan, const MadeFrom& from, const Inpu
   write_record(plan.output / "summary.json", summary_of(simulation, facts));
 }
 
-/// The same, some of them in this process.
+/// The same, those of them in this process that run in one.
 std::vector<protocol::Program> together(std::vector<protocol::Program> programs, const CodesHere& here) {
   for (protocol::Program& program : programs)
-    if (const auto found = here.find(program.executable); found != here.end()) program.here = found->second;
+    if (const auto found = here.find(program.executable); found != here.end() && program.processes == 1)
+      program.here = found->second;
   return programs;
 }
 

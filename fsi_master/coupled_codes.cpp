@@ -29,9 +29,6 @@ InterfaceMap map_of(const std::string& mapping, const CouplingCase& coupling, co
 /// `field`: of coupling.programs and coupling.ranks.
 protocol::Program partner_program(const char* role, const std::string& field, const std::string& executable, int ranks,
                                   const CaseFile& file) {
-  if (ranks > 1 && protocol::is_own(executable))
-    throw input_error("{}: {}: Tether's own {} runs in one process", file.where("coupling.ranks." + field), ranks,
-                      executable);
   return {role,
           executable,
           {std::filesystem::absolute(file.path()).string()},

@@ -9,8 +9,8 @@ void CouplingCase::Programs::declare(Fields& f) {
 }
 
 void CouplingCase::Ranks::declare(Fields& f) {
-  f.integer("fluid", fluid, {1, 4096}, "of the program that solves the blood flow");
-  f.integer("solid", solid, {1, 4096}, "of the program that solves the wall");
+  f.integer("fluid", fluid, {1, 4096}, "that solve the blood flow together: each has its part of the mesh");
+  f.integer("solid", solid, {1, 4096}, "that solve the wall together");
 }
 
 void CouplingCase::declare(Fields& f) {
@@ -47,7 +47,7 @@ void CouplingCase::declare(Fields& f) {
              "what of them is Tether's own is in the master's process: a small model takes two fifths less of the "
              "processor's time, a large one does not have both at work at once"}},
            "of a direct run; the groups of an identification and of a diagnosis have them together");
-  f.group("ranks", ranks, "processes of a program of one's own that runs in several; on an mpirun line its -n says it");
+  f.group("ranks", ranks, "processes of a program; on an mpirun line its -n says it");
 }
 
 }  // namespace tether

@@ -37,15 +37,16 @@ std::string effective_sections(WallCase& wall) {
   return echo.json();
 }
 
-SolidServer server_of(const std::filesystem::path& case_file, const protocol::Welcome& welcome) {
+SolidServer server_of(const std::filesystem::path& case_file, const protocol::Welcome& welcome, Team& team) {
   WallCase wall(case_file);
-  return {prepare_wall(wall.solid, wall.wall(), wall.file), wall.file.units(), effective_sections(wall),
+  return {prepare_wall(wall.solid, wall.wall(), wall.file, team), wall.file.units(), effective_sections(wall),
           welcome.output};
 }
 
 int run(const CommandLine& command) {
-  return protocol::run_partner<protocol::ToObservedSolid>(
-      "solid", [&command](const protocol::Welcome& welcome) { return server_of(command.case_file, welcome); },
+  return protocol::run_partner_together<protocol::ToObservedSolid>(
+      "solid",
+      [&command](const protocol::Welcome& welcome, Team& team) { return server_of(command.case_file, welcome, team); },
       [&command] { return hash_files_read(command.case_file); });
 }
 
@@ -54,7 +55,7 @@ int run(const CommandLine& command) {
 protocol::Here solid_here() {
   return protocol::partner_here<protocol::ToObservedSolid>(
       [](const protocol::Program& program, const protocol::Welcome& welcome) {
-        return server_of(program.arguments.front(), welcome);
+        return server_of(program.arguments.front(), welcome, alone());
       });
 }
 

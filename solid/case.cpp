@@ -10,6 +10,7 @@
 #include "solid/prestress.hpp"
 #include "solid/rest.hpp"
 #include "solid/supports/registry.hpp"
+#include "solid/wall_share.hpp"
 
 namespace tether {
 namespace {
@@ -114,10 +115,10 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
 }
 
 Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const std::vector<int>& clamped,
-                             const CaseFile& file) {
+                             const CaseFile& file, Team& team) {
   const Configured<Material> material(materials(), solid.material.type, solid.material.values);
   StressFreeResult found =
-      stress_free_configuration(mesh, *material, file.common().image.pressure, unknowns_of(clamped));
+      stress_free_configuration(mesh, *material, file.common().image.pressure, unknowns_of(clamped), wall_share(mesh, team));
   const double pressure = file.units().to_mmhg(file.common().image.pressure);
   if (!found.converged)
     throw run_error(
@@ -131,7 +132,7 @@ Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const
 /// Gives the wall its initial stress, if the image asks for one.
 RestState prestress(WallModel& wall, const ImageCase& image) {
   if (!image.loads_wall() || image.wall != "prestressed") return rest_of(wall, image, nullptr);
-  const InitialStress initial = find_initial_stress(wall.mesh(), wall.material(), image.pressure);
+  const InitialStress initial = find_initial_stress(wall.mesh(), wall.material(), image.pressure, wall.share());
   wall.set_initial_stress(initial);
   return rest_of(wall, image, &initial);
 }
@@ -216,7 +217,7 @@ void check_motions(const SolidCase& solid, const WallMesh& mesh, const CaseFile&
   make_supports(solid, mesh, file, given, notices);
 }
 
-PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file) {
+PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file, Team& team) {
   check_against_mesh(solid, mesh, file);
   const WallSettings settings{.material = solid.material.type,
                               .material_values = solid.material.values,
@@ -231,12 +232,12 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
   std::vector<SurfaceSupport> held = make_supports(solid, mesh, file, given, wall.notices);
   const ImageCase& image = file.common().image;
   const Points stress_free =
-      image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file) : mesh.points;
+      image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file, team) : mesh.points;
   if (file.common().observer.is_on()) wall.observer_gain = observer_gain(file.common().observer, mesh);
   if (nothing_holds(held)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
   std::vector<LocalEffect> local = local_effects(solid.effects, mesh);
   wall.model =
-      std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local));
+      std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local), team);
   wall.model->drive(std::move(given));
   wall.rest = prestress(*wall.model, image);
   if (wall.rest.held) wall.notices.push_back(describe(*wall.rest.held));

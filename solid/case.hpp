@@ -55,6 +55,6 @@ struct PreparedWall {
 
 /// The wall of a case. Rings that the case does not name are clamped. Throws InputError for names that the mesh does
 /// not have, RunError if no stress-free configuration is found.
-PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file);
+PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile& file, Team& team = alone());
 
 }  // namespace tether

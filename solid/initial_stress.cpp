@@ -1,6 +1,6 @@
 #include "solid/initial_stress.hpp"
 
-#include "common/linalg/cholesky.hpp"
+#include "common/linalg/symmetric_solver.hpp"
 #include "common/mesh/surface.hpp"
 #include "solid/inflation_stiffness.hpp"
 #include "solid/prestress.hpp"
@@ -8,13 +8,13 @@
 namespace tether {
 namespace {
 
-/// matrix += k M_b, lumped.
-void add_tissue(const WallMesh& mesh, double k, SparseMatrix& matrix) {
+/// Own rows of the matrix += k M_b, lumped.
+void add_tissue(const WallMesh& mesh, double k, const Share& share, SparseMatrix& matrix) {
   for (const Patch& region : mesh.outside)
     for (const Triangle& t : region.triangles) {
-      const double share = k * area_vector(mesh.points, t).norm() / 3;
+      const double part = k * area_vector(mesh.points, t).norm() / 3;
       for (int node : t)
-        for (int i = 0; i < 3; ++i) matrix.coeffRef(3 * node + i, 3 * node + i) += share;
+        for (int i = 0; share.is_own(node) && i < 3; ++i) matrix.coeffRef(3 * node + i, 3 * node + i) += part;
     }
 }
 
@@ -24,23 +24,26 @@ double sum_of_magnitudes(const Points& forces) {
 
 }  // namespace
 
-InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure) {
+InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure,
+                                  const Share& share) {
   constexpr int steps = 10;  // tension is then right to 2^-10
-  const auto wall = make_wall_elements(mesh, mesh.points);
+  const auto wall = make_wall_elements(mesh, mesh.points, share);
   VectorXd none = VectorXd::Zero(mesh.points.size());
   SparseMatrix K = wall->zero_matrix();
   wall->static_force(mesh.points, material, none, &K);
   SparseMatrix damped = K;
-  add_tissue(mesh, inflation_stiffness(mesh, *wall, material), damped);
-  Cholesky factor;
-  factor.analyze(damped, 3);
-  factor.factor(damped);
+  add_tissue(mesh, inflation_stiffness(mesh, *wall, material), share, damped);
+  const std::unique_ptr<SymmetricSolver> factor = symmetric_solver(share);
+  factor->analyze(damped, 3);
+  factor->factor(damped);
 
   const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
   VectorXd u = VectorXd::Zero(load.size()), remaining = load;
   for (int step = 0; step < steps; ++step) {
-    u += factor.solve(remaining);
-    remaining = load - K * u;
+    u += factor->solve(remaining);
+    remaining = K * u;
+    share.complete(remaining);
+    remaining = load - remaining;
   }
   InitialStress result;
   result.virtual_displacement = u.reshaped(3, mesh.points.cols());

@@ -21,6 +21,6 @@ struct InitialStress {
 /// what tension leaves undone, and bending has hardly begun when it is done. What remains is held by the surroundings,
 /// as a dead load, and reported. Elasticity is that around the image: the material's modulus is the incremental one
 /// there. The stress does not depend on the modulus.
-InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure);
+InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure, const Share& share);
 
 }  // namespace tether

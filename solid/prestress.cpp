@@ -7,7 +7,8 @@
 #include <deque>
 
 #include "common/base/error.hpp"
-#include "common/linalg/cholesky.hpp"
+#include "common/linalg/symmetric_solver.hpp"
+#include "solid/wall_share.hpp"
 
 namespace tether {
 namespace {
@@ -45,27 +46,27 @@ double size_of(const Points& points) {
 /// The iteration at one pressure, from a wall nearly free of stress there. Fails rather than leave the region where the
 /// wall is stable.
 StressFreeResult search(const WallMesh& mesh, const Material& material, const VectorXd& load,
-                        const std::vector<int>& fixed, const Points& start, double tolerance) {
+                        const std::vector<int>& fixed, const Share& share, const Points& start, double tolerance) {
   constexpr int max_iterations = 80;
   const double size = size_of(mesh.points);
   StressFreeResult result;
   result.positions = start;
   Anderson anderson;
-  Cholesky cholesky;
+  const std::unique_ptr<SymmetricSolver> solver = symmetric_solver(share);
   while (result.iterations < max_iterations) {
-    const auto wall = make_wall_elements(mesh, result.positions);
+    const auto wall = make_wall_elements(mesh, result.positions, share);
     VectorXd out_of_balance = VectorXd::Zero(load.size());
     SparseMatrix tangent = wall->zero_matrix();
     wall->static_force(mesh.points, material, out_of_balance, &tangent);
-    constrain(tangent, fixed, tangent.coeff(0, 0));
-    if (result.iterations == 0) cholesky.analyze(tangent, 3);
-    if (!cholesky.factor_if_definite(tangent)) {
+    constrain(tangent, fixed, first_entry(share, tangent));
+    if (result.iterations == 0) solver->analyze(tangent, 3);
+    if (!solver->factor_if_definite(tangent)) {
       result.failure = "the wall is not stable under tension and bending as they would have to be: it buckles";
       return result;
     }
     out_of_balance = load - out_of_balance;
     for (int unknown : fixed) out_of_balance[unknown] = 0;
-    const VectorXd step = -cholesky.solve(out_of_balance);
+    const VectorXd step = -solver->solve(out_of_balance);
     ++result.iterations;
     result.residual = step.lpNorm<Eigen::Infinity>() / size;
     result.converged = result.residual <= tolerance;
@@ -93,7 +94,7 @@ VectorXd uniform_pressure_forces(const WallMesh& mesh, const Points& x, double p
 }
 
 StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material& material, double pressure,
-                                           const std::vector<int>& fixed, double tolerance) {
+                                           const std::vector<int>& fixed, const Share& share, double tolerance) {
   constexpr double smallest_increment = 1.0 / 512, tolerance_on_the_way = 1e-3;
   const VectorXd load = uniform_pressure_forces(mesh, mesh.points, pressure);
   StressFreeResult result;
@@ -109,7 +110,8 @@ StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material&
     StressFreeResult next;
     try {
       next =
-          search(mesh, material, target * load, fixed, result.positions, target < 1 ? tolerance_on_the_way : tolerance);
+          search(mesh, material, target * load, fixed, share, result.positions,
+                 target < 1 ? tolerance_on_the_way : tolerance);
     } catch (const RunError& error) {  // an element without volume: the step was too long
       next.failure = error.what();
     }

@@ -115,11 +115,14 @@ protocol::StepReport SolidServer::operator()(const protocol::EndStep& m) {
 }
 
 protocol::Ready SolidServer::operator()(const protocol::Write& m) {
+  const auto stress =
+      model_->elements().cauchy_stress(model_->mesh().points + solver_->displacement(), model_->material());
+  if (model_->share().team().rank() != 0) return {};
   const auto rest = output_ / "rest.json";
   // A run that goes on may lack it, or find one that was changed.
   if (m.step == 0 || !rest_is_written_ || !std::filesystem::exists(rest)) write_record(rest, rest_);
   rest_is_written_ = true;
-  series_->write(*model_, *solver_, static_cast<int>(m.step), m.time);
+  series_->write(*model_, *solver_, stress, static_cast<int>(m.step), m.time);
   return {};
 }
 

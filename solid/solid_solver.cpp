@@ -31,7 +31,8 @@ SolidSolver::SolidSolver(WallModel& model)
       mean_velocity_(displacement_),
       drift_(displacement_),
       iterate_(displacement_),
-      tangent_(model.elements().zero_matrix()) {
+      tangent_(model.elements().zero_matrix()),
+      factor_(symmetric_solver(model.share())) {
   origin_.displacement = displacement_;
   origin_.parameters = model.parameters().values();
 }
@@ -86,13 +87,15 @@ VectorXd SolidSolver::out_of_balance(const Points& load, bool renew_tangent) {
 }
 
 VectorXd SolidSolver::product(const VectorXd& direction) {
-  return current_tangent() * direction;
+  VectorXd result = current_tangent() * direction;
+  model_.share().complete(result);
+  return result;
 }
 
 VectorXd SolidSolver::precondition(const VectorXd& residual) {
   VectorXd rhs = residual;
   for (int unknown : model_.clamped_unknowns()) rhs[unknown] = 0;
-  VectorXd solution = factor_.solve(rhs);
+  VectorXd solution = factor_->solve(rhs);
   if (std::exchange(estimates_, false)) {
     last_estimate_ = solution.norm();
     if (calls_ == 0) first_estimate_ = last_estimate_;
@@ -220,7 +223,7 @@ void SolidSolver::assemble_tangent_at(const FactorOrigin& origin) {
 void SolidSolver::make_factor(const FactorOrigin& origin) {
   assemble_tangent_at(origin);
   origin_.dt = 0;  // where it cannot be factored there is none
-  if (!factor_.has_factor()) factor_.analyze(tangent_, 3);
+  if (!factor_->has_factor()) factor_->analyze(tangent_, 3);
   factor_tangent();
   origin_ = origin;
 }
@@ -228,12 +231,12 @@ void SolidSolver::make_factor(const FactorOrigin& origin) {
 /// A wall that buckles is carried through it by its mass, but its tangent is indefinite: then the factor is that of one
 /// whose diagonal is larger, by the least power of ten that makes it definite. (S.11)
 void SolidSolver::factor_tangent() {
-  if (factor_.factor_roughly(tangent_, rough)) return;
+  if (factor_->factor_roughly(tangent_, rough)) return;
   const VectorXd diagonal = tangent_.diagonal().cwiseAbs();
   for (const double more : {1e-3, 1e-2, 1e-1, 1.0, 1e1}) {
     SparseMatrix stiffer = tangent_;
     stiffer.diagonal() += more * diagonal;
-    if (factor_.factor_roughly(stiffer, rough)) return;
+    if (factor_->factor_roughly(stiffer, rough)) return;
   }
   throw run_error("the wall's tangent is not positive definite: it folds");
 }

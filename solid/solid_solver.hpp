@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/base/mark.hpp"
-#include "common/linalg/cholesky.hpp"
 #include "common/linalg/krylov.hpp"
+#include "common/linalg/symmetric_solver.hpp"
 #include "solid/wall_model.hpp"
 
 namespace tether {
@@ -101,7 +101,7 @@ class SolidSolver {
   double time_ = 0, dt_ = 0;
   SparseMatrix tangent_;
   bool tangent_serves_ = false;
-  Cholesky factor_;
+  std::unique_ptr<SymmetricSolver> factor_;
   FactorOrigin origin_;
   int evaluations_ = 0;
   int calls_ = 0, calls_for_last_ = 0;  ///< of `precondition` for corrections: so far, and up to the last estimate

@@ -5,6 +5,7 @@
 #include "common/linalg/krylov.hpp"
 #include "common/mesh/surface.hpp"
 #include "solid/inflation_stiffness.hpp"
+#include "solid/wall_share.hpp"
 
 #include <algorithm>
 
@@ -32,17 +33,19 @@ VectorXd local_mesh_size(const WallMesh& mesh) {
 }  // namespace
 
 StateObserver::StateObserver(const WallModel& model, VectorXd gain)
-    : interface_nodes_(model.mesh().interface_nodes),
+    : share_(model.share()),
+      interface_nodes_(model.mesh().interface_nodes),
       gain_(std::move(gain)),
-      mesh_size_(local_mesh_size(model.mesh())) {
+      mesh_size_(local_mesh_size(model.mesh())),
+      factor_(symmetric_solver(share_)) {
   TETHER_ASSERT(gain_.size() == interface_nodes_, "{} gains of {} nodes", gain_.size(), interface_nodes_);
   const WallMesh& mesh = model.mesh();
-  const auto wall = make_wall_elements(mesh, mesh.points);
+  const auto wall = make_wall_elements(mesh, mesh.points, share_);
   VectorXd none = VectorXd::Zero(model.unknowns());
   K_ = wall->zero_matrix();
   wall->static_force(mesh.points, model.material(), none, &K_);
   for (const SurfaceSupport& support : model.supports()) support.add_stiffness(K_);
-  constrain(K_, model.clamped_unknowns(), K_.coeff(0, 0));
+  constrain(K_, model.clamped_unknowns(), first_entry(share_, K_));
   kappa_ = stiffer_than_the_wall * inflation_stiffness(mesh, *wall, model.material());
   normal_ = nodal_normals(mesh.points, mesh.interface).leftCols(interface_nodes_);
   area_ = nodal_areas(mesh.points, mesh.interface).head(interface_nodes_);
@@ -77,6 +80,7 @@ VectorXd StateObserver::observed_area(const NodalDistances& data) const {
 /// (K + kappa A) e
 VectorXd StateObserver::times(const VectorXd& observed, const VectorXd& e) const {
   VectorXd result = K_ * e;
+  share_.complete(result);
   for (Eigen::Index a = 0; a < interface_nodes_; ++a) {
     const Vec3 n = normal_.col(a);
     result.segment<3>(3 * a) += kappa_ * observed[a] * n.dot(e.segment<3>(3 * a)) * n;
@@ -87,13 +91,13 @@ VectorXd StateObserver::times(const VectorXd& observed, const VectorXd& e) const
 void StateObserver::factor(const VectorXd& observed) {
   SparseMatrix A = K_;
   for (Eigen::Index a = 0; a < interface_nodes_; ++a)
-    if (observed[a] > 0)
+    if (observed[a] > 0 && share_.is_own(static_cast<int>(a)))
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           A.coeffRef(static_cast<int>(3 * a) + i, static_cast<int>(3 * a) + j) +=
               kappa_ * observed[a] * normal_(i, a) * normal_(j, a);
-  if (!factor_.has_factor()) factor_.analyze(A, 3);
-  factor_.factor(A);
+  if (!factor_->has_factor()) factor_->analyze(A, 3);
+  factor_->factor(A);
   factored_ = observed;
 }
 
@@ -104,11 +108,11 @@ Points StateObserver::extend(const NodalDistances& data, const VectorXd& target)
     rhs.segment<3>(3 * a) = kappa_ * observed[a] * target[a] * data.normal.col(a).dot(normal_.col(a)) * normal_.col(a);
   if (rhs.isZero(0)) return Points::Zero(3, rhs.size() / 3);
   if (factored_.size() == 0) factor(observed);
-  if (factored_ == observed) return factor_.solve(rhs).reshaped(3, rhs.size() / 3);
+  if (factored_ == observed) return factor_->solve(rhs).reshaped(3, rhs.size() / 3);
   const auto solve = [&] {
     e.setZero();
     return conjugate_gradients([&](const VectorXd& v) { return times(observed, v); },
-                               [&](const VectorXd& r) { return factor_.solve(r); }, rhs, e, tolerance, most_iterations);
+                               [&](const VectorXd& r) { return factor_->solve(r); }, rhs, e, tolerance, most_iterations);
   };
   KrylovResult result = solve();
   if (!result.converged || result.iterations > worth_a_factor) {

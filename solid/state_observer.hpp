@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/linalg/cholesky.hpp"
+#include "common/linalg/symmetric_solver.hpp"
 #include "solid/wall_model.hpp"
 
 namespace tether {
@@ -46,13 +46,14 @@ class StateObserver {
   VectorXd times(const VectorXd& observed, const VectorXd& e) const;
   void factor(const VectorXd& observed);
 
+  const Share& share_;
   Eigen::Index interface_nodes_;
   VectorXd gain_, mesh_size_;
   SparseMatrix K_;
   double kappa_;
   Points normal_;  ///< N of each interface node
   VectorXd area_;  ///< A; 0 of nodes that cannot move or have no gain
-  Cholesky factor_;
+  std::unique_ptr<SymmetricSolver> factor_;
   VectorXd factored_;  ///< area of each node observed when the factor was made; empty: there is none
   std::int64_t limited_ = 0;
 };

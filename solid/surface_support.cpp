@@ -36,6 +36,15 @@ SurfaceSupport::SurfaceSupport(Patch patch, Configured<Support> support, TissueM
   }
 }
 
+void SurfaceSupport::share_out(const Share& share) {
+  share_ = &share;
+  if (share.is_whole()) return;
+  std::erase_if(faces_, [&share](const Face& face) {
+    return std::none_of(face.nodes.begin(), face.nodes.end(), [&share](int node) { return share.is_own(node); });
+  });
+  for (Face& face : faces_) face.counts = share.answers_for(face.nodes);
+}
+
 void SurfaceSupport::attach(const SparseMatrix& pattern) {
   std::vector<Triangle> triangles;
   for (const Face& face : faces_) triangles.push_back(face.nodes);
@@ -114,7 +123,9 @@ Vec3 SurfaceSupport::resultant(const SupportStep& step) const {
   if (support_.is_absent()) return sum;
   const AffineDisplacement rest = anchor_.at(step.time);
   for (const Face& face : faces_)
-    for (int point = 0; point < 3; ++point) sum += face.area / 3 * at(step, rest, face, point).traction;
+    for (int point = 0; face.counts && point < 3; ++point)
+      sum += face.area / 3 * at(step, rest, face, point).traction;
+  if (share_ != nullptr) share_->team().sum({sum.data(), 3});
   return sum;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/base/configured.hpp"
-#include "common/linalg/sparse.hpp"
+#include "common/linalg/share.hpp"
 #include "common/mesh/mesh.hpp"
 #include "solid/anchor.hpp"
 #include "solid/supports/support.hpp"
@@ -39,6 +39,9 @@ class SurfaceSupport {
   void follow(std::shared_ptr<MovingTissue> tissue) { anchor_.tissues.push_back(std::move(tissue)); }
   const std::vector<std::shared_ptr<MovingTissue>>& tissues() const { return anchor_.tissues; }
 
+  /// Before all that follows: of the wall's nodes, which it then needs as long as it lives. It then acts where own nodes
+  /// are.
+  void share_out(const Share& share);
   /// Areas and normals are those of these positions until the next call. `pattern`: the wall's matrix.
   void place(const Points& positions);
   void attach(const SparseMatrix& pattern);
@@ -46,7 +49,8 @@ class SurfaceSupport {
   /// A number at each node that grows along the vessel (S.15), for laws that use its direction; before `place`.
   void orient(std::shared_ptr<const VectorXd> place_along_vessel) { along_ = std::move(place_along_vessel); }
 
-  /// force += what the support exerts on the wall; tangent, if not null, += - d force / dV. Nothing if it is absent.
+  /// force += what the support exerts on the wall, of a shared wall on own nodes; tangent, if not null, += - d force /
+  /// dV. Nothing if it is absent.
   void add(const SupportStep& step, VectorXd& force, SparseMatrix* tangent) const;
   /// K += - d force / d displacement where nothing has moved; attach first.
   void add_stiffness(SparseMatrix& K) const;
@@ -61,6 +65,7 @@ class SurfaceSupport {
     double area;
     Vec3 normal, axial;
     Mat3 corners;  ///< imaged
+    bool counts = true;  ///< in the resultant: this process answers for it
   };
   SupportTraction at(const SupportStep& step, const AffineDisplacement& rest, const Face& face, int point) const;
 
@@ -70,6 +75,7 @@ class SurfaceSupport {
   std::string path_;
   std::shared_ptr<const VectorXd> along_;
   std::vector<Face> faces_;  ///< of the patch's parts
+  const Share* share_ = nullptr;
   bool placed_ = false, is_attached_ = false;
   ScatterMap scatter_;
 };

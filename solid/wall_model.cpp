@@ -6,6 +6,7 @@
 #include "solid/element_places.hpp"
 #include "solid/materials/registry.hpp"
 #include "solid/vessel_direction.hpp"
+#include "solid/wall_share.hpp"
 
 namespace tether {
 
@@ -18,16 +19,18 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
 
 WallModel::WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free,
                      std::vector<int> clamped_nodes, std::vector<SurfaceSupport> supports,
-                     std::vector<LocalEffect> effects)
+                     std::vector<LocalEffect> effects, Team& team)
     : mesh_(std::move(mesh)),
+      share_(wall_share(mesh_, team)),
       settings_(settings),
       material_(materials(), settings.material, settings.material_values),
-      elements_(make_wall_elements(mesh_, stress_free)),
+      elements_(make_wall_elements(mesh_, stress_free, share_)),
       supports_(std::move(supports)),
       effects_(std::move(effects)),
       always_clamped_(unknowns_of(clamped_nodes)) {
   if (settings.conserve_energy && settings.theta != 0.5)
     throw input_error("solid.theta: {} with integrator energy_conserving: must be 0.5", settings.theta);
+  for (SurfaceSupport& support : supports_) support.share_out(share_);
   orient_supports();
   for (SurfaceSupport& support : supports_) support.place(mesh_.points);
   attach_present();
@@ -183,9 +186,10 @@ VectorXd WallModel::step_forces(const Points& displacement, const Points& start_
   const Points middle = displacement + advance * velocity;
   for (const SurfaceSupport& support : supports_)
     support.add({middle, velocity, time + advance, advance, &acceleration}, holding, tangent);
+  share_.complete(holding);
   forces -= holding;
   for (int unknown : clamped_) forces[unknown] = 0;
-  if (tangent != nullptr) constrain(*tangent, clamped_, tangent->coeff(0, 0));
+  if (tangent != nullptr) constrain(*tangent, clamped_, first_entry(share_, *tangent));
   return forces;
 }
 

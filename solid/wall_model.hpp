@@ -24,13 +24,14 @@ struct WallSettings {
   bool support_on_current_area = false;  ///< areas at the start of each step, else those of the imaged wall
 };
 
-/// Wall with material and supports; all parameters settable by name.
+/// Wall with material and supports; all parameters settable by name. The processes of a team call the same functions
+/// with the same arguments: forces are whole in each, of matrices it has the rows of its own nodes.
 class WallModel {
  public:
   /// `stress_free`: positions without stress (the imaged ones, if there is no prestress). `clamped`: nodes that do not
   /// move.
   WallModel(WallMesh mesh, const WallSettings& settings, const Points& stress_free, std::vector<int> clamped_nodes,
-            std::vector<SurfaceSupport> supports, std::vector<LocalEffect> effects = {});
+            std::vector<SurfaceSupport> supports, std::vector<LocalEffect> effects = {}, Team& team = alone());
   WallModel(const WallModel&) = delete;  // the parameter table refers into this object
   WallModel& operator=(const WallModel&) = delete;
 
@@ -43,6 +44,8 @@ class WallModel {
   void set_initial_stress(const InitialStress& initial);
 
   const WallMesh& mesh() const { return mesh_; }
+  /// Of the nodes, between the processes of the team.
+  const Share& share() const { return share_; }
   const WallSettings& settings() const { return settings_; }
   const WallElements& elements() const { return *elements_; }
   const Material& material() const { return *material_; }
@@ -73,6 +76,7 @@ class WallModel {
   void update_effects();
 
   WallMesh mesh_;
+  Share share_;
   WallSettings settings_;
   Configured<Material> material_;
   std::unique_ptr<WallElements> elements_;

@@ -26,14 +26,14 @@ std::vector<Field> stress_fields(const Eigen::Matrix<double, 6, Eigen::Dynamic>&
 
 }  // namespace
 
-void WallSeries::write(const WallModel& model, const SolidSolver& solver, int step, double time) {
+void WallSeries::write(const WallModel& model, const SolidSolver& solver,
+                       const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress, int step, double time) {
   if (!series_) {  // only then: an output that is removed in mid-run is not made anew
     series_ = PvdSeries::rescued_before(folder_ / "solid.pvd", time);
     std::filesystem::create_directories(folder_ / "vtk");
   }
   const std::string file = fmt::format("vtk/solid_{:06}.vtu", step);
   const Points& reference = model.mesh().points;
-  const auto stress = model.elements().cauchy_stress(reference + solver.displacement(), model.material());
   write_vtu(folder_ / file, reference, cells_of(model.mesh()),
             {Field::vectors("displacement", solver.displacement()), Field::vectors("velocity", solver.velocity())},
             stress_fields(stress));

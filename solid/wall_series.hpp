@@ -14,8 +14,9 @@ class WallSeries {
  public:
   explicit WallSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Entries at this time or later, left by a run that was stopped, give way.
-  void write(const WallModel& model, const SolidSolver& solver, int step, double time);
+  /// `stress`: Cauchy's, of each element. Entries at this time or later, left by a run that was stopped, give way.
+  void write(const WallModel& model, const SolidSolver& solver,
+             const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress, int step, double time);
 
  private:
   std::filesystem::path folder_;

@@ -188,10 +188,6 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
     throw run_error("the analysis of a sparse matrix failed (CHOLMOD status {})", common.status);
 }
 
-void Cholesky::factor(const SparseMatrix& matrix) {
-  if (!factor_if_definite(matrix)) throw run_error("a matrix that should be positive definite is not");
-}
-
 bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
   if (data_->factor == nullptr) analyze(matrix);
   data_->drop_rounded();
@@ -233,12 +229,6 @@ void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
   rhs = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
       static_cast<const double*>(x->x), rhs.rows(), rhs.cols(), Eigen::OuterStride<>(static_cast<Eigen::Index>(x->d)));
   cholmod_free_dense(&x, &data_->common);
-}
-
-VectorXd Cholesky::solve(const VectorXd& rhs) const {
-  Eigen::MatrixXd x = rhs;
-  solve_in_place(x);
-  return x.col(0);
 }
 
 bool Cholesky::has_factor() const {

@@ -38,10 +38,11 @@ int guarded(const std::string& role, const std::function<void()>& body) {
 
 }  // namespace
 
-int run_master(const std::string& role, const std::function<void(Session&)>& body, const OfCase& of_case) {
+int run_master(const std::string& role, const std::function<void(Session&)>& body, const OfCase& of_case,
+               int communicator) {
   std::unique_ptr<Session> session;
   const int code = guarded(role, [&] {
-    session = std::make_unique<Session>(role, no_communicator, of_case);
+    session = std::make_unique<Session>(role, communicator, of_case);
     body(*session);
   });
   return session ? session->end(code) : code;

@@ -5,14 +5,16 @@
 
 #include "common/protocol/launch.hpp"
 #include "common/protocol/local_channel.hpp"
-#include "common/protocol/serve.hpp"
+#include "common/protocol/serve_together.hpp"
 
 /// The main functions of the executables.
 namespace tether::protocol {
 
 /// A master's main: runs `body`, writes the one message of what went wrong to stderr ("fsi_master: ..."), ends
 /// everything. Returns the exit code: 0 done, 1 the run failed, 2 the input is wrong.
-int run_master(const std::string& role, const std::function<void(Session&)>& body, const OfCase& of_case = {});
+/// `communicator`: Session's.
+int run_master(const std::string& role, const std::function<void(Session&)>& body, const OfCase& of_case = {},
+               int communicator = no_communicator);
 
 namespace detail {
 int run_either(const std::string& role, const std::function<void(Session&)>& as_master,
@@ -62,6 +64,30 @@ Here partner_here(Build build) {
 template <class Requests, class Build>
 int run_partner(const std::string& role, Build build, const OfCase& of_case = {}) {
   return run_either<Requests>(role, nullptr, std::move(build), of_case);
+}
+
+/// The main of a partner that may run in several processes, all of which compute: `build(welcome, team)`.
+template <class Requests, class Build>
+int run_partner_together(const std::string& role, Build build, const OfCase& of_case = {}) {
+  using Handler = decltype(build(std::declval<const Welcome&>(), std::declval<Team&>()));
+  const auto body = [&](Session& session) {
+    if (!session.is_alone()) {
+      std::optional<Session::Link> link;
+      if (session.is_leader()) link = session.connect();
+      ServeTogether<Requests, Handler> together(session, link);
+      const Welcome welcome = together.welcome();
+      return together([&] { return std::unique_ptr<Handler>(new Handler(build(welcome, together.team()))); });
+    }
+    const Session::Link link = session.connect();
+    std::unique_ptr<Handler> handler;
+    try {
+      handler.reset(new Handler(build(link.welcome, alone())));
+    } catch (...) {
+      return detail::refuse(*link.channel);
+    }
+    serve<Requests>(*link.channel, handler->hello(), *handler);
+  };
+  return run_master(role, body, of_case, all_processes);
 }
 
 }  // namespace tether::protocol

@@ -26,7 +26,9 @@ class ElementsOf final : public WallElements {
   using Samples = Eigen::Matrix<double, samples, 1>;
   using Block = Eigen::Matrix<double, unknowns, unknowns, Eigen::RowMajor>;
 
-  ElementsOf(const std::vector<Cell>& cells, const Points& reference)
+  /// `number_of`: what an element is called in messages.
+  template <class Number>
+  ElementsOf(const std::vector<Cell>& cells, const Points& reference, const Number& number_of)
       : cells_(cells), scatter_(static_cast<int>(reference.cols()), 3, std::span<const Cell>(cells_)) {
     elements_.reserve(cells.size());
     reference_.reserve(cells.size());
@@ -44,8 +46,8 @@ class ElementsOf final : public WallElements {
       initial_mean_.push_back(Voigt::Zero());
       for (int q = 0; q < Element::points; ++q)
         if (!(elements_.back().weight(q) > 0))
-          throw run_error("wall element {} at ({:.4g} {:.4g} {:.4g}) has no positive volume", e, x.row(0).mean(),
-                          x.row(1).mean(), x.row(2).mean());
+          throw run_error("wall element {} at ({:.4g} {:.4g} {:.4g}) has no positive volume", number_of(e),
+                          x.row(0).mean(), x.row(1).mean(), x.row(2).mean());
     }
     if constexpr (packed)
       for (std::size_t e = 0; e < cells.size(); e += Pack::width) packs_.emplace_back(four_at(e));
@@ -102,14 +104,14 @@ class ElementsOf final : public WallElements {
     }
   }
 
-  double energy(const Points& x, const Material& material) const override {
-    double sum = 0;
+  VectorXd energies(const Points& x, const Material& material) const override {
+    VectorXd all(static_cast<Eigen::Index>(cells_.size()));
     const WallLaw law(material);
     for (std::size_t e = 0; e < cells_.size(); ++e) {
       const Samples s = elements_[e].strains().products(gather(x, e)) - reference_[e];
-      sum += energy_of(e, s, law) + initial_stress(e).dot(s);
+      all[static_cast<Eigen::Index>(e)] = energy_of(e, s, law) + initial_stress(e).dot(s);
     }
-    return sum;
+    return all;
   }
 
   VectorXd volumes() const override {
@@ -487,11 +489,97 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(cons
   return result;
 }
 
+/// Those at a process's own nodes; what is whole is put together from all.
+class SharedElements final : public WallElements {
+ public:
+  /// numbers: in the mesh, of the elements held, ascending; answers: for which of them this process does.
+  SharedElements(const Share& share, std::unique_ptr<WallElements> held, std::vector<int> numbers,
+                 std::vector<char> answers, std::size_t count)
+      : share_(share), held_(std::move(held)), numbers_(std::move(numbers)), answers_(std::move(answers)), count_(count) {}
+
+  void static_force(const Points& x, const Material& material, VectorXd& force, SparseMatrix* tangent) const override {
+    VectorXd here = VectorXd::Zero(force.size());
+    held_->static_force(x, material, here, tangent);
+    add(std::move(here), force);
+  }
+  void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
+                  SparseMatrix* tangent) const override {
+    VectorXd here = VectorXd::Zero(force.size());
+    held_->step_force(motion, material, here, tangent);
+    add(std::move(here), force);
+  }
+  VectorXd energies(const Points& x, const Material& material) const override {
+    return of_all(held_->energies(x, material).transpose()).transpose();
+  }
+  VectorXd volumes() const override { return of_all(held_->volumes().transpose()).transpose(); }
+  Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const override {
+    return of_all(held_->cauchy_stress(x, material));
+  }
+  SparseMatrix zero_matrix() const override { return held_->zero_matrix(); }
+  void set_initial_stress(const Points& u, const Material& material) override {
+    held_->set_initial_stress(u, material);
+  }
+  void set_places(std::vector<ElementPlace> places) override {
+    std::vector<ElementPlace> here;
+    for (const int number : numbers_) here.push_back(places[static_cast<std::size_t>(number)]);
+    held_->set_places(std::move(here));
+  }
+  void set_local(std::vector<WallLocal> regions) override { held_->set_local(std::move(regions)); }
+  VectorXd tension_force(const Points& x) const override {
+    VectorXd force = held_->tension_force(x);
+    share_.complete(force);
+    return force;
+  }
+
+ private:
+  void add(VectorXd here, VectorXd& force) const {
+    share_.complete(here);
+    force += here;
+  }
+  /// A column an element: of those held, and of all.
+  Eigen::MatrixXd of_all(const Eigen::MatrixXd& held) const {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(held.rows(), static_cast<Eigen::Index>(count_));
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      if (answers_[i] != 0) all.col(numbers_[i]) = held.col(static_cast<Eigen::Index>(i));
+    share_.team().sum({all.data(), static_cast<std::size_t>(all.size())});
+    return all;
+  }
+
+  const Share& share_;
+  std::unique_ptr<WallElements> held_;
+  std::vector<int> numbers_;
+  std::vector<char> answers_;
+  std::size_t count_;
+};
+
+template <class Element>
+std::unique_ptr<WallElements> elements_of(const std::vector<typename Element::Cell>& cells, const Points& reference,
+                                          const Share& share) {
+  if (share.is_whole())
+    return std::make_unique<ElementsOf<Element>>(cells, reference, [](std::size_t e) { return e; });
+  const std::vector<int> numbers = share.elements_here(cells);
+  std::vector<typename Element::Cell> here;
+  std::vector<char> answers;
+  for (const int number : numbers) {
+    here.push_back(cells[static_cast<std::size_t>(number)]);
+    answers.push_back(share.answers_for(here.back()) ? 1 : 0);
+  }
+  std::unique_ptr<WallElements> held;
+  share.team().each([&] {
+    held = std::make_unique<ElementsOf<Element>>(here, reference, [&](std::size_t e) { return numbers[e]; });
+  });
+  return std::make_unique<SharedElements>(share, std::move(held), numbers, std::move(answers), cells.size());
+}
+
 }  // namespace
 
+std::unique_ptr<WallElements> make_wall_elements(const WallMesh& mesh, const Points& reference, const Share& share) {
+  if (!mesh.prisms.empty()) return elements_of<PrismElement>(mesh.prisms, reference, share);
+  return elements_of<TetrahedronElement>(mesh.tetrahedra, reference, share);
+}
+
 std::unique_ptr<WallElements> make_wall_elements(const WallMesh& mesh, const Points& reference) {
-  if (!mesh.prisms.empty()) return std::make_unique<ElementsOf<PrismElement>>(mesh.prisms, reference);
-  return std::make_unique<ElementsOf<TetrahedronElement>>(mesh.tetrahedra, reference);
+  return make_wall_elements(mesh, reference, Share(static_cast<int>(mesh.points.cols())));
 }
 
 }  // namespace tether

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "common/base/types.hpp"
+#include "common/linalg/share.hpp"
 #include "common/linalg/sparse.hpp"
 #include "common/mesh/mesh.hpp"
 #include "solid/elements/wall_local.hpp"
@@ -28,7 +29,7 @@ struct WallMaterial {
 };
 
 /// All elements of the wall, of one kind, built on the stress-free positions. Forces and matrices are by node, then x y
-/// z.
+/// z. Where several processes share the wall, forces are whole in each, and of a matrix the rows of its own nodes.
 class WallElements {
  public:
   virtual ~WallElements() = default;
@@ -39,7 +40,9 @@ class WallElements {
   /// The same in a time step (S.5), viscosity and inertia included; tangent, if not null, += df/dV.
   virtual void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
                           SparseMatrix* tangent) const = 0;
-  virtual double energy(const Points& x, const Material& material) const = 0;
+  /// Of each element.
+  virtual VectorXd energies(const Points& x, const Material& material) const = 0;
+  double energy(const Points& x, const Material& material) const { return energies(x, material).sum(); }
   /// Of each element, without stress.
   virtual VectorXd volumes() const = 0;
   double volume() const { return volumes().sum(); }
@@ -60,5 +63,8 @@ class WallElements {
 /// Prisms if the mesh has them, otherwise linear tetrahedra. `reference`: stress-free positions. Throws RunError naming
 /// an element that has no volume.
 std::unique_ptr<WallElements> make_wall_elements(const WallMesh& mesh, const Points& reference);
+/// The same for the processes of a team, each of which holds the elements at its own nodes; `share`, of the mesh's
+/// nodes, must outlive them.
+std::unique_ptr<WallElements> make_wall_elements(const WallMesh& mesh, const Points& reference, const Share& share);
 
 }  // namespace tether

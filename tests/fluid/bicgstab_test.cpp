@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "tests/linalg/thread_team.hpp"
+
 namespace tether {
 namespace {
 
@@ -78,6 +80,31 @@ TEST(Bicgstab, SaysWhenItDoesNotConverge) {
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.iterations, 1);
   EXPECT_GT(result.residual, 1e-14);
+}
+
+TEST(Bicgstab, SharedByProcessesItSolvesTheSame) {
+  const Problem p;
+  // The rows of three processes; the pattern must be symmetric.
+  const SparseMatrix transposed = p.matrix.transpose();
+  const SparseMatrix matrix = p.matrix + 0 * transposed;
+  std::vector<int> owner(200);
+  for (int node = 0; node < 200; ++node) owner[static_cast<std::size_t>(node)] = node / 70;
+  const Points exact = p.exact();
+  in_team(3, [&](Team& team) {
+    const Share share(team, owner);
+    OwnRows rows(share, matrix);
+    rows.take(matrix);
+    Ilu0 preconditioner;
+    preconditioner.factor(rows.block());
+    Points x = Points::Zero(3, rows.all());
+    const KrylovResult result = bicgstab(rows, preconditioner, rows.own_of(p.rhs), x, 1e-12, 100);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(result.residual, 2e-12);
+    Points all = Points::Zero(3, 200);
+    rows.put_back(x, all);
+    share.complete(all);
+    EXPECT_LT((all - exact).norm(), 1e-10 * exact.norm());
+  });
 }
 
 }  // namespace

@@ -2,12 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
-#include "tests/scenarios/case_variant.hpp"
+#include "tests/scenarios/run_table.hpp"
 
 namespace tether {
 namespace {
@@ -38,30 +37,8 @@ class Together : public ::testing::Test {
     return capture({words, {}});
   }
   Json summary(const std::string& output) const { return Json::parse(content_of(folder / output / "summary.json")); }
-  /// The numbers of a run's table, row by row.
-  std::vector<std::vector<double>> table(const std::string& output) const {
-    std::ifstream file(folder / output / "timeseries.csv");
-    std::vector<std::vector<double>> rows;
-    for (std::string line; std::getline(file, line);) {
-      if (line.empty() || std::isdigit(static_cast<unsigned char>(line.front())) == 0) continue;
-      std::istringstream cells(line);
-      std::vector<double>& row = rows.emplace_back();
-      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
-    }
-    return rows;
-  }
-  /// Of all steps, each number to 1e-7 of the largest of its column.
   void expect_same_table(const std::string& one, const std::string& other) const {
-    const auto expected = table(one), found = table(other);
-    ASSERT_EQ(expected.size(), static_cast<std::size_t>(steps));
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t column = 0; column < expected.front().size(); ++column) {
-      double largest = 0;
-      for (const auto& row : expected) largest = std::max(largest, std::abs(row[column]));
-      for (std::size_t row = 0; row < expected.size(); ++row)
-        EXPECT_NEAR(found[row].at(column), expected[row][column], 1e-7 * std::max(largest, 1e-3))
-            << row << ", " << column;
-    }
+    tether::expect_same_table(folder / one, folder / other, steps, 1e-7);
   }
   TemporaryFolder folder;
 };

@@ -6,6 +6,7 @@
 #include "solid/materials/registry.hpp"
 #include "solid/prestress.hpp"
 #include "solid/rest.hpp"
+#include "solid/wall_share.hpp"
 #include "tests/solid/follower_pressure.hpp"
 #include "tests/solid/report.hpp"
 #include "tests/vessel/anatomies/closed_bifurcation.hpp"
@@ -45,7 +46,7 @@ TEST(BranchingWall, ThatIsStiffHasAStressFreeShapeWhichInflatesToTheImage) {
   const WallMesh wall = vessel(0.25);
   const auto material = neo_hookean.make(std::array{1e7, 0.45});
   const std::vector<int> fixed = unknowns_of(clamped_ends(wall));
-  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, fixed);
+  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, fixed, wall_share(wall, alone()));
   ASSERT_TRUE(found.converged) << found.reached << " " << found.failure;
   const Points inflated = inflate(wall, found.positions, *material, pressure, fixed, 1e-10);
   const double error = (inflated - wall.points).cwiseAbs().maxCoeff() / radius;
@@ -59,7 +60,7 @@ TEST(BranchingWall, LikeAnArterysHasNone) {
   const WallMesh wall = vessel(0.12);
   const auto material = neo_hookean.make(std::array{2e6, 0.45});
   const std::vector<int> nodes = clamped_ends(wall);
-  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, unknowns_of(nodes));
+  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, unknowns_of(nodes), wall_share(wall, alone()));
   EXPECT_FALSE(found.converged);
   EXPECT_LT(found.reached, 1);
   EXPECT_FALSE(found.failure.empty());
@@ -67,7 +68,7 @@ TEST(BranchingWall, LikeAnArterysHasNone) {
 
   const WallSettings settings{.material = "neo_hookean", .material_values = {2e6, 0.45}, .density = 1.2};
   WallModel model(wall, settings, wall.points, nodes, {});
-  const InitialStress initial = find_initial_stress(wall, model.material(), pressure);
+  const InitialStress initial = find_initial_stress(wall, model.material(), pressure, wall_share(wall, alone()));
   model.set_initial_stress(initial);
   ImageCase image;
   image.pressure = pressure;
@@ -84,7 +85,7 @@ TEST(BranchingWall, LikeAnArterysHasNone) {
 TEST(BranchingWall, ThatNothingClampsIsNotSought) {
   const WallMesh wall = vessel(0.25);
   const auto material = neo_hookean.make(std::array{1e7, 0.45});
-  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, {});
+  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, {}, wall_share(wall, alone()));
   EXPECT_FALSE(found.converged);
   EXPECT_EQ(found.iterations, 0);
   EXPECT_NE(found.failure.find("no end of the wall is clamped"), std::string::npos);

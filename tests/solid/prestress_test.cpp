@@ -3,6 +3,7 @@
 #include "solid/materials/registry.hpp"
 #include "solid/prestress.hpp"
 #include "solid/solid_solver.hpp"
+#include "solid/wall_share.hpp"
 #include "tests/solid/follower_pressure.hpp"
 #include "tests/solid/report.hpp"
 #include "tests/solid/strains.hpp"
@@ -66,7 +67,7 @@ double largest_edge_strain(const WallMesh& wall, const Points& stress_free) {
 }
 
 void expect_inflates_to_the_image(const WallMesh& wall, const Material& material, const std::vector<int>& fixed) {
-  const StressFreeResult found = stress_free_configuration(wall, material, pressure, fixed);
+  const StressFreeResult found = stress_free_configuration(wall, material, pressure, fixed, wall_share(wall, alone()));
   ASSERT_TRUE(found.converged) << found.iterations << " " << found.residual;
   EXPECT_LE(out_of_balance(wall, found.positions, material, fixed), 1e-5);
   const double strain = largest_edge_strain(wall, found.positions);
@@ -96,7 +97,7 @@ TEST(StressFreeConfiguration, OfAnIrregularVesselWithClampedEndsInflatesToTheIma
 /// Across any section through the axis the hoop stress carries the pressure: its mean is p a/t, whatever the law.
 TEST(StressFreeConfiguration, CarriesThePressureByLaplacesLaw) {
   const WallMesh wall = straight_vessel();
-  const StressFreeResult found = stress_free_configuration(wall, *neo(4e6), pressure, plane_strain_supports(wall));
+  const StressFreeResult found = stress_free_configuration(wall, *neo(4e6), pressure, plane_strain_supports(wall), wall_share(wall, alone()));
   ASSERT_TRUE(found.converged);
   const auto stress = make_wall_elements(wall, found.positions)->cauchy_stress(wall.points, *neo(4e6));
   double hoop = 0;
@@ -114,7 +115,7 @@ TEST(StressFreeConfiguration, LeavesTheImagedWallAtRest) {
   const WallMesh wall = straight_vessel();
   const WallSettings settings{.material = "neo_hookean", .material_values = {4e6, 0.45}, .density = 1.2};
   const std::vector<int> nodes = clamped_ends(wall);
-  const StressFreeResult found = stress_free_configuration(wall, *neo(4e6), pressure, unknowns_of(nodes));
+  const StressFreeResult found = stress_free_configuration(wall, *neo(4e6), pressure, unknowns_of(nodes), wall_share(wall, alone()));
   ASSERT_TRUE(found.converged);
   WallModel model(wall, settings, found.positions, nodes, {});
   SolidSolver solver(model);
@@ -131,7 +132,7 @@ TEST(StressFreeConfiguration, LeavesTheImagedWallAtRest) {
 
 TEST(StressFreeConfiguration, NotFindingOneIsAResult) {
   const WallMesh wall = straight_vessel();
-  const StressFreeResult found = stress_free_configuration(wall, *neo(1e5), pressure, plane_strain_supports(wall));
+  const StressFreeResult found = stress_free_configuration(wall, *neo(1e5), pressure, plane_strain_supports(wall), wall_share(wall, alone()));
   EXPECT_FALSE(found.converged);
 }
 

@@ -9,6 +9,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tether)
 
 install(TARGETS tether fluid solid fsi_master identification_master observation_manager tether_picture tether_conform
   RUNTIME DESTINATION ${programs_dir})
+install(TARGETS tether_petsc LIBRARY DESTINATION ${programs_dir})
 file(RELATIVE_PATH program_from_bin /${CMAKE_INSTALL_BINDIR} /${programs_dir}/tether)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/link)
 file(CREATE_LINK ${program_from_bin} ${PROJECT_BINARY_DIR}/link/tether SYMBOLIC)

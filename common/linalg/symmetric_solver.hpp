@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+
+#include "common/base/types.hpp"
+#include "common/linalg/share.hpp"
+#include "common/linalg/sparse.hpp"
+
+namespace tether {
+
+/// Solves with one symmetric positive definite matrix after another of the same pattern.
+class SymmetricSolver {
+ public:
+  virtual ~SymmetricSolver() = default;
+
+  /// Orders and analyses the pattern. components: unknowns per node, numbered node-wise. Throws RunError.
+  virtual void analyze(const SparseMatrix& matrix, int components = 1) = 0;
+  /// Same pattern as analyzed. Returns whether the matrix is positive definite. If it is not, there is nothing to solve
+  /// with.
+  virtual bool factor_if_definite(const SparseMatrix& matrix) = 0;
+  /// The same, to precondition with: cheaper, at solves that are wrong by at most `tolerance`, relatively.
+  virtual bool factor_roughly(const SparseMatrix& matrix, double tolerance) = 0;
+  /// rhs: one column or several; overwritten by the solution.
+  virtual void solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
+
+  virtual bool has_factor() const = 0;
+  /// Of this process.
+  virtual double factor_megabytes() const = 0;
+
+  /// Throws RunError if the matrix is not positive definite.
+  void factor(const SparseMatrix& matrix);
+  VectorXd solve(const VectorXd& rhs) const;
+};
+
+/// CHOLMOD where all rows are this process's; else PETSc. Of a shared matrix the rows of own nodes count, and the
+/// solution is complete. The share must outlive the solver. Throws InputError if Tether was built without PETSc.
+std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share);
+
+}  // namespace tether

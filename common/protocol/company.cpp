@@ -1,0 +1,149 @@
+#include "common/protocol/company.hpp"
+
+#include <array>
+#include <atomic>
+#include <vector>
+
+#include "common/base/process.hpp"
+#include "common/protocol/bell.hpp"
+#include "common/protocol/guard.hpp"
+#include "common/protocol/job.hpp"
+#include "common/protocol/last_words.hpp"
+#include "common/protocol/messages.hpp"
+#include "common/protocol/mpi_team.hpp"
+#include "common/protocol/spawn.hpp"
+#include "common/protocol/watch.hpp"
+
+namespace tether::protocol {
+namespace {
+
+/// [s] that the leader may take to hear that another has failed: it may be in the middle of what all should do together,
+/// and then waits for ever.
+constexpr double hearing_limit = 30;
+/// [s] between looks whether the others live.
+constexpr double look_after_every = 0.1;
+/// Of the messages that say how work on a packet ended; packets have the tag of their kind.
+constexpr int settled_tag = 1000;
+
+MPI_Comm duplicate(MPI_Comm communicator) {
+  MPI_Comm result = MPI_COMM_NULL;
+  check_mpi(MPI_Comm_dup(communicator, &result), "MPI_Comm_dup");
+  check_mpi(MPI_Comm_set_errhandler(result, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  return result;
+}
+
+/// By rank.
+std::vector<Peer> introduce(MPI_Comm communicator, int size) {
+  struct Name {
+    std::array<char, 120> host{};
+    std::int64_t pid = process_id();
+  } mine;
+  host_name().copy(mine.host.data(), mine.host.size() - 1);
+  std::vector<Name> all(static_cast<std::size_t>(size));
+  check_mpi(
+      MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, communicator), "MPI_Allgather");
+  std::vector<Peer> peers;
+  for (const Name& name : all) peers.push_back({"", name.host.data(), name.pid});
+  return peers;
+}
+
+}  // namespace
+
+struct Company::Parts {
+  explicit Parts(MPI_Comm all)
+      : work(duplicate(all)), talk(duplicate(all)), team(work), peers(introduce(talk, team.size())) {
+    if (team.rank() == 0) look_after_others();
+  }
+
+  std::string name_of(int rank) const {
+    const Peer& peer = peers[static_cast<std::size_t>(rank)];
+    return fmt::format("its process {} of {} (pid {} on {})", rank + 1, team.size(), peer.pid, peer.host);
+  }
+  int first_dead() const {
+    for (int rank = 1; rank < team.size(); ++rank)
+      if (is_dead(peers[static_cast<std::size_t>(rank)])) return rank;
+    return 0;
+  }
+  /// The leader may hang inside MPI when another dies: then it ends, and leaves word why.
+  void look_after_others() {
+    guard = std::make_unique<Guard>(look_after_every, [this](double) {
+      const int dead = first_dead();
+      if (dead == 0) return;
+      leave_last_words(name_of(dead) + " died");
+      end_job(exit_run_failed);
+    });
+  }
+
+  static bool is_finished(MPI_Request& request) {
+    int flag = 0;
+    check_mpi(MPI_Test(&request, &flag, MPI_STATUS_IGNORE), "MPI_Test");
+    return flag != 0;
+  }
+  Packet receive(int rank, int tag, bool will_ring) {
+    MPI_Message message = MPI_MESSAGE_NULL;
+    MPI_Status status;
+    const auto has_come = [&] {
+      int flag = 0;
+      check_mpi(MPI_Improbe(rank, tag, talk, &flag, &message, &status), "MPI_Improbe");
+      return flag != 0;
+    };
+    wait_until(has_come, [] {}, infinite, [will_ring] { return will_ring; });
+    int size = 0;
+    check_mpi(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count");
+    Packet packet{status.MPI_TAG, Bytes(static_cast<std::size_t>(size))};
+    check_mpi(MPI_Mrecv(packet.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE), "MPI_Mrecv");
+    return packet;
+  }
+  void pass_on(const Packet& packet) {
+    std::vector<MPI_Request> under_way(peers.size(), MPI_REQUEST_NULL);
+    for (int rank = 1; rank < team.size(); ++rank) {
+      MPI_Request& request = under_way[static_cast<std::size_t>(rank)];
+      check_mpi(MPI_Isend(packet.bytes.data(), static_cast<int>(packet.bytes.size()), MPI_BYTE, rank, packet.kind, talk,
+                          &request),
+                "MPI_Isend");
+      Bell::own().ring(peers[static_cast<std::size_t>(rank)]);
+    }
+    for (MPI_Request& request : under_way) wait_until([&request] { return is_finished(request); }, [] {});
+  }
+
+  MPI_Comm work, talk;
+  MpiTeam team;
+  std::vector<Peer> peers;
+  std::unique_ptr<Guard> guard;
+};
+
+Company::Company(const Session& session) : parts_(std::make_unique<Parts>(MPI_Comm_f2c(session.communicator()))) {}
+
+Company::~Company() = default;
+
+Team& Company::team() {
+  return parts_->team;
+}
+
+Packet Company::shared(Packet of_leader) {
+  if (team().rank() != 0) return parts_->receive(0, MPI_ANY_TAG, true);
+  parts_->pass_on(of_leader);
+  return of_leader;
+}
+
+std::string Company::settled(const std::string& failure) {
+  if (team().rank() != 0) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    check_mpi(MPI_Issend(failure.data(), static_cast<int>(failure.size()), MPI_BYTE, 0, settled_tag, parts_->talk,
+                         &request),
+              "MPI_Issend");
+    const auto is_heard = [&request] { return Parts::is_finished(request); };
+    if (!wait_until(is_heard, [] {}, failure.empty() ? infinite : hearing_limit))
+      give_up(parts_->name_of(team().rank()), failure);
+    return failure;
+  }
+  std::string first;
+  for (int rank = 1; rank < team().size(); ++rank) {
+    const Packet packet = parts_->receive(rank, settled_tag, false);
+    const std::string said(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
+    if (first.empty() && !said.empty()) first = fmt::format("{}: {}", parts_->name_of(rank), said);
+  }
+  return first;
+}
+
+}  // namespace tether::protocol
