@@ -69,7 +69,8 @@ struct JobResources {
   static void fields(auto& self, auto&& field) {
     field("nodes", self.nodes, "machines");
     field("processes", self.processes, "models that run at once");
-    field("tasks_per_node", self.tasks_per_node, "processors of each: one a model, since fluid and wall take turns");
+    field("tasks_per_node", self.tasks_per_node,
+          "processors of each: those that a model keeps busy, since fluid and wall take turns");
     field("memory", self.memory, "of each node, as Slurm writes it; empty: the cluster's default");
     field("time", self.time, "limit, as Slurm writes it; empty: the cluster's default");
     field("account", self.account, "empty: the user's default");

@@ -72,9 +72,14 @@ std::string time_text(const PlannedRuns& planned) {
   return least == most ? least : least + " to " + most;
 }
 
-std::string processes_line(int processes) {
-  return fmt::format("  processes  {} model{} at once, each a master with fluid and solid, which take turns: a core\n",
-                     processes, processes == 1 ? "" : "s");
+/// cores_of_model: 0: not known.
+std::string processes_line(int processes, int cores_of_model) {
+  const std::string models =
+      fmt::format("  processes  {} model{} at once, each ", processes, processes == 1 ? "" : "s");
+  if (cores_of_model == 0) return models + "a master with fluid and solid\n";
+  if (cores_of_model == 1) return models + "a master with fluid and solid, which take turns: a core\n";
+  return models + fmt::format("in the processes of coupling.ranks, of which fluid's and solid's take turns: {} cores\n",
+                              cores_of_model);
 }
 
 /// Of "30", "30:00", "2:30:00", "1-12", "1-12:30", "1-12:30:00", as sbatch reads it [s]; nothing if it is none of them.
@@ -131,7 +136,8 @@ PlannedRuns planned_runs(JobVerb verb, int parameters) {
 }
 
 ExpectedTime expected_time(const PlannedRuns& planned) {
-  const int at_once = planned.cores > 0 ? std::min(planned.cores, planned.processes) : planned.processes;
+  const int room = std::max(1, planned.cores / planned.cores_of_model);
+  const int at_once = planned.cores > 0 ? std::min(room, planned.processes) : planned.processes;
   const double run = seconds_of(planned.model);
   double first_order = rounds(planned.first_order, at_once) * seconds_of(planned.coarser.value_or(planned.model));
   for (const MeasuredSteps& finer : planned.finer) first_order += seconds_of(finer);
@@ -155,7 +161,7 @@ std::string plan_text(const Job& job, const std::optional<PlannedRuns>& planned)
   std::string text = fmt::format("{} of {} case{}, each on {} node{} with {} task{}{}\n", word_of(job.verb),
                                  job.cases.size(), job.cases.size() == 1 ? "" : "s", r.nodes, r.nodes == 1 ? "" : "s",
                                  r.tasks_per_node, r.tasks_per_node == 1 ? "" : "s", r.nodes == 1 ? "" : " each");
-  text += processes_line(r.processes);
+  text += processes_line(r.processes, planned ? planned->cores_of_model : 0);
   if (planned) text += "  measured   on " + job.cases.front().name + " here: " + steps_text(*planned) + "\n";
   text += fmt::format("  memory     {} a node\n", of(r.memory));
   text += fmt::format("  time       {}", of(r.time));
@@ -165,7 +171,8 @@ std::string plan_text(const Job& job, const std::optional<PlannedRuns>& planned)
 
 std::string plan_text(JobVerb verb, const PlannedRuns& planned) {
   return fmt::format("tether {} would take, if nothing of it is there yet:\n", word_of(verb)) +
-         fmt::format("  runs       {}\n", runs_text(verb, planned)) + processes_line(planned.processes) +
+         fmt::format("  runs       {}\n", runs_text(verb, planned)) +
+         processes_line(planned.processes, planned.cores_of_model) +
          fmt::format("  measured   here: {}\n", steps_text(planned)) +
          fmt::format("  memory     {:.0f} MB\n", expected_memory(planned, 1)) +
          fmt::format("  time       {}{}\n", time_text(planned),

@@ -15,6 +15,7 @@ struct PlannedRuns {
   int first_order = 0;      ///< of a diagnosis: as it is, and one for each number, of the coarser model if there is one
   int least = 1, most = 1;  ///< what else takes as long as so many runs of the model
   int processes = 1;        ///< models at once
+  int cores_of_model = 1;   ///< that one keeps busy
   int cores = 0;            ///< that these share; 0: each has one
 };
 

@@ -127,8 +127,8 @@ void FluidDomain::check_jacobians(const Points& points) const {
   const Team::Least least = share_.team().least(worst.ratio);
   if (is_sound(least.value)) return;
   const int number = share_.is_whole() ? static_cast<int>(worst.element) : numbers_[worst.element];
-  throw RunError(share_.team().text_of(
-      least.rank, folded_text(number, gather(points, tetrahedra()[worst.element]), worst.ratio)));
+  throw RunError(
+      share_.team().text_of(least.rank, folded_text(number, gather(points, tetrahedra()[worst.element]), worst.ratio)));
 }
 
 double FluidDomain::smallest_jacobian() const {

@@ -9,8 +9,8 @@
 
 namespace tether::fluid {
 
-/// The moving lumen: the reference mesh, the pieces of its boundary, and where they stand now. Of its elements a process
-/// holds those at its own nodes; mesh, boundary and nodal fields are whole in each.
+/// The moving lumen: the reference mesh, the pieces of its boundary, and where they stand now. Of its elements a
+/// process holds those at its own nodes; mesh, boundary and nodal fields are whole in each.
 class FluidDomain {
  public:
   /// Throws InputError if inlets and outlets touch, or lack a rim.

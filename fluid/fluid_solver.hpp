@@ -24,8 +24,8 @@ struct Observable {
 
 /// Blood in a moving vessel: ALE Navier-Stokes by Chorin-Temam's splitting, P1/P1 (docs/equations.md, section F).
 /// One step: begin_step once, evaluate and tangent as often as the coupling needs, then accept or rewind.
-/// Arrays on the interface have one column a node of Sigma, in ascending order of the fluid mesh's nodes. The processes of
-/// a team call the same functions with the same arguments, and each has the whole answer.
+/// Arrays on the interface have one column a node of Sigma, in ascending order of the fluid mesh's nodes. The processes
+/// of a team call the same functions with the same arguments, and each has the whole answer.
 class FluidSolver {
  public:
   /// Throws InputError if mesh and settings do not fit.

@@ -141,8 +141,7 @@ void FluidSolver::observe_sections(std::vector<double>& values) const {
   if (sections_.empty()) return;
   const VectorXd& pressure = trial_.solution.pressure;
   const Points points = domain_.mesh().points + trial_.displacement;
-  const EndOfStep end{domain_,  points,
-                      trial_.velocity, pressure, trial_.dt / blood_->density, trial_.wall_velocity};
+  const EndOfStep end{domain_, points, trial_.velocity, pressure, trial_.dt / blood_->density, trial_.wall_velocity};
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     values.push_back(sections_[i].flow(trial_.cuts[i], end));
     values.push_back(Section::mean(trial_.cuts[i], domain_.mesh(), pressure));

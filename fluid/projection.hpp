@@ -46,8 +46,8 @@ class Projection {
   Share share_;  // of the unknowns
   std::unique_ptr<SymmetricSolver> solver_;
   std::vector<double> impedances_;
-  std::vector<Row> rows_;  // (dt/rho) Laplacian of each opening's unknown at this process's unknowns, before its impedance
-                           // entered
+  std::vector<Row> rows_;  // (dt/rho) Laplacian of each opening's unknown at this process's unknowns, before its
+                           // impedance entered
 };
 
 }  // namespace tether::fluid

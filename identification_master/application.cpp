@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "common/base/process.hpp"
+#include "common/config/cores_of_model.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/protocol/run.hpp"
@@ -26,7 +27,8 @@ int wanted_groups(const IdentifiedCase& given, const CommandLine& command, const
 }
 
 std::size_t groups_for(const IdentifiedCase& given, int wanted, const protocol::Session& session) {
-  return group_count({wanted, given.particles(), [&given] { return given.vessel(); }}, session);
+  return group_count({wanted, given.particles(), cores_of_model(given.file), [&given] { return given.vessel(); }},
+                     session);
 }
 
 void run_identification(const CommandLine& command, protocol::Session& session) {

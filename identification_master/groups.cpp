@@ -20,9 +20,10 @@ std::size_t hosts() {
   return std::max<std::size_t>(1, protocol::nodes_of_job().size());
 }
 
-std::size_t groups_that_fit(const VesselMesh& vessel) {
+std::size_t groups_that_fit(const VesselMesh& vessel, int cores_of_model) {
   const auto nodes = static_cast<std::size_t>(vessel.fluid.points.cols() + vessel.wall.points.cols());
-  return hosts() * std::max<std::size_t>(1, std::min(cores(), groups_within(available_memory(), nodes)));
+  return hosts() * std::max<std::size_t>(1, std::min(cores() / static_cast<std::size_t>(cores_of_model),
+                                                     groups_within(available_memory(), nodes)));
 }
 
 }  // namespace
@@ -33,8 +34,8 @@ std::size_t cores_of_job() {
 
 std::size_t group_count(const GroupsWanted& wanted, const protocol::Session& session) {
   if (const auto offered = session.offered("fsi_master")) return *offered;
-  return std::min(wanted.most,
-                  wanted.wanted > 0 ? static_cast<std::size_t>(wanted.wanted) : groups_that_fit(wanted.vessel()));
+  return std::min(wanted.most, wanted.wanted > 0 ? static_cast<std::size_t>(wanted.wanted)
+                                                 : groups_that_fit(wanted.vessel(), wanted.cores_of_model));
 }
 
 std::vector<Partner*> launch_groups(std::size_t count, const std::filesystem::path& case_file,

@@ -5,6 +5,7 @@
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/cores_of_model.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
@@ -90,8 +91,8 @@ void serve_runs(const CommandLine& command, const std::filesystem::path& socket,
   });
   const ServedCase given(command.case_file);
   const std::filesystem::path output = std::filesystem::absolute(claim_and_mark_output(command, given.file));
-  const std::size_t count =
-      group_count({command.processes, cores_of_job(), [&given] { return given.vessel(); }}, session);
+  const std::size_t count = group_count(
+      {command.processes, cores_of_job(), cores_of_model(given.file), [&given] { return given.vessel(); }}, session);
   const std::vector<Partner*> groups = launch_groups(count, command.case_file, output, session);
   GroupRunMakers makers(session, groups);
   RunService service(makers, hash_of(makers.model(), given.file),

@@ -117,8 +117,8 @@ std::vector<SurfaceSupport> make_supports(const SolidCase& solid, const WallMesh
 Points stress_free_positions(const SolidCase& solid, const WallMesh& mesh, const std::vector<int>& clamped,
                              const CaseFile& file, Team& team) {
   const Configured<Material> material(materials(), solid.material.type, solid.material.values);
-  StressFreeResult found =
-      stress_free_configuration(mesh, *material, file.common().image.pressure, unknowns_of(clamped), wall_share(mesh, team));
+  StressFreeResult found = stress_free_configuration(mesh, *material, file.common().image.pressure,
+                                                     unknowns_of(clamped), wall_share(mesh, team));
   const double pressure = file.units().to_mmhg(file.common().image.pressure);
   if (!found.converged)
     throw run_error(
@@ -231,13 +231,14 @@ PreparedWall prepare_wall(const SolidCase& solid, WallMesh mesh, const CaseFile&
   std::vector<DrivenRing> given = given_rings(solid, mesh, file, wall.notices);
   std::vector<SurfaceSupport> held = make_supports(solid, mesh, file, given, wall.notices);
   const ImageCase& image = file.common().image;
-  const Points stress_free =
-      image.loads_wall() && image.wall == "inflated" ? stress_free_positions(solid, mesh, clamped, file, team) : mesh.points;
+  const Points stress_free = image.loads_wall() && image.wall == "inflated"
+                                 ? stress_free_positions(solid, mesh, clamped, file, team)
+                                 : mesh.points;
   if (file.common().observer.is_on()) wall.observer_gain = observer_gain(file.common().observer, mesh);
   if (nothing_holds(held)) wall.notices.push_back("nothing holds the outer wall: no region has a support");
   std::vector<LocalEffect> local = local_effects(solid.effects, mesh);
-  wall.model =
-      std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held), std::move(local), team);
+  wall.model = std::make_unique<WallModel>(std::move(mesh), settings, stress_free, clamped, std::move(held),
+                                           std::move(local), team);
   wall.model->drive(std::move(given));
   wall.rest = prestress(*wall.model, image);
   if (wall.rest.held) wall.notices.push_back(describe(*wall.rest.held));

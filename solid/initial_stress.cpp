@@ -24,8 +24,7 @@ double sum_of_magnitudes(const Points& forces) {
 
 }  // namespace
 
-InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure,
-                                  const Share& share) {
+InitialStress find_initial_stress(const WallMesh& mesh, const Material& material, double pressure, const Share& share) {
   constexpr int steps = 10;  // tension is then right to 2^-10
   const auto wall = make_wall_elements(mesh, mesh.points, share);
   VectorXd none = VectorXd::Zero(mesh.points.size());

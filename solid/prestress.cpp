@@ -109,9 +109,8 @@ StressFreeResult stress_free_configuration(const WallMesh& mesh, const Material&
     const double target = std::min(1.0, result.reached + increment);
     StressFreeResult next;
     try {
-      next =
-          search(mesh, material, target * load, fixed, share, result.positions,
-                 target < 1 ? tolerance_on_the_way : tolerance);
+      next = search(mesh, material, target * load, fixed, share, result.positions,
+                    target < 1 ? tolerance_on_the_way : tolerance);
     } catch (const RunError& error) {  // an element without volume: the step was too long
       next.failure = error.what();
     }

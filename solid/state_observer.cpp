@@ -112,7 +112,8 @@ Points StateObserver::extend(const NodalDistances& data, const VectorXd& target)
   const auto solve = [&] {
     e.setZero();
     return conjugate_gradients([&](const VectorXd& v) { return times(observed, v); },
-                               [&](const VectorXd& r) { return factor_->solve(r); }, rhs, e, tolerance, most_iterations);
+                               [&](const VectorXd& r) { return factor_->solve(r); }, rhs, e, tolerance,
+                               most_iterations);
   };
   KrylovResult result = solve();
   if (!result.converged || result.iterations > worth_a_factor) {

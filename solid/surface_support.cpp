@@ -123,8 +123,7 @@ Vec3 SurfaceSupport::resultant(const SupportStep& step) const {
   if (support_.is_absent()) return sum;
   const AffineDisplacement rest = anchor_.at(step.time);
   for (const Face& face : faces_)
-    for (int point = 0; face.counts && point < 3; ++point)
-      sum += face.area / 3 * at(step, rest, face, point).traction;
+    for (int point = 0; face.counts && point < 3; ++point) sum += face.area / 3 * at(step, rest, face, point).traction;
   if (share_ != nullptr) share_->team().sum({sum.data(), 3});
   return sum;
 }

@@ -39,8 +39,8 @@ class SurfaceSupport {
   void follow(std::shared_ptr<MovingTissue> tissue) { anchor_.tissues.push_back(std::move(tissue)); }
   const std::vector<std::shared_ptr<MovingTissue>>& tissues() const { return anchor_.tissues; }
 
-  /// Before all that follows: of the wall's nodes, which it then needs as long as it lives. It then acts where own nodes
-  /// are.
+  /// Before all that follows: of the wall's nodes, which it then needs as long as it lives. It then acts where own
+  /// nodes are.
   void share_out(const Share& share);
   /// Areas and normals are those of these positions until the next call. `pattern`: the wall's matrix.
   void place(const Points& positions);
@@ -64,7 +64,7 @@ class SurfaceSupport {
     double share;  ///< of the triangle's area
     double area;
     Vec3 normal, axial;
-    Mat3 corners;  ///< imaged
+    Mat3 corners;        ///< imaged
     bool counts = true;  ///< in the resultant: this process answers for it
   };
   SupportTraction at(const SupportStep& step, const AffineDisplacement& rest, const Face& face, int point) const;

@@ -15,8 +15,8 @@ class WallSeries {
   explicit WallSeries(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// `stress`: Cauchy's, of each element. Entries at this time or later, left by a run that was stopped, give way.
-  void write(const WallModel& model, const SolidSolver& solver,
-             const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress, int step, double time);
+  void write(const WallModel& model, const SolidSolver& solver, const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress,
+             int step, double time);
 
  private:
   std::filesystem::path folder_;

@@ -14,7 +14,8 @@ std::vector<int> cut(const WallMesh& mesh, const std::vector<std::array<int, nod
 
 Share wall_share(const WallMesh& mesh, Team& team) {
   if (team.is_alone()) return Share(static_cast<int>(mesh.points.cols()));
-  return Share(team, mesh.prisms.empty() ? cut(mesh, mesh.tetrahedra, team.size()) : cut(mesh, mesh.prisms, team.size()));
+  return Share(team,
+               mesh.prisms.empty() ? cut(mesh, mesh.tetrahedra, team.size()) : cut(mesh, mesh.prisms, team.size()));
 }
 
 double first_entry(const Share& share, const SparseMatrix& matrix) {

@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/base/process.hpp"
 #include "common/base/session_folder.hpp"
+#include "common/config/cores_of_model.hpp"
 #include "common/config/identified_parameters.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
@@ -94,6 +95,7 @@ void check_case_for(JobVerb verb, const fs::path& case_file) {
 PlannedRuns planned_of(JobVerb verb, const fs::path& case_file, int processes) {
   PlannedRuns planned = planned_runs(verb, parameters_of(case_file));
   planned.processes = processes;
+  planned.cores_of_model = cores_of_model(CaseFile(case_file));
   planned.model = measured(case_file);
   if (verb == JobVerb::diagnose || verb == JobVerb::explain) add_first_order(case_file, planned);
   return planned;
@@ -101,7 +103,8 @@ PlannedRuns planned_of(JobVerb verb, const fs::path& case_file, int processes) {
 
 std::string plan_of(JobVerb verb, const CommandLine& command) {
   check_case_for(verb, command.case_file);
-  const int here = std::min(usable_cores(), models_at_once(verb, command.case_file));
+  const int room = std::max(1, usable_cores() / cores_of_model(CaseFile(command.case_file)));
+  const int here = std::min(room, models_at_once(verb, command.case_file));
   PlannedRuns planned = planned_of(verb, command.case_file, command.processes > 0 ? command.processes : here);
   planned.cores = usable_cores();
   if (command.steps) planned.model.of_case = *command.steps;

@@ -19,6 +19,7 @@
 #include "common/base/temporary_folder.hpp"
 #include "common/base/whole_file.hpp"
 #include "common/base/write_error.hpp"
+#include "common/config/cores_of_model.hpp"
 #include "common/config/output_folder.hpp"
 #include "common/io/record_file.hpp"
 #include "common/protocol/programs.hpp"
@@ -141,12 +142,17 @@ void check_keeps_read(const Typed& typed, const fs::path& folder, const std::vec
   check_keeps_read(folder, cases, read);
 }
 
+int tasks_per_node(const JobResources& r, int cores_of_model) {
+  return (r.processes * cores_of_model + r.nodes - 1) / r.nodes;
+}
+
 /// What the job asks for where the user did not say. The runs that were measured for it, if any were.
 std::optional<PlannedRuns> plan(const Typed& typed, Job& job) {
   JobResources& r = job.resources;
   const JobCase& first = job.cases.front();
   r.processes = typed.processes > 0 ? typed.processes : models_at_once(job.verb, first.case_file);
-  r.tasks_per_node = typed.tasks_per_node > 0 ? typed.tasks_per_node : (r.processes + r.nodes - 1) / r.nodes;
+  r.tasks_per_node =
+      typed.tasks_per_node > 0 ? typed.tasks_per_node : tasks_per_node(r, cores_of_model(CaseFile(first.case_file)));
   if (!r.memory.empty() && !r.time.empty()) return std::nullopt;
   try {
     PlannedRuns planned = planned_of(job.verb, first.case_file, r.processes);

@@ -103,8 +103,9 @@ void OwnRows::refresh(Points& local) const {
     for (std::size_t k = 0; k < neighbour.sends.size(); ++k)
       Eigen::Map<Vec3>(neighbour.outgoing.data() + 3 * k) = local.col(neighbour.sends[k]);
     outgoing.push_back({neighbour.rank, neighbour.outgoing});
-    incoming.push_back({neighbour.rank, {local.data() + 3 * static_cast<std::size_t>(neighbour.first),
-                                         3 * static_cast<std::size_t>(neighbour.received)}});
+    incoming.push_back({neighbour.rank,
+                        {local.data() + 3 * static_cast<std::size_t>(neighbour.first),
+                         3 * static_cast<std::size_t>(neighbour.received)}});
   }
   team().exchange(outgoing, incoming);
 }

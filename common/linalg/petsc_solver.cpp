@@ -37,7 +37,17 @@ struct Entry {
   int column, from;
 };
 
-/// Factors by MUMPS, whose rows and factors are shared by the processes. (docs/decisions/0125-several-processes.md)
+/// Unknowns above which cycles of multigrid take less than a factor and its solves, and far less memory: a factor of a
+/// mesh in three dimensions grows as the square of the nodes, in work. (docs/decisions/0125-several-processes.md)
+constexpr int most_factored = 150'000;
+/// Of the residual, in the norm of the preconditioner: mass is balanced to as much.
+constexpr double multigrid_tolerance = 1e-11;
+constexpr int most_cycles = 200;
+/// A preconditioner that takes so many times the cycles of a fresh one is made anew: the mesh has moved.
+constexpr double worn = 1.5;
+
+/// Factors by MUMPS, whose rows are shared by the processes; of one unknown a node, where there are many, conjugate
+/// gradients with hypre's algebraic multigrid. (docs/decisions/0125-several-processes.md)
 class PetscSolver final : public SymmetricSolver {
  public:
   explicit PetscSolver(const Share& share) : share_(share) { start_petsc(share.team()); }
@@ -57,6 +67,12 @@ class PetscSolver final : public SymmetricSolver {
     MatDestroy(&matrix_);
   }
   void choose_method();
+  void choose_factors();
+  void solve() const;
+  void choose_multigrid();
+  bool factor_anew();
+  void make_multigrid_anew_if_worn();
+  bool is_multigrid() const { return components_ == 1 && share_.nodes() > most_factored; }
   Mat factor_matrix() const {
     PC factors = nullptr;
     Mat result = nullptr;
@@ -78,6 +94,7 @@ class PetscSolver final : public SymmetricSolver {
   KSP solver_ = nullptr;
   Vec vector_ = nullptr;
   bool has_factor_ = false;
+  mutable int cycles_ = 0, first_cycles_ = 0;  ///< of the latest solve, and of the first with the preconditioner
 };
 
 void PetscSolver::analyze(const SparseMatrix& matrix, int components) {
@@ -87,7 +104,8 @@ void PetscSolver::analyze(const SparseMatrix& matrix, int components) {
   has_factor_ = false;
   components_ = components;
   std::vector<int> place(static_cast<std::size_t>(share_.nodes()));  // of a node in PETSc's order
-  for (std::size_t i = 0; i < place.size(); ++i) place[static_cast<std::size_t>(share_.by_owner()[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    place[static_cast<std::size_t>(share_.by_owner()[i])] = static_cast<int>(i);
 
   from_.clear();
   std::vector<PetscInt> starts{0}, columns;
@@ -120,10 +138,33 @@ void PetscSolver::analyze(const SparseMatrix& matrix, int components) {
 }
 
 void PetscSolver::choose_method() {
-  constexpr PetscInt spare_room = 14, spare_percent = 60;
-  PC factors = nullptr;
   check(KSPCreate(PETSC_COMM_WORLD, &solver_), "KSPCreate");
   check(KSPSetOperators(solver_, matrix_, matrix_), "KSPSetOperators");
+  if (is_multigrid())
+    choose_multigrid();
+  else
+    choose_factors();
+}
+
+void PetscSolver::choose_multigrid() {
+  PC cycles = nullptr;
+  check(KSPSetType(solver_, KSPCG), "KSPSetType");
+  check(KSPSetTolerances(solver_, multigrid_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, most_cycles), "KSPSetTolerances");
+  check(KSPGetPC(solver_, &cycles), "KSPGetPC");
+  check(PCSetType(cycles, PCHYPRE), "PCSetType");
+  check(PCHYPRESetType(cycles, "boomeramg"), "PCHYPRESetType");
+  // What hypre's manual advises for Laplacians in three dimensions.
+  for (const auto& [name, value] :
+       {std::pair{"-pc_hypre_boomeramg_strong_threshold", "0.5"}, std::pair{"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
+        std::pair{"-pc_hypre_boomeramg_interp_type", "ext+i"}, std::pair{"-pc_hypre_boomeramg_P_max", "4"},
+        std::pair{"-pc_hypre_boomeramg_agg_nl", "1"}})
+    check(PetscOptionsSetValue(nullptr, name, value), "PetscOptionsSetValue");
+  check(PCSetFromOptions(cycles), "PCSetFromOptions");
+}
+
+void PetscSolver::choose_factors() {
+  constexpr PetscInt spare_room = 14, spare_percent = 60;
+  PC factors = nullptr;
   check(KSPSetType(solver_, KSPPREONLY), "KSPSetType");
   check(KSPGetPC(solver_, &factors), "KSPGetPC");
   check(PCSetType(factors, PCCHOLESKY), "PCSetType");
@@ -133,19 +174,45 @@ void PetscSolver::choose_method() {
 }
 
 bool PetscSolver::factor_if_definite(const SparseMatrix& matrix) {
-  constexpr PetscInt negative_pivots = 12;
   if (matrix_ == nullptr) analyze(matrix, 1);
   for (std::size_t k = 0; k < from_.size(); ++k) values_[k] = matrix.valuePtr()[from_[k]];
   check(MatUpdateMPIAIJWithArray(matrix_, values_.data()), "MatUpdateMPIAIJWithArray");
   check(KSPSetOperators(solver_, matrix_, matrix_), "KSPSetOperators");
+  if (!is_multigrid()) return has_factor_ = factor_anew();
+  make_multigrid_anew_if_worn();
+  return has_factor_ = true;
+}
+
+void PetscSolver::make_multigrid_anew_if_worn() {
+  const bool is_fresh = first_cycles_ == 0 || cycles_ > worn * first_cycles_;
+  check(KSPSetReusePreconditioner(solver_, is_fresh ? PETSC_FALSE : PETSC_TRUE), "KSPSetReusePreconditioner");
+  check(KSPSetUp(solver_), "KSPSetUp");
+  if (is_fresh) cycles_ = first_cycles_ = 0;
+}
+
+bool PetscSolver::factor_anew() {
+  constexpr PetscInt negative_pivots = 12;
   check(KSPSetUp(solver_), "KSPSetUp");
   PC factors = nullptr;
   PCFailedReason failed = PC_NOERROR;
   check(KSPGetPC(solver_, &factors), "KSPGetPC");
   check(PCGetFailedReason(factors, &failed), "PCGetFailedReason");
   if (failed == PC_FACTOR_OUTMEMORY) throw run_error("a sparse factorisation gets no more memory (MUMPS)");
-  has_factor_ = failed == PC_NOERROR && information(negative_pivots) == 0;
-  return has_factor_;
+  return failed == PC_NOERROR && information(negative_pivots) == 0;
+}
+
+void PetscSolver::solve() const {
+  check(KSPSolve(solver_, vector_, vector_), "KSPSolve");
+  if (!is_multigrid()) return;
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  PetscInt cycles = 0;
+  check(KSPGetConvergedReason(solver_, &reason), "KSPGetConvergedReason");
+  check(KSPGetIterationNumber(solver_, &cycles), "KSPGetIterationNumber");
+  if (reason < 0)
+    throw run_error("conjugate gradients with multigrid stop after {} cycles (PETSc: {})", cycles,
+                    static_cast<int>(reason));
+  cycles_ = static_cast<int>(cycles);
+  if (first_cycles_ == 0) first_cycles_ = cycles_;
 }
 
 void PetscSolver::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
@@ -163,7 +230,7 @@ void PetscSolver::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
     check(VecGetArray(vector_, &part), "VecGetArray");
     for_own([](double& here, double there) { here = there; });
     check(VecRestoreArray(vector_, &part), "VecRestoreArray");
-    check(KSPSolve(solver_, vector_, vector_), "KSPSolve");
+    solve();
     check(VecGetArray(vector_, &part), "VecGetArray");
     for_own([](double here, double& there) { there = here; });
     check(VecRestoreArray(vector_, &part), "VecRestoreArray");
@@ -174,7 +241,7 @@ void PetscSolver::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
 
 double PetscSolver::factor_megabytes() const {
   constexpr PetscInt megabytes_here = 22;  // of all processes: INFOG(22)
-  return has_factor_ ? static_cast<double>(information(megabytes_here)) / share_.team().size() : 0.0;
+  return has_factor_ && !is_multigrid() ? static_cast<double>(information(megabytes_here)) / share_.team().size() : 0.0;
 }
 
 }  // namespace

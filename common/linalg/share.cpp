@@ -16,12 +16,13 @@ Share::Share(Team& team, std::vector<int> owner) : team_(&team), nodes_(static_c
   owner_ = std::move(owner);
   by_owner_.resize(owner_.size());
   std::iota(by_owner_.begin(), by_owner_.end(), 0);
-  std::stable_sort(by_owner_.begin(), by_owner_.end(), [this](int a, int b) { return this->owner(a) < this->owner(b); });
+  std::stable_sort(by_owner_.begin(), by_owner_.end(),
+                   [this](int a, int b) { return this->owner(a) < this->owner(b); });
   for (int rank = 0; rank <= team.size(); ++rank)
-    starts_.push_back(static_cast<int>(
-        std::lower_bound(by_owner_.begin(), by_owner_.end(), rank,
-                         [this](int node, int first) { return this->owner(node) < first; }) -
-        by_owner_.begin()));
+    starts_.push_back(
+        static_cast<int>(std::lower_bound(by_owner_.begin(), by_owner_.end(), rank,
+                                          [this](int node, int first) { return this->owner(node) < first; }) -
+                         by_owner_.begin()));
   for (int rank = 0; rank < team.size(); ++rank)
     if (starts_[static_cast<std::size_t>(rank)] == starts_[static_cast<std::size_t>(rank) + 1])
       throw input_error("coupling.ranks: {} processes are too many for {} nodes: one of them would have none",
@@ -31,8 +32,8 @@ Share::Share(Team& team, std::vector<int> owner) : team_(&team), nodes_(static_c
 std::span<const int> Share::own() const {
   TETHER_ASSERT(!is_whole(), "there is no list of all {} nodes", nodes_);
   const auto rank = static_cast<std::size_t>(team_->rank());
-  return std::span(by_owner_)
-      .subspan(static_cast<std::size_t>(starts_[rank]), static_cast<std::size_t>(starts_[rank + 1] - starts_[rank]));
+  return std::span(by_owner_).subspan(static_cast<std::size_t>(starts_[rank]),
+                                      static_cast<std::size_t>(starts_[rank + 1] - starts_[rank]));
 }
 
 void Share::complete(std::span<double> field, int components) const {
@@ -71,9 +72,11 @@ std::vector<int> cut_graph(const SparseMatrix& graph, std::span<const int> weigh
   std::array<idx_t, METIS_NOPTIONS> options{};
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;  // all processes find the same parts
-  const int status = METIS_PartGraphRecursive(&nodes, &constraints, starts.data(), others.data(), weight.data(), nullptr,
-                                              nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
-  if (status != METIS_OK) throw run_error("the mesh could not be cut into {} parts (METIS status {})", processes, status);
+  const int status =
+      METIS_PartGraphRecursive(&nodes, &constraints, starts.data(), others.data(), weight.data(), nullptr, nullptr,
+                               &parts, nullptr, nullptr, options.data(), &cut, part.data());
+  if (status != METIS_OK)
+    throw run_error("the mesh could not be cut into {} parts (METIS status {})", processes, status);
   owner.assign(part.begin(), part.end());
   return owner;
 }

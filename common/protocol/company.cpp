@@ -17,8 +17,8 @@
 namespace tether::protocol {
 namespace {
 
-/// [s] that the leader may take to hear that another has failed: it may be in the middle of what all should do together,
-/// and then waits for ever.
+/// [s] that the leader may take to hear that another has failed: it may be in the middle of what all should do
+/// together, and then waits for ever.
 constexpr double hearing_limit = 30;
 /// [s] between looks whether the others live.
 constexpr double look_after_every = 0.1;
@@ -40,8 +40,8 @@ std::vector<Peer> introduce(MPI_Comm communicator, int size) {
   } mine;
   host_name().copy(mine.host.data(), mine.host.size() - 1);
   std::vector<Name> all(static_cast<std::size_t>(size));
-  check_mpi(
-      MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, communicator), "MPI_Allgather");
+  check_mpi(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, communicator),
+            "MPI_Allgather");
   std::vector<Peer> peers;
   for (const Name& name : all) peers.push_back({"", name.host.data(), name.pid});
   return peers;
@@ -87,7 +87,8 @@ struct Company::Parts {
       check_mpi(MPI_Improbe(rank, tag, talk, &flag, &message, &status), "MPI_Improbe");
       return flag != 0;
     };
-    wait_until(has_come, [] {}, infinite, [will_ring] { return will_ring; });
+    wait_until(
+        has_come, [] {}, infinite, [will_ring] { return will_ring; });
     int size = 0;
     check_mpi(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count");
     Packet packet{status.MPI_TAG, Bytes(static_cast<std::size_t>(size))};
@@ -129,11 +130,12 @@ Packet Company::shared(Packet of_leader) {
 std::string Company::settled(const std::string& failure) {
   if (team().rank() != 0) {
     MPI_Request request = MPI_REQUEST_NULL;
-    check_mpi(MPI_Issend(failure.data(), static_cast<int>(failure.size()), MPI_BYTE, 0, settled_tag, parts_->talk,
-                         &request),
-              "MPI_Issend");
+    check_mpi(
+        MPI_Issend(failure.data(), static_cast<int>(failure.size()), MPI_BYTE, 0, settled_tag, parts_->talk, &request),
+        "MPI_Issend");
     const auto is_heard = [&request] { return Parts::is_finished(request); };
-    if (!wait_until(is_heard, [] {}, failure.empty() ? infinite : hearing_limit))
+    if (!wait_until(
+            is_heard, [] {}, failure.empty() ? infinite : hearing_limit))
       give_up(parts_->name_of(team().rank()), failure);
     return failure;
   }

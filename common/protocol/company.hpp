@@ -25,6 +25,10 @@ class Company {
   /// one of the others; they wait until it has asked. Where one of them has stopped working with the others, as by an
   /// error that only it met, no process can be relied upon any more: the leader's answer is a failure.
   std::string settled(const std::string& failure);
+  /// What stops this process, which is not the leader, for good: it ends, and the leader tells.
+  [[noreturn]] void give_up(const std::string& why) const;
+  /// From now on processes may end.
+  void part();
 
  private:
   struct Parts;

@@ -495,7 +495,11 @@ class SharedElements final : public WallElements {
   /// numbers: in the mesh, of the elements held, ascending; answers: for which of them this process does.
   SharedElements(const Share& share, std::unique_ptr<WallElements> held, std::vector<int> numbers,
                  std::vector<char> answers, std::size_t count)
-      : share_(share), held_(std::move(held)), numbers_(std::move(numbers)), answers_(std::move(answers)), count_(count) {}
+      : share_(share),
+        held_(std::move(held)),
+        numbers_(std::move(numbers)),
+        answers_(std::move(answers)),
+        count_(count) {}
 
   void static_force(const Points& x, const Material& material, VectorXd& force, SparseMatrix* tangent) const override {
     VectorXd here = VectorXd::Zero(force.size());
@@ -555,8 +559,7 @@ class SharedElements final : public WallElements {
 template <class Element>
 std::unique_ptr<WallElements> elements_of(const std::vector<typename Element::Cell>& cells, const Points& reference,
                                           const Share& share) {
-  if (share.is_whole())
-    return std::make_unique<ElementsOf<Element>>(cells, reference, [](std::size_t e) { return e; });
+  if (share.is_whole()) return std::make_unique<ElementsOf<Element>>(cells, reference, [](std::size_t e) { return e; });
   const std::vector<int> numbers = share.elements_here(cells);
   std::vector<typename Element::Cell> here;
   std::vector<char> answers;

@@ -55,7 +55,7 @@ TEST(Section, ARadiusLeavesADisc) {
   EXPECT_NEAR(Section::mean(cut, mesh, field), 5 + slope.dot(point), 1e-12);
   const Vec3 direction(0.5, 1, -2);
   const Points velocity = direction * field.transpose();
-  EXPECT_NEAR(section.flow(cut, {domain, velocity, none, 1, {}}),
+  EXPECT_NEAR(section.flow(cut, {domain, mesh.points, velocity, none, 1, {}}),
               pi * 0.25 * (5 + slope.dot(point)) * direction.dot(section.normal()), 1e-11);
   EXPECT_TRUE(place_section("wide", {point, normal, 1.5}, mesh).cut(mesh, mesh.points).is_complete);
 }
@@ -100,7 +100,8 @@ SteadyErrors steady_flow(FluidMesh mesh) {
   for (const double z : places) {
     const Section section("oblique", {{0, 0, z}, oblique});
     const SectionCut cut = section.cut(domain.mesh(), domain.mesh().points);
-    const double flow = section.integral_of_velocity(cut, {domain, solver.velocity(), solver.pressure(), dt, {}});
+    const double flow =
+        section.integral_of_velocity(cut, {domain, domain.mesh().points, solver.velocity(), solver.pressure(), dt, {}});
     errors.integral += std::pow(flow - 1, 2) / static_cast<double>(places.size());
     EXPECT_NEAR(observed(solver, fmt::format("oblique_{}.pressure", z)),
                 Section::mean(cut, domain.mesh(), solver.pressure()), 1e-11);

@@ -50,7 +50,8 @@ TEST(Share, PartsOfASheetAreAlikeAndTouchAlongAFewLines) {
   for (const int rank : owner) ++sizes.at(static_cast<std::size_t>(rank));
   for (const int size : sizes) EXPECT_NEAR(size, n * n / parts, 0.05 * n * n / parts);
   int cut = 0;
-  for (const auto& [a, b, c, d] : squares(n)) cut += std::set{owner[a], owner[b], owner[c], owner[d]}.size() > 1 ? 1 : 0;
+  for (const auto& [a, b, c, d] : squares(n))
+    cut += std::set{owner[a], owner[b], owner[c], owner[d]}.size() > 1 ? 1 : 0;
   EXPECT_LT(cut, 3 * n);  // straight cuts into four take 2 n
 }
 

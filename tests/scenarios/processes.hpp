@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -9,17 +10,25 @@
 
 namespace tether {
 
-/// The process of a program that works on a case; 0 if there is none.
-inline pid_t process_of(const std::string& program, const std::filesystem::path& case_file) {
+/// The processes of a program that work on a case, ascending.
+inline std::vector<pid_t> processes_of(const std::string& program, const std::filesystem::path& case_file) {
+  std::vector<pid_t> all;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     std::ifstream file(entry.path() / "cmdline", std::ios::binary);
     std::string line;
     std::getline(file, line);  // not through an iterator, which throws for a process that has just ended
     const std::string executable = line.substr(0, line.find('\0'));
     if (std::filesystem::path(executable).filename() == program && line.find(case_file.string()) != std::string::npos)
-      return std::stoi(entry.path().filename());
+      all.push_back(std::stoi(entry.path().filename()));
   }
-  return 0;
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// The first of them; 0 if there is none.
+inline pid_t process_of(const std::string& program, const std::filesystem::path& case_file) {
+  const std::vector<pid_t> all = processes_of(program, case_file);
+  return all.empty() ? 0 : all.front();
 }
 
 /// What of these programs still works on one of these cases after a minute; empty if all end sooner. Three looks in a

@@ -60,7 +60,8 @@ TEST(BranchingWall, LikeAnArterysHasNone) {
   const WallMesh wall = vessel(0.12);
   const auto material = neo_hookean.make(std::array{2e6, 0.45});
   const std::vector<int> nodes = clamped_ends(wall);
-  const StressFreeResult found = stress_free_configuration(wall, *material, pressure, unknowns_of(nodes), wall_share(wall, alone()));
+  const StressFreeResult found =
+      stress_free_configuration(wall, *material, pressure, unknowns_of(nodes), wall_share(wall, alone()));
   EXPECT_FALSE(found.converged);
   EXPECT_LT(found.reached, 1);
   EXPECT_FALSE(found.failure.empty());

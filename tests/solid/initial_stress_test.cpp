@@ -68,8 +68,9 @@ TEST_P(InitialStressOfAnySize, DoesNotDependOnTheModulus) {
   wall.points *= GetParam();
   const auto stress = [&](double modulus) {
     const auto elements = make_wall_elements(wall, wall.points);
-    elements->set_initial_stress(find_initial_stress(wall, *neo(modulus), pressure, wall_share(wall, alone())).virtual_displacement,
-                                 *neo(modulus));
+    elements->set_initial_stress(
+        find_initial_stress(wall, *neo(modulus), pressure, wall_share(wall, alone())).virtual_displacement,
+        *neo(modulus));
     return elements->cauchy_stress(wall.points, *neo(modulus));
   };
   const auto softest = stress(2e4), soft = stress(1e6),
@@ -96,7 +97,8 @@ TEST(InitialStress, OfAnEllipseStaysNearTensionAndTheSurroundingsHoldTheShape) {
 TEST(InitialStress, IsTheDerivativeOfItsEnergyAndHasATangent) {
   const WallMesh wall = vessel(1.1, 12);
   const auto elements = make_wall_elements(wall, wall.points);
-  elements->set_initial_stress(find_initial_stress(wall, *neo(), pressure, wall_share(wall, alone())).virtual_displacement, *neo());
+  elements->set_initial_stress(
+      find_initial_stress(wall, *neo(), pressure, wall_share(wall, alone())).virtual_displacement, *neo());
   Points x = wall.points;
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] += 0.01 * std::sin(7.0 * static_cast<double>(i));
   VectorXd force = VectorXd::Zero(x.size()), direction(x.size());

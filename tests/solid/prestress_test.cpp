@@ -97,7 +97,8 @@ TEST(StressFreeConfiguration, OfAnIrregularVesselWithClampedEndsInflatesToTheIma
 /// Across any section through the axis the hoop stress carries the pressure: its mean is p a/t, whatever the law.
 TEST(StressFreeConfiguration, CarriesThePressureByLaplacesLaw) {
   const WallMesh wall = straight_vessel();
-  const StressFreeResult found = stress_free_configuration(wall, *neo(4e6), pressure, plane_strain_supports(wall), wall_share(wall, alone()));
+  const StressFreeResult found =
+      stress_free_configuration(wall, *neo(4e6), pressure, plane_strain_supports(wall), wall_share(wall, alone()));
   ASSERT_TRUE(found.converged);
   const auto stress = make_wall_elements(wall, found.positions)->cauchy_stress(wall.points, *neo(4e6));
   double hoop = 0;
@@ -115,7 +116,8 @@ TEST(StressFreeConfiguration, LeavesTheImagedWallAtRest) {
   const WallMesh wall = straight_vessel();
   const WallSettings settings{.material = "neo_hookean", .material_values = {4e6, 0.45}, .density = 1.2};
   const std::vector<int> nodes = clamped_ends(wall);
-  const StressFreeResult found = stress_free_configuration(wall, *neo(4e6), pressure, unknowns_of(nodes), wall_share(wall, alone()));
+  const StressFreeResult found =
+      stress_free_configuration(wall, *neo(4e6), pressure, unknowns_of(nodes), wall_share(wall, alone()));
   ASSERT_TRUE(found.converged);
   WallModel model(wall, settings, found.positions, nodes, {});
   SolidSolver solver(model);
@@ -132,7 +134,8 @@ TEST(StressFreeConfiguration, LeavesTheImagedWallAtRest) {
 
 TEST(StressFreeConfiguration, NotFindingOneIsAResult) {
   const WallMesh wall = straight_vessel();
-  const StressFreeResult found = stress_free_configuration(wall, *neo(1e5), pressure, plane_strain_supports(wall), wall_share(wall, alone()));
+  const StressFreeResult found =
+      stress_free_configuration(wall, *neo(1e5), pressure, plane_strain_supports(wall), wall_share(wall, alone()));
   EXPECT_FALSE(found.converged);
 }
 
