@@ -1,9 +1,10 @@
 #include "common/protocol/company.hpp"
 
 #include <array>
-#include <atomic>
+#include <utility>
 #include <vector>
 
+#include "common/base/limits.hpp"
 #include "common/base/process.hpp"
 #include "common/protocol/bell.hpp"
 #include "common/protocol/guard.hpp"
@@ -11,7 +12,9 @@
 #include "common/protocol/last_words.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/mpi_team.hpp"
+#include "common/protocol/signals.hpp"
 #include "common/protocol/spawn.hpp"
+#include "common/protocol/stillness.hpp"
 #include "common/protocol/watch.hpp"
 
 namespace tether::protocol {
@@ -33,7 +36,7 @@ MPI_Comm duplicate(MPI_Comm communicator) {
 }
 
 /// By rank.
-std::vector<Peer> introduce(MPI_Comm communicator, int size) {
+std::vector<Peer> introduce(const std::string& role, MPI_Comm communicator, int size) {
   struct Name {
     std::array<char, 120> host{};
     std::int64_t pid = process_id();
@@ -43,35 +46,48 @@ std::vector<Peer> introduce(MPI_Comm communicator, int size) {
   check_mpi(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, communicator),
             "MPI_Allgather");
   std::vector<Peer> peers;
-  for (const Name& name : all) peers.push_back({"", name.host.data(), name.pid});
+  for (const Name& name : all)
+    peers.push_back({fmt::format("process {} of {} of {}", peers.size() + 1, size, role), name.host.data(), name.pid,
+                     "working with the others"});
   return peers;
 }
 
 }  // namespace
 
 struct Company::Parts {
-  explicit Parts(MPI_Comm all)
-      : work(duplicate(all)), talk(duplicate(all)), team(work), peers(introduce(talk, team.size())) {
-    if (team.rank() == 0) look_after_others();
+  Parts(std::string name, MPI_Comm all)
+      : role(std::move(name)),
+        work(duplicate(all)),
+        talk(duplicate(all)),
+        team(work),
+        peers(introduce(role, talk, team.size())) {
+    if (team.rank() == 0)
+      look_after_others();
+    else
+      delay_termination();
   }
 
-  std::string name_of(int rank) const {
-    const Peer& peer = peers[static_cast<std::size_t>(rank)];
-    return fmt::format("its process {} of {} (pid {} on {})", rank + 1, team.size(), peer.pid, peer.host);
-  }
-  int first_dead() const {
-    for (int rank = 1; rank < team.size(); ++rank)
-      if (is_dead(peers[static_cast<std::size_t>(rank)])) return rank;
-    return 0;
-  }
-  /// The leader may hang inside MPI when another dies: then it ends, and leaves word why.
+  /// The leader may hang inside MPI when another dies or is stopped: then it ends, and leaves word why.
   void look_after_others() {
-    guard = std::make_unique<Guard>(look_after_every, [this](double) {
-      const int dead = first_dead();
-      if (dead == 0) return;
-      leave_last_words(name_of(dead) + " died");
-      end_job(exit_run_failed);
-    });
+    guard = std::make_unique<Guard>(
+        look_after_every, [this, still = std::vector<Stillness>(peers.size()), is_told = false](double) mutable {
+          for (std::size_t rank = 1; rank < peers.size(); ++rank) {
+            const Peer& peer = peers[rank];
+            if (is_dead(peer)) end_because(died(peer));
+            still[rank].look(peer);
+            if (still[rank].stopped() > stopped_limit()) end_because(PeerStopped(peer, stopped_limit()).what());
+            if (still[rank].stopped() > tell_stopped_after && !std::exchange(is_told, true))
+              fmt::print(stderr, "{}: {}\n", role, stopped_text(peer));
+          }
+        });
+  }
+  static std::string died(const Peer& peer) {
+    const std::string words = last_words_of(peer);
+    return words.empty() ? peer.describe() + " died" : peer.failure(words);
+  }
+  [[noreturn]] void end_because(const std::string& why) const {
+    leave_last_words(why);
+    end_job(exit_run_failed, {peers.begin() + 1, peers.end()});
   }
 
   static bool is_finished(MPI_Request& request) {
@@ -107,13 +123,15 @@ struct Company::Parts {
     for (MPI_Request& request : under_way) wait_until([&request] { return is_finished(request); }, [] {});
   }
 
+  std::string role;
   MPI_Comm work, talk;
   MpiTeam team;
   std::vector<Peer> peers;
   std::unique_ptr<Guard> guard;
 };
 
-Company::Company(const Session& session) : parts_(std::make_unique<Parts>(MPI_Comm_f2c(session.communicator()))) {}
+Company::Company(const std::string& role, const Session& session)
+    : parts_(std::make_unique<Parts>(role, MPI_Comm_f2c(session.communicator()))) {}
 
 Company::~Company() = default;
 
@@ -136,16 +154,25 @@ std::string Company::settled(const std::string& failure) {
     const auto is_heard = [&request] { return Parts::is_finished(request); };
     if (!wait_until(
             is_heard, [] {}, failure.empty() ? infinite : hearing_limit))
-      give_up(parts_->name_of(team().rank()), failure);
+      give_up(failure);
     return failure;
   }
   std::string first;
   for (int rank = 1; rank < team().size(); ++rank) {
     const Packet packet = parts_->receive(rank, settled_tag, false);
     const std::string said(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
-    if (first.empty() && !said.empty()) first = fmt::format("{}: {}", parts_->name_of(rank), said);
+    if (first.empty() && !said.empty()) first = parts_->peers[static_cast<std::size_t>(rank)].failure(said);
   }
   return first;
+}
+
+void Company::give_up(const std::string& why) const {
+  leave_last_words(why);
+  end_job(exit_run_failed);
+}
+
+void Company::part() {
+  parts_->guard.reset();
 }
 
 }  // namespace tether::protocol

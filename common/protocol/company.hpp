@@ -12,7 +12,7 @@ namespace tether::protocol {
 /// requests and passes them on, all work on each, and the leader's answer counts. All construct it at the same time.
 class Company {
  public:
-  explicit Company(const Session& session);
+  Company(const std::string& role, const Session& session);
   ~Company();
   Company(const Company&) = delete;
   Company& operator=(const Company&) = delete;

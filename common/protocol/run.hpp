@@ -74,7 +74,7 @@ int run_partner_together(const std::string& role, Build build, const OfCase& of_
     if (!session.is_alone()) {
       std::optional<Session::Link> link;
       if (session.is_leader()) link = session.connect();
-      ServeTogether<Requests, Handler> together(session, link);
+      ServeTogether<Requests, Handler> together(role, session, link);
       const Welcome welcome = together.welcome();
       return together([&] { return std::unique_ptr<Handler>(new Handler(build(welcome, together.team()))); });
     }

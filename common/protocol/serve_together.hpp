@@ -13,8 +13,8 @@ namespace tether::protocol {
 template <class Requests, class Handler>
 class ServeTogether {
  public:
-  ServeTogether(Session& session, std::optional<Session::Link>& link)
-      : session_(session), link_(link), company_(session) {}
+  ServeTogether(const std::string& role, Session& session, std::optional<Session::Link>& link)
+      : session_(session), link_(link), company_(role, session) {}
 
   Team& team() { return company_.team(); }
   /// What the master has told the leader on its arrival.
@@ -23,6 +23,17 @@ class ServeTogether {
   /// `build`: makes the handler, or throws.
   template <class Build>
   void operator()(const Build& build) {
+    if (link_) return live(build);
+    try {
+      live(build);
+    } catch (const std::exception& error) {  // nobody waits for it, and the others cannot go on
+      company_.give_up(error.what());
+    }
+  }
+
+ private:
+  template <class Build>
+  void live(const Build& build) {
     std::unique_ptr<Handler> handler;
     const Packet failure = attempt([&] {
       handler = build();
@@ -37,12 +48,11 @@ class ServeTogether {
       const Packet reply = agreed(answer_with_usage(request, *handler));
       if (link_) link_->channel->send(reply);
     } while (!holds<Stop>(request));
+    company_.part();
     handler.reset();
     if (!unpack<Stop>(request).abrupt) return take_leave(exit_done);
     if (link_) link_->channel->flush();
   }
-
- private:
   template <class Work>
   static Packet attempt(const Work& work) {
     try {
