@@ -102,7 +102,7 @@ MeshMotion::MeshMotion(const FluidMesh& mesh, std::vector<int> boundary_nodes, M
   SparseMatrix matrix(unknowns, unknowns);
   matrix.setFromTriplets(inner.begin(), inner.end());
   if (unknowns == 0) return;
-  solver_ = symmetric_solver(share_);
+  solver_ = c == 1 ? laplacian_solver(share_) : symmetric_solver(share_);
   solver_->analyze(matrix, c);
   solver_->factor(matrix);
 }

@@ -29,7 +29,7 @@ Projection::Projection(const FluidDomain& domain, const std::vector<std::vector<
     for (int& node : element) node = unknown_of_[static_cast<std::size_t>(node)];
   map_ = ScatterMap(unknowns_, 1, std::span<const Tetrahedron>(elements));
   matrix_ = map_.zero_matrix();
-  solver_ = symmetric_solver(share_);
+  solver_ = laplacian_solver(share_);
   solver_->analyze(matrix_);
 }
 

@@ -34,6 +34,8 @@ twin:
   hidden: {{effects: {{visco_elastic: {{where: spine, amplitude: 4e5, unit: g/(cm2 s2)}}}}}}
 """
 LONG = "base: model.yaml\nname: long\ntwin: ~\ntime: {step: 4e-3, end: 0.6}\n"
+SEVERAL = "base: long.yaml\nname: several\ncoupling: {ranks: {fluid: 2, solid: 2}}\n"
+VERBS = {"several": "simulate"}  # jobs that are not called as their verb
 TRUTH = "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n"
 
 
@@ -43,6 +45,7 @@ def make_cases(folder):
     (folder / "model.yaml").write_text(MODEL.format(root=ROOT))
     (folder / "held.yaml").write_text(TRUTH)
     (folder / "long.yaml").write_text(LONG)
+    (folder / "several.yaml").write_text(SEVERAL)
     if not (folder / "twin/case.yaml").exists():
         subprocess.run([TETHER, "twin", folder / "model.yaml", "--output", folder / "twin", "--quiet", "--overwrite"], env=environment(), check=True)
 
@@ -65,7 +68,7 @@ class Job:
         if fault:
             more |= {"LD_PRELOAD": str(PRELOAD), "TETHER_FAULT_ROOT": str(output), "TETHER_FAULT": fault, "TETHER_FAULT_FLAG": str(self.flag)}
         self.errors = open(output.parent / f"{name or output.name}.err", "w+")
-        words, variables = [TETHER, verb, case, "--output", output, "--quiet", *options], environment(TETHER_TEST_JOB=self.mark, **more)
+        words, variables = [TETHER, VERBS.get(verb, verb), case, "--output", output, "--quiet", *options], environment(TETHER_TEST_JOB=self.mark, **more)
         pipes = {"stdout": subprocess.DEVNULL, "stderr": self.errors, "stdin": subprocess.DEVNULL}
         if on:
             self.process = on.group.start(on, words, output.parent, variables, **pipes)
@@ -84,8 +87,11 @@ class Job:
         return sorted(found)
 
     def process_of(self, program):
-        """The first process of a program; none yet: None."""
-        return next((number for number, name in self.processes() if name == program[:15]), None)
+        """The first process of a program, of "fluid+" the last of several; none yet: None."""
+        numbers = [number for number, name in self.processes() if name == program.rstrip("+")[:15]]
+        if program.endswith("+"):
+            return numbers[-1] if len(numbers) > 1 else None
+        return numbers[0] if numbers else None
 
     def is_running(self):
         return self.process.poll() is None
@@ -136,6 +142,7 @@ def record(file):
 # Files that must be the same to the bit, and records that must be but for their cost.
 LEFT = {
     "simulate": (("timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd", "vtk/fluid_000150.vtu", "vtk/solid_000150.vtu"), ()),
+    "several": (("timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd", "vtk/fluid_000150.vtu", "vtk/solid_000150.vtu"), ()),
     "identify": (("estimate.csv",), ("estimate.json",)),
     "explain": ((), ("explain.json",)),
 }

@@ -6,6 +6,7 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/reliability.md"
+OF_VERB = {"several": "simulate, two processes of each code"}
 SIGNALS = ("KILL", "TERM", "INT", "STOP")
 MOST_LINES = 4
 OF_MPIRUN = re.compile(r"^\[[\w.-]+:\d+\] .*\n?", re.MULTILINE)  # [host:process]: what Open MPI tells for itself
@@ -68,7 +69,7 @@ def signals_table(known):
             rows[verb, phase, program][fault] = cell(key, result)
     lines = ["| job | phase | process | KILL | TERM | INT | STOP |", "|---|---|---|---|---|---|---|"]
     for (verb, phase, program), cells in rows.items():
-        lines.append(f"| {verb} | {phase} | {program} | " + " | ".join(cells.get(name, "") for name in SIGNALS) + " |")
+        lines.append(f"| {OF_VERB.get(verb, verb)} | {phase} | {program.replace('+', ', its last')} | " + " | ".join(cells.get(name, "") for name in SIGNALS) + " |")
     return lines
 
 

@@ -1,15 +1,11 @@
 #include "common/linalg/cholesky.hpp"
 
-#include <cblas.h>
-#include <cholmod.h>
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "common/base/error.hpp"
-#include "common/linalg/blas_kernels.hpp"
+#include "common/linalg/supernodal.hpp"
 
 namespace tether {
 
@@ -21,15 +17,7 @@ struct Cholesky::Data {
   float* rounded = nullptr;  ///< values of the factor in single precision, instead of its own
   mutable std::vector<float> solution, below;
 
-  Data() {
-    prepare_blas();
-    omp_set_max_active_levels(
-        0);  // CHOLMOD asks for four threads whatever the environment says; they spin, and cost 40 % CPU
-    cholmod_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.final_ll = 1;
-    common.print = 0;
-  }
+  Data() { prepare_cholmod(common); }
   ~Data() {
     drop_rounded();
     cholmod_free_dense(&work_y, &common);
@@ -47,82 +35,6 @@ struct Cholesky::Data {
  private:
   std::size_t room_of_rounded() const { return factor == nullptr ? 0 : factor->xsize / 2 + 1; }  ///< in doubles
 };
-
-namespace {
-
-/// A symmetric row-major matrix read as compressed columns; CHOLMOD then uses its upper half only.
-cholmod_sparse view(const SparseMatrix& matrix) {
-  cholmod_sparse result{};
-  result.nrow = result.ncol = static_cast<std::size_t>(matrix.rows());
-  result.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  result.p = const_cast<int*>(matrix.outerIndexPtr());
-  result.i = const_cast<int*>(matrix.innerIndexPtr());
-  result.x = const_cast<double*>(matrix.valuePtr());
-  result.stype = 1;
-  result.itype = CHOLMOD_INT;
-  result.xtype = CHOLMOD_REAL;
-  result.dtype = CHOLMOD_DOUBLE;
-  result.sorted = 1;
-  result.packed = 1;
-  return result;
-}
-
-/// A fill-reducing order of all unknowns from one of the nodes: METIS on a graph 9 times smaller.
-std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, cholmod_common& common) {
-  const int nodes = static_cast<int>(matrix.rows()) / components;
-  std::vector<int> start(static_cast<std::size_t>(nodes) + 1, 0), index;
-  for (int node = 0; node < nodes; ++node) {
-    for (SparseMatrix::InnerIterator entry(matrix, node * components); entry; ++entry)
-      if (entry.col() % components == 0) index.push_back(static_cast<int>(entry.col()) / components);
-    start[static_cast<std::size_t>(node) + 1] = static_cast<int>(index.size());
-  }
-  cholmod_sparse graph{};
-  graph.nrow = graph.ncol = static_cast<std::size_t>(nodes);
-  graph.nzmax = index.size();
-  graph.p = start.data();
-  graph.i = index.data();
-  graph.stype = 1;
-  graph.itype = CHOLMOD_INT;
-  graph.xtype = CHOLMOD_PATTERN;
-  graph.sorted = 1;
-  graph.packed = 1;
-  std::vector<int> node_order(static_cast<std::size_t>(nodes)), order;
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_METIS;
-  common.postorder = 1;
-  cholmod_factor* symbolic = cholmod_analyze(&graph, &common);
-  if (symbolic == nullptr) throw run_error("the ordering of a sparse matrix failed (CHOLMOD status {})", common.status);
-  const int* permutation = static_cast<const int*>(symbolic->Perm);
-  std::copy_n(permutation, nodes, node_order.begin());
-  cholmod_free_factor(&symbolic, &common);
-  order.reserve(static_cast<std::size_t>(matrix.rows()));
-  for (int node : node_order)
-    for (int c = 0; c < components; ++c) order.push_back(node * components + c);
-  return order;
-}
-
-/// Some columns of a supernodal factor that have the same rows: a dense block, the triangle of the columns' own rows
-/// above the others.
-struct Supernode {
-  Supernode(const cholmod_factor& factor, const float* values, std::size_t s)
-      : Supernode(static_cast<const int*>(factor.super) + s, static_cast<const int*>(factor.pi) + s,
-                  static_cast<const int*>(factor.s), values + static_cast<const int*>(factor.px)[s]) {}
-  int first, columns, height;
-  const int* rows;  ///< of what is below the triangle
-  const float *triangle, *rectangle;
-  int below() const { return height - columns; }
-
- private:
-  Supernode(const int* super, const int* pi, const int* s, const float* block)
-      : first(super[0]),
-        columns(super[1] - super[0]),
-        height(pi[1] - pi[0]),
-        rows(s + pi[0] + columns),
-        triangle(block),
-        rectangle(block + columns) {}
-};
-
-}  // namespace
 
 /// In place: nothing more is needed than the factor takes, and half of that is given back.
 void Cholesky::Data::round() {
@@ -147,25 +59,9 @@ void Cholesky::Data::solve_rounded(Eigen::Ref<VectorXd> rhs) const {
   solution.resize(factor->n);
   below.resize(factor->maxesize);
   for (std::size_t i = 0; i < factor->n; ++i) solution[i] = static_cast<float>(rhs[order[i]] / scale);
-  float *const x = solution.data(), *const other = below.data();
-  for (std::size_t k = 0; k < factor->nsuper; ++k) {
-    const Supernode node(*factor, rounded, k);
-    cblas_strsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, node.columns, node.triangle, node.height,
-                x + node.first, 1);
-    if (node.below() == 0) continue;
-    cblas_sgemv(CblasColMajor, CblasNoTrans, node.below(), node.columns, 1, node.rectangle, node.height, x + node.first,
-                1, 0, other, 1);
-    for (int i = 0; i < node.below(); ++i) x[node.rows[i]] -= other[i];
-  }
-  for (std::size_t k = factor->nsuper; k-- > 0;) {
-    const Supernode node(*factor, rounded, k);
-    for (int i = 0; i < node.below(); ++i) other[i] = x[node.rows[i]];
-    if (node.below() > 0)
-      cblas_sgemv(CblasColMajor, CblasTrans, node.below(), node.columns, -1, node.rectangle, node.height, other, 1, 1,
-                  x + node.first, 1);
-    cblas_strsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, node.columns, node.triangle, node.height,
-                x + node.first, 1);
-  }
+  const int all = static_cast<int>(factor->n);
+  solve_forward(*factor, static_cast<const float*>(rounded), all, solution.data(), below.data());
+  solve_backward(*factor, static_cast<const float*>(rounded), all, solution.data(), below.data());
   for (std::size_t i = 0; i < factor->n; ++i) rhs[order[i]] = scale * static_cast<double>(solution[i]);
 }
 
@@ -177,7 +73,7 @@ Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 void Cholesky::analyze(const SparseMatrix& matrix, int components) {
   auto& common = data_->common;
   auto order = order_by_nodes(matrix, components, common);
-  cholmod_sparse a = view(matrix);
+  cholmod_sparse a = view_of(matrix);
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 1;
@@ -191,7 +87,7 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
 bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
   if (data_->factor == nullptr) analyze(matrix);
   data_->drop_rounded();
-  cholmod_sparse a = view(matrix);
+  cholmod_sparse a = view_of(matrix);
   cholmod_factorize(&a, data_->factor, &data_->common);
   if (data_->common.status < 0)
     throw run_error("a sparse factorisation failed (CHOLMOD status {})", data_->common.status);

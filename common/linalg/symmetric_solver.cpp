@@ -5,15 +5,20 @@
 #include "common/base/error.hpp"
 #include "common/linalg/cholesky.hpp"
 #include "common/linalg/shared_solver.hpp"
+#include "common/linalg/substructured.hpp"
 
 namespace tether {
 namespace {
+
+/// Unknowns above which cycles of multigrid take less than a factor and its solves, and far less memory: a factor of a
+/// mesh in three dimensions grows as the square of the nodes, in work. (docs/decisions/0125-several-processes.md)
+constexpr int most_factored = 150'000;
 
 /// PETSc is loaded where it is used: to load it takes longer than a small model's first steps.
 MakeSharedSolver* shared_solvers() {
   void* library = dlopen(shared_solver_file, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr)
-    throw input_error("coupling.ranks: Tether's own programs need PETSc to run in several processes ({})", dlerror());
+    throw run_error("coupling.ranks: so large a mesh needs PETSc, which cannot be loaded: {}", dlerror());
   return reinterpret_cast<MakeSharedSolver*>(dlsym(library, shared_solver_function));
 }
 
@@ -31,6 +36,11 @@ VectorXd SymmetricSolver::solve(const VectorXd& rhs) const {
 
 std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share) {
   if (share.is_whole()) return std::make_unique<Cholesky>();
+  return std::make_unique<SubstructuredSolver>(share);
+}
+
+std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share) {
+  if (share.is_whole() || share.nodes() <= most_factored) return symmetric_solver(share);
   static MakeSharedSolver* const make = shared_solvers();
   return std::unique_ptr<SymmetricSolver>(make(share));
 }

@@ -32,8 +32,11 @@ class SymmetricSolver {
   VectorXd solve(const VectorXd& rhs) const;
 };
 
-/// CHOLMOD where all rows are this process's; else PETSc. Of a shared matrix the rows of own nodes count, and the
-/// solution is complete. The share must outlive the solver. Throws InputError if Tether was built without PETSc.
+/// Direct. Of a shared matrix the rows of own nodes count, and the solution is complete. The share must outlive the
+/// solver.
 std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share);
+/// The same for Laplacians in three dimensions: shared by several processes, and too large to be factored, they are
+/// solved by multigrid. Throws RunError if PETSc cannot be loaded.
+std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share);
 
 }  // namespace tether

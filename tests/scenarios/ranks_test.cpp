@@ -12,7 +12,7 @@
 #include "tests/scenarios/run_table.hpp"
 
 namespace tether {
-namespace {
+namespace ranks_test {
 
 using Json = nlohmann::json;
 
@@ -116,5 +116,5 @@ TEST_F(Ranks, EndTheRunWithOneMessageWhenOneOfThemDies) {
   }
 }
 
-}  // namespace
+}  // namespace ranks_test
 }  // namespace tether
