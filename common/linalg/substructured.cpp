@@ -8,7 +8,7 @@
 #include "common/linalg/supernodal.hpp"
 
 namespace tether {
-namespace {
+namespace substructures {
 
 /// Nodes with a neighbour that belongs to a process of a higher rank: without them the parts do not touch. The same
 /// list in all processes, ascending.
@@ -78,7 +78,9 @@ struct Extract {
   }
 };
 
-}  // namespace
+}  // namespace substructures
+
+using namespace substructures;
 
 struct SubstructuredSolver::Parts {
   explicit Parts(const Share& of_nodes) : share(of_nodes) { prepare_cholmod(common); }
@@ -91,7 +93,7 @@ struct SubstructuredSolver::Parts {
 
   void find_nodes(const SparseMatrix& matrix);
   void order();
-  void find_pattern_between(const SparseMatrix& matrix);
+  void find_pattern_between();
   bool factor_inside(const SparseMatrix& matrix);
   Eigen::MatrixXd complement() const;
   bool factor_between(const SparseMatrix& matrix);
@@ -171,7 +173,7 @@ void SubstructuredSolver::Parts::order() {
 
 /// Who contributes to which place of the matrix between the parts: each process a full block of its edge, and its own
 /// rows.
-void SubstructuredSolver::Parts::find_pattern_between(const SparseMatrix& matrix) {
+void SubstructuredSolver::Parts::find_pattern_between() {
   const Numbering place(between, share.nodes(), components);
   std::vector<double> rows, columns;
   for (const int row : edge_nodes)
@@ -336,7 +338,7 @@ void SubstructuredSolver::analyze(const SparseMatrix& matrix, int components) {
   p.has_factor = false;
   p.find_nodes(matrix);
   p.share.team().each([&p] { p.order(); });
-  p.find_pattern_between(matrix);
+  p.find_pattern_between();
 }
 
 bool SubstructuredSolver::factor_if_definite(const SparseMatrix& matrix) {
