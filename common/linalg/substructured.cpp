@@ -80,8 +80,6 @@ struct Extract {
 
 }  // namespace substructures
 
-using namespace substructures;
-
 struct SubstructuredSolver::Parts {
   explicit Parts(const Share& of_nodes) : share(of_nodes) { prepare_cholmod(common); }
   ~Parts() {
@@ -108,16 +106,16 @@ struct SubstructuredSolver::Parts {
 
   const Share& share;
   int components = 1;
-  std::vector<int> between;      ///< nodes between the parts, of all processes
-  std::vector<int> inner;        ///< own nodes inside this part
-  std::vector<int> edge_nodes;   ///< nodes between that the inner ones touch
-  std::vector<int> edge_places;  ///< where they stand in `between`
-  Extract part;                  ///< inner nodes, then those of the edge
-  Extract own_between;           ///< of nodes between: what of their matrix is in own rows
-  VectorXd added;                ///< to the diagonal of the edge, so that a part that nothing holds can be factored
-  SparseMatrix sum;              ///< of all nodes between
-  std::vector<int> starts;       ///< of each process's contributions
-  std::vector<int> targets;      ///< in the values of `sum`, of all contributions
+  std::vector<int> between;            ///< nodes between the parts, of all processes
+  std::vector<int> inner;              ///< own nodes inside this part
+  std::vector<int> edge_nodes;         ///< nodes between that the inner ones touch
+  std::vector<int> edge_places;        ///< where they stand in `between`
+  substructures::Extract part;         ///< inner nodes, then those of the edge
+  substructures::Extract own_between;  ///< of nodes between: what of their matrix is in own rows
+  VectorXd added;            ///< to the diagonal of the edge, so that a part that nothing holds can be factored
+  SparseMatrix sum;          ///< of all nodes between
+  std::vector<int> starts;   ///< of each process's contributions
+  std::vector<int> targets;  ///< in the values of `sum`, of all contributions
   std::vector<std::size_t> sent_from_own;  ///< of own_between's entries, those in own rows
   Cholesky of_sum;
   cholmod_common common{};
@@ -127,8 +125,8 @@ struct SubstructuredSolver::Parts {
 };
 
 void SubstructuredSolver::Parts::find_nodes(const SparseMatrix& matrix) {
-  between = nodes_between(share, matrix, components);
-  const Numbering place_between(between, share.nodes(), components);
+  between = substructures::nodes_between(share, matrix, components);
+  const substructures::Numbering place_between(between, share.nodes(), components);
   std::vector<char> touched(between.size(), 0);
   inner.clear();
   edge_nodes.clear();
@@ -147,8 +145,8 @@ void SubstructuredSolver::Parts::find_nodes(const SparseMatrix& matrix) {
     }
   std::vector<int> all = inner;
   all.insert(all.end(), edge_nodes.begin(), edge_nodes.end());
-  part = Extract(matrix, all, Numbering(all, share.nodes(), components), components);
-  own_between = Extract(matrix, between, place_between, components);
+  part = substructures::Extract(matrix, all, substructures::Numbering(all, share.nodes(), components), components);
+  own_between = substructures::Extract(matrix, between, place_between, components);
 }
 
 /// Inner nodes as METIS wants them, then the edge.
@@ -157,9 +155,9 @@ void SubstructuredSolver::Parts::order() {
   if (inner.empty()) return;
   std::vector<int> numbers(inner.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<int>(i);
-  const Extract inside_alone(part.matrix, numbers,
-                             Numbering(numbers, static_cast<int>(part.matrix.rows()) / components, components),
-                             components);
+  const substructures::Extract inside_alone(
+      part.matrix, numbers,
+      substructures::Numbering(numbers, static_cast<int>(part.matrix.rows()) / components, components), components);
   std::vector<int> unknowns = order_by_nodes(inside_alone.matrix, components, common);
   for (int k = inside(); k < part.matrix.rows(); ++k) unknowns.push_back(k);
   cholmod_sparse a = view_of(part.matrix);
@@ -174,7 +172,7 @@ void SubstructuredSolver::Parts::order() {
 /// Who contributes to which place of the matrix between the parts: each process a full block of its edge, and its own
 /// rows.
 void SubstructuredSolver::Parts::find_pattern_between() {
-  const Numbering place(between, share.nodes(), components);
+  const substructures::Numbering place(between, share.nodes(), components);
   std::vector<double> rows, columns;
   for (const int row : edge_nodes)
     for (int i = 0; i < components; ++i)

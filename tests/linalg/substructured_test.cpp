@@ -37,7 +37,9 @@ SparseMatrix assembled(int nodes, int components, const Cubes& elements, double 
       for (int b = 0; b < size; ++b) {
         const bool same_component = a % components == b % components;
         block[static_cast<std::size_t>(a * size + b)] =
-            a == b ? stiffness * (7 + hold) : same_component ? -stiffness : 0.4 * hold * stiffness * (a / components == b / components ? 1 : 0);
+            a == b           ? stiffness * (7 + hold)
+            : same_component ? -stiffness
+                             : 0.4 * hold * stiffness * (a / components == b / components ? 1 : 0);
       }
     map.add(matrix, e, block.data());
   }
