@@ -150,6 +150,11 @@ int run_main(int argc, char** argv, const Program& program) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_input_wrong;
   }
+  const CLI::Option* output = app.get_option_no_throw("--output");
+  if (output != nullptr && output->count() > 0 && typed.command.output.empty()) {
+    std::cerr << "--output: '': must name a folder" << std::endl;  // a script's variable without a value
+    return exit_input_wrong;
+  }
   if (typed.command.output.string().starts_with('-'))  // programs that it is handed to would take it for an option
     typed.command.output = "." / typed.command.output;
   return guarded(program.name, [&] { return act(program, typed); });

@@ -57,6 +57,14 @@ TEST(CommandLine, HandsOverWhatWasTyped) {
   EXPECT_TRUE(typed.resume && typed.quiet && !typed.overwrite && !typed.validate);
 }
 
+/// As of a script whose variable has no value: it would work in the default folder.
+TEST(CommandLine, RefusesAnOutputFolderWithoutAName) {
+  const std::string file = write_file("case.yaml", valid_head).string();
+  const Outcome outcome = run({file, "--output", ""}, never);
+  EXPECT_EQ(outcome.code, exit_input_wrong);
+  EXPECT_NE(outcome.err.find("--output: '': must name a folder"), std::string::npos) << outcome.err;
+}
+
 TEST(CommandLine, NamesANumberOfStepsThatIsNone) {
   const std::string file = write_file("case.yaml", valid_head).string();
   for (const char* number : {"0", "-3", "1.5", "x"}) {

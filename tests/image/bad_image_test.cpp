@@ -173,6 +173,9 @@ TEST(BadImage, FilesThatAreNoGreyVolumeAreRefused) {
   std::ofstream(folder.path / "alone.mhd")
       << "ObjectType = Image\nNDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementDataFile = alone.raw\n";
   expect_said(refusal("alone.mhd"), {"alone.mhd: names the file alone.raw, which is not there"});
+  std::ofstream(folder.path / "zeros.mhd")
+      << "ObjectType = Image\nNDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementDataFile = /dev/zero\n";
+  expect_said(refusal("zeros.mhd"), {"zeros.mhd: names the file /dev/zero, which is a device or a pipe"});
   std::ofstream(folder.path / "long.nrrd")
       << "NRRD0004\ntype: uchar\ndimension: 1\nsizes: 1\nencoding: raw\ndata file: " << std::string(300, 'n') << "\n\n";
   expect_said(refusal("long.nrrd"), {"long.nrrd: names the file nnn", "nnn, which is not there"});

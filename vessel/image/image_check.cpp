@@ -83,9 +83,11 @@ struct Place {
 Place beside(const fs::path& file, const std::string& name) {
   const fs::path voxels = file.parent_path() / name;
   std::error_code none;  // a name that no file can have
-  if (!fs::is_regular_file(voxels, none))
-    throw input_error("{}: names the file {}, which is not there", file.string(), shortened(name));
-  return {voxels};
+  if (fs::is_regular_file(voxels, none)) return {voxels};
+  throw input_error("{}: names the file {}, which is {}", file.string(), shortened(name),
+                    !fs::exists(voxels, none)        ? "not there"
+                    : fs::is_directory(voxels, none) ? "a folder"
+                                                     : "a device or a pipe");
 }
 
 /// As many numbers as voxels, where they are written as text.
