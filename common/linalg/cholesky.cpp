@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "common/base/error.hpp"
 #include "common/linalg/supernodal.hpp"
@@ -14,12 +13,12 @@ struct Cholesky::Data {
   cholmod_factor* factor = nullptr;
   mutable cholmod_dense* work_y = nullptr;
   mutable cholmod_dense* work_e = nullptr;
-  float* rounded = nullptr;  ///< values of the factor in single precision, instead of its own
+  RoundedValues rounded{common};
   mutable std::vector<float> solution, below;
 
   Data() { prepare_cholmod(common); }
   ~Data() {
-    drop_rounded();
+    rounded.drop();
     cholmod_free_dense(&work_y, &common);
     cholmod_free_dense(&work_e, &common);
     cholmod_free_factor(&factor, &common);
@@ -28,29 +27,8 @@ struct Cholesky::Data {
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
 
-  void round();
-  void drop_rounded() { rounded = static_cast<float*>(cholmod_free(room_of_rounded(), 8, rounded, &common)); }
   void solve_rounded(Eigen::Ref<VectorXd> rhs) const;
-
- private:
-  std::size_t room_of_rounded() const { return factor == nullptr ? 0 : factor->xsize / 2 + 1; }  ///< in doubles
 };
-
-/// In place: nothing more is needed than the factor takes, and half of that is given back.
-void Cholesky::Data::round() {
-  const std::size_t size = factor->xsize;
-  rounded = static_cast<float*>(factor->x);
-  for (std::size_t i = 0; i < size; ++i) {
-    double value = 0;
-    std::memcpy(&value, static_cast<const double*>(factor->x) + i, sizeof value);
-    const auto single = static_cast<float>(value);
-    std::memcpy(rounded + i, &single, sizeof single);
-  }
-  std::size_t room = size;
-  rounded = static_cast<float*>(cholmod_realloc(room_of_rounded(), 8, factor->x, &room, &common));
-  factor->x = nullptr;  // as cholmod_change_factor leaves it, which would have freed the values
-  factor->xtype = CHOLMOD_PATTERN;
-}
 
 void Cholesky::Data::solve_rounded(Eigen::Ref<VectorXd> rhs) const {
   const double scale = rhs.cwiseAbs().maxCoeff();  // single precision has a small range
@@ -60,8 +38,8 @@ void Cholesky::Data::solve_rounded(Eigen::Ref<VectorXd> rhs) const {
   below.resize(factor->maxesize);
   for (std::size_t i = 0; i < factor->n; ++i) solution[i] = static_cast<float>(rhs[order[i]] / scale);
   const int all = static_cast<int>(factor->n);
-  solve_forward(*factor, static_cast<const float*>(rounded), all, solution.data(), below.data());
-  solve_backward(*factor, static_cast<const float*>(rounded), all, solution.data(), below.data());
+  solve_forward(*factor, rounded.data(), all, solution.data(), below.data());
+  solve_backward(*factor, rounded.data(), all, solution.data(), below.data());
   for (std::size_t i = 0; i < factor->n; ++i) rhs[order[i]] = scale * static_cast<double>(solution[i]);
 }
 
@@ -77,7 +55,7 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 1;
-  data_->drop_rounded();
+  data_->rounded.drop();
   cholmod_free_factor(&data_->factor, &common);
   data_->factor = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
   if (data_->factor == nullptr)
@@ -86,7 +64,7 @@ void Cholesky::analyze(const SparseMatrix& matrix, int components) {
 
 bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
   if (data_->factor == nullptr) analyze(matrix);
-  data_->drop_rounded();
+  data_->rounded.drop();
   cholmod_sparse a = view_of(matrix);
   cholmod_factorize(&a, data_->factor, &data_->common);
   if (data_->common.status < 0)
@@ -97,7 +75,7 @@ bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
 bool Cholesky::factor_roughly(const SparseMatrix& matrix, double tolerance) {
   if (!factor_if_definite(matrix)) return false;
   if (!data_->factor->is_super) return true;
-  data_->round();
+  data_->rounded.take(*data_->factor);
   const VectorXd any =
       VectorXd::LinSpaced(matrix.rows(), 1, static_cast<double>(matrix.rows())).unaryExpr([](double i) {
         return std::sin(i * i);
@@ -107,7 +85,7 @@ bool Cholesky::factor_roughly(const SparseMatrix& matrix, double tolerance) {
 }
 
 void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
-  if (data_->rounded != nullptr) {
+  if (!data_->rounded.is_empty()) {
     for (Eigen::Index column = 0; column < rhs.cols(); ++column) data_->solve_rounded(rhs.col(column));
     return;
   }
@@ -128,12 +106,12 @@ void Cholesky::solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const {
 }
 
 bool Cholesky::has_factor() const {
-  return data_->factor != nullptr && (data_->factor->xtype != CHOLMOD_PATTERN || data_->rounded != nullptr);
+  return data_->factor != nullptr && (data_->factor->xtype != CHOLMOD_PATTERN || !data_->rounded.is_empty());
 }
 
 double Cholesky::factor_megabytes() const {
   if (data_->factor == nullptr) return 0;
-  const double bytes = data_->rounded == nullptr ? 8 : 4;
+  const double bytes = data_->rounded.is_empty() ? 8 : 4;
   return 1e-6 * bytes * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
 }
 

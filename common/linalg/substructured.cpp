@@ -49,29 +49,30 @@ struct Extract {
 
   Extract() = default;
   Extract(const SparseMatrix& all, const std::vector<int>& nodes, const Numbering& place, int components) {
+    struct Entry {
+      int column, from;
+    };
     const auto size = static_cast<Eigen::Index>(nodes.size()) * components;
-    std::vector<std::vector<std::pair<int, int>>> rows(static_cast<std::size_t>(size));
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (int c = 0; c < components; ++c) {
-        auto& row = rows[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
-        int position = all.outerIndexPtr()[nodes[i] * components + c];
-        for (SparseMatrix::InnerIterator entry(all, nodes[i] * components + c); entry; ++entry, ++position)
-          if (const int column = place(static_cast<int>(entry.col())); column >= 0) row.emplace_back(column, position);
-        std::sort(row.begin(), row.end());
+    std::vector<int> starts{0};
+    std::vector<Entry> entries;
+    for (const int node : nodes)
+      for (int row = node * components; row < (node + 1) * components; ++row) {
+        int position = all.outerIndexPtr()[row];
+        for (SparseMatrix::InnerIterator entry(all, row); entry; ++entry, ++position)
+          if (const int column = place(static_cast<int>(entry.col())); column >= 0)
+            entries.push_back({column, position});
+        std::sort(entries.begin() + starts.back(), entries.end(),
+                  [](const Entry& one, const Entry& other) { return one.column < other.column; });
+        starts.push_back(static_cast<int>(entries.size()));
       }
-    std::size_t count = 0;
-    for (const auto& row : rows) count += row.size();
     matrix.resize(size, size);
-    matrix.resizeNonZeros(static_cast<Eigen::Index>(count));
-    int at = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      matrix.outerIndexPtr()[i] = at;
-      for (const auto& [column, position] : rows[i]) {
-        matrix.innerIndexPtr()[at++] = column;
-        from.push_back(position);
-      }
+    matrix.resizeNonZeros(static_cast<Eigen::Index>(entries.size()));
+    std::copy(starts.begin(), starts.end(), matrix.outerIndexPtr());
+    from.resize(entries.size());
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      matrix.innerIndexPtr()[k] = entries[k].column;
+      from[k] = entries[k].from;
     }
-    matrix.outerIndexPtr()[rows.size()] = at;
   }
   void take(const SparseMatrix& all) {
     for (std::size_t k = 0; k < from.size(); ++k) matrix.valuePtr()[k] = all.valuePtr()[from[k]];
@@ -83,6 +84,7 @@ struct Extract {
 struct SubstructuredSolver::Parts {
   explicit Parts(const Share& of_nodes) : share(of_nodes) { prepare_cholmod(common); }
   ~Parts() {
+    rounded.drop();
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
@@ -91,11 +93,12 @@ struct SubstructuredSolver::Parts {
 
   void find_nodes(const SparseMatrix& matrix);
   void order();
+  std::vector<int> of_all(const std::vector<int>& mine, std::vector<int>& starts) const;
   void find_pattern_between();
+  void set_pattern_between(std::vector<std::vector<int>>& neighbours);
   bool factor_inside(const SparseMatrix& matrix);
-  Eigen::MatrixXd complement() const;
+  void complement(Eigen::Ref<Eigen::MatrixXd> result) const;
   bool factor_between(const SparseMatrix& matrix);
-  void round();
   void solve(VectorXd& rhs) const;
   template <class Scalar, class Solve>
   void in_order(VectorXd& part, const Solve& solve) const;
@@ -112,15 +115,18 @@ struct SubstructuredSolver::Parts {
   std::vector<int> edge_places;        ///< where they stand in `between`
   substructures::Extract part;         ///< inner nodes, then those of the edge
   substructures::Extract own_between;  ///< of nodes between: what of their matrix is in own rows
-  VectorXd added;            ///< to the diagonal of the edge, so that a part that nothing holds can be factored
-  SparseMatrix sum;          ///< of all nodes between
-  std::vector<int> starts;   ///< of each process's contributions
-  std::vector<int> targets;  ///< in the values of `sum`, of all contributions
+  VectorXd added;    ///< to the diagonal of the edge, so that a part that nothing holds can be factored
+  SparseMatrix sum;  ///< of all nodes between
+  std::vector<std::vector<int>> edges;  ///< of each process, as edge_places; it contributes a full block
+  std::vector<int> block_places;        ///< of these blocks, one a pair of nodes: where in the row of `sum` it stands
+  std::vector<int> block_starts;        ///< of each process's block
+  std::vector<int> entry_starts;        ///< of each process's own rows
+  std::vector<int> targets;             ///< in the values of `sum`, of all processes' own rows
   std::vector<std::size_t> sent_from_own;  ///< of own_between's entries, those in own rows
   Cholesky of_sum;
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  std::vector<float> rounded;  ///< of the factor's values; empty: they are as they were
+  RoundedValues rounded{common};
   bool has_factor = false;
 };
 
@@ -169,18 +175,25 @@ void SubstructuredSolver::Parts::order() {
   if (factor->is_super == 0) throw run_error("CHOLMOD makes no supernodal factor of {} unknowns", part.matrix.rows());
 }
 
+/// All processes' lists, one after the other; `starts` gets where each begins.
+std::vector<int> SubstructuredSolver::Parts::of_all(const std::vector<int>& mine, std::vector<int>& starts) const {
+  Team& team = share.team();
+  std::vector<double> counts(static_cast<std::size_t>(team.size()), 0.0);
+  const auto rank = static_cast<std::size_t>(team.rank());
+  counts[rank] = static_cast<double>(mine.size());
+  team.sum(counts);
+  starts.assign(1, 0);
+  for (const double count : counts) starts.push_back(starts.back() + static_cast<int>(count));
+  std::vector<double> all(static_cast<std::size_t>(starts.back()));
+  std::copy(mine.begin(), mine.end(), all.begin() + starts[rank]);
+  team.gather(all, starts);
+  return {all.begin(), all.end()};
+}
+
 /// Who contributes to which place of the matrix between the parts: each process a full block of its edge, and its own
 /// rows.
 void SubstructuredSolver::Parts::find_pattern_between() {
-  const substructures::Numbering place(between, share.nodes(), components);
-  std::vector<double> rows, columns;
-  for (const int row : edge_nodes)
-    for (int i = 0; i < components; ++i)
-      for (const int column : edge_nodes)
-        for (int j = 0; j < components; ++j) {
-          rows.push_back(place(row * components + i));
-          columns.push_back(place(column * components + j));
-        }
+  std::vector<int> rows, columns, edge_starts;
   sent_from_own.clear();
   std::size_t k = 0;
   for (int row = 0; row < own_between.matrix.rows(); ++row)
@@ -188,40 +201,71 @@ void SubstructuredSolver::Parts::find_pattern_between() {
       if (share.is_own(between[static_cast<std::size_t>(row / components)])) {
         sent_from_own.push_back(k);
         rows.push_back(row);
-        columns.push_back(static_cast<double>(entry.col()));
+        columns.push_back(static_cast<int>(entry.col()));
       }
-  Team& team = share.team();
-  std::vector<double> counts(static_cast<std::size_t>(team.size()), 0.0);
-  counts[static_cast<std::size_t>(team.rank())] = static_cast<double>(rows.size());
-  team.sum(counts);
-  starts.assign(1, 0);
-  for (const double count : counts) starts.push_back(starts.back() + static_cast<int>(count));
-  const auto of_all = [&](const std::vector<double>& mine) {
-    std::vector<double> all(static_cast<std::size_t>(starts.back()));
-    std::copy(mine.begin(), mine.end(), all.begin() + starts[static_cast<std::size_t>(team.rank())]);
-    team.gather(all, starts);
-    return all;
+  const std::vector<int> edges_of_all = of_all(edge_places, edge_starts);
+  rows = of_all(rows, entry_starts);
+  columns = of_all(columns, entry_starts);
+
+  edges.clear();
+  for (std::size_t r = 0; r + 1 < edge_starts.size(); ++r)
+    edges.emplace_back(edges_of_all.begin() + edge_starts[r], edges_of_all.begin() + edge_starts[r + 1]);
+  std::vector<std::vector<int>> neighbours(between.size());
+  for (const std::vector<int>& nodes : edges)
+    for (const int node : nodes) {
+      auto& those = neighbours[static_cast<std::size_t>(node)];
+      those.insert(those.end(), nodes.begin(), nodes.end());
+    }
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    neighbours[static_cast<std::size_t>(rows[e] / components)].push_back(columns[e] / components);
+  set_pattern_between(neighbours);
+
+  const auto place_in_row = [&neighbours](int row_node, int column_node) {
+    const auto& those = neighbours[static_cast<std::size_t>(row_node)];
+    return static_cast<int>(std::lower_bound(those.begin(), those.end(), column_node) - those.begin());
   };
-  const std::vector<double> all_rows = of_all(rows), all_columns = of_all(columns);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t e = 0; e < all_rows.size(); ++e)
-    entries.emplace_back(static_cast<int>(all_rows[e]), static_cast<int>(all_columns[e]), 0.0);
-  sum.resize(static_cast<Eigen::Index>(between.size()) * components,
-             static_cast<Eigen::Index>(between.size()) * components);
-  sum.setFromTriplets(entries.begin(), entries.end());
+  block_places.clear();
+  for (const std::vector<int>& nodes : edges)
+    for (const int row : nodes)
+      for (const int column : nodes) block_places.push_back(place_in_row(row, column) * components);
   targets.clear();
-  for (const auto& entry : entries) {
-    const int* begin = sum.innerIndexPtr() + sum.outerIndexPtr()[entry.row()];
-    const int* end = sum.innerIndexPtr() + sum.outerIndexPtr()[entry.row() + 1];
-    targets.push_back(static_cast<int>(std::lower_bound(begin, end, entry.col()) - sum.innerIndexPtr()));
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    targets.push_back(sum.outerIndexPtr()[rows[e]] +
+                      place_in_row(rows[e] / components, columns[e] / components) * components +
+                      columns[e] % components);
+  block_starts.assign(1, 0);
+  for (const std::vector<int>& nodes : edges) {
+    const int n = static_cast<int>(nodes.size()) * components;
+    block_starts.push_back(block_starts.back() + n * n);
   }
   if (!between.empty()) of_sum.analyze(sum, components);
+}
+
+/// neighbours: of each node between, as they come; sorted and each once afterwards.
+void SubstructuredSolver::Parts::set_pattern_between(std::vector<std::vector<int>>& neighbours) {
+  Eigen::Index count = 0;
+  for (std::vector<int>& those : neighbours) {
+    std::sort(those.begin(), those.end());
+    those.erase(std::unique(those.begin(), those.end()), those.end());
+    count += static_cast<Eigen::Index>(those.size()) * components * components;
+  }
+  const auto size = static_cast<Eigen::Index>(between.size()) * components;
+  sum.resize(size, size);
+  sum.resizeNonZeros(count);
+  int at = 0, row = 0;
+  for (const std::vector<int>& those : neighbours)
+    for (int i = 0; i < components; ++i) {
+      sum.outerIndexPtr()[row++] = at;
+      for (const int node : those)
+        for (int j = 0; j < components; ++j) sum.innerIndexPtr()[at++] = node * components + j;
+    }
+  sum.outerIndexPtr()[row] = at;
 }
 
 /// The own inside, and as many columns of the edge, whose triangle is what the inside leaves of it.
 bool SubstructuredSolver::Parts::factor_inside(const SparseMatrix& matrix) {
   if (inner.empty()) return true;
-  rounded.clear();
+  rounded.drop();
   part.take(matrix);
   added.resize(edge());
   for (int k = 0; k < edge(); ++k) {
@@ -236,10 +280,11 @@ bool SubstructuredSolver::Parts::factor_inside(const SparseMatrix& matrix) {
 }
 
 /// What the inside adds to the matrix of the edge: - A_ei A_ii^-1 A_ie = L_ee L_ee' - (A_ee + added).
-Eigen::MatrixXd SubstructuredSolver::Parts::complement() const {
+void SubstructuredSolver::Parts::complement(Eigen::Ref<Eigen::MatrixXd> result) const {
   const int n = edge(), first = inside();
+  result.setZero();
+  if (inner.empty() || n == 0) return;
   Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(n, n);
-  if (inner.empty() || n == 0) return triangle;
   for (std::size_t k = 0; k < factor->nsuper; ++k) {
     const Supernode node(*factor, values(), k);
     for (int c = std::max(0, first - node.first); c < node.columns; ++c) {
@@ -249,34 +294,40 @@ Eigen::MatrixXd SubstructuredSolver::Parts::complement() const {
       for (int i = 0; i < node.below(); ++i) triangle(node.rows[i] - first, j) = column[node.columns + i];
     }
   }
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
   result.selfadjointView<Eigen::Lower>().rankUpdate(triangle);
   result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
   for (int row = 0; row < n; ++row)
     for (SparseMatrix::InnerIterator entry(part.matrix, first + row); entry; ++entry)
       if (entry.col() >= first) result(row, entry.col() - first) -= entry.value();
-  return result;
 }
 
 bool SubstructuredSolver::Parts::factor_between(const SparseMatrix& matrix) {
   if (between.empty()) return true;
   own_between.take(matrix);
-  const Eigen::MatrixXd mine = complement();
-  std::vector<double> all(static_cast<std::size_t>(starts.back()));
-  double* place = all.data() + starts[static_cast<std::size_t>(share.team().rank())];
-  place = std::copy(mine.data(), mine.data() + mine.size(), place);  // symmetric: by columns is by rows
-  for (const std::size_t k : sent_from_own) *place++ = own_between.matrix.valuePtr()[k];
-  share.team().gather(all, starts);
-  std::fill_n(sum.valuePtr(), sum.nonZeros(), 0.0);
-  for (std::size_t e = 0; e < all.size(); ++e) sum.valuePtr()[targets[e]] += all[e];
-  return of_sum.factor_if_definite(sum);
-}
+  const auto rank = static_cast<std::size_t>(share.team().rank());
+  std::vector<double> blocks(static_cast<std::size_t>(block_starts.back())),
+      entries(static_cast<std::size_t>(entry_starts.back()));
+  complement(Eigen::Map<Eigen::MatrixXd>(blocks.data() + block_starts[rank], edge(), edge()));
+  double* entry = entries.data() + entry_starts[rank];
+  for (const std::size_t k : sent_from_own) *entry++ = own_between.matrix.valuePtr()[k];
+  share.team().gather(blocks, block_starts);
+  share.team().gather(entries, entry_starts);
 
-void SubstructuredSolver::Parts::round() {
-  if (inner.empty()) return;
-  rounded.resize(factor->xsize);
-  std::transform(values(), values() + factor->xsize, rounded.begin(), [](double x) { return static_cast<float>(x); });
-  cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor, &common);  // gives the values' memory back
+  std::fill_n(sum.valuePtr(), sum.nonZeros(), 0.0);
+  const double* value = blocks.data();  // symmetric: by columns is by rows
+  const int* first_places = block_places.data();
+  for (const std::vector<int>& nodes : edges) {
+    for (const int row_node : nodes) {
+      for (int i = 0; i < components; ++i) {
+        double* row = sum.valuePtr() + sum.outerIndexPtr()[row_node * components + i];
+        for (std::size_t column = 0; column < nodes.size(); ++column)
+          for (int j = 0; j < components; ++j) row[first_places[column] + j] += *value++;
+      }
+      first_places += nodes.size();
+    }
+  }
+  for (std::size_t e = 0; e < entries.size(); ++e) sum.valuePtr()[targets[e]] += entries[e];
+  return of_sum.factor_if_definite(sum);
 }
 
 template <class Scalar, class Solve>
@@ -305,7 +356,7 @@ void SubstructuredSolver::Parts::solve(VectorXd& rhs) const {
   };
   const auto inside_alone = [&](const auto& way) {
     if (inner.empty()) return;
-    if (rounded.empty())
+    if (rounded.is_empty())
       in_order<double>(x, [&](double* ordered, double* other) { way(values(), ordered, other); });
     else
       in_order<float>(x, [&](float* ordered, float* other) { way(rounded.data(), ordered, other); });
@@ -351,7 +402,7 @@ bool SubstructuredSolver::factor_if_definite(const SparseMatrix& matrix) {
 bool SubstructuredSolver::factor_roughly(const SparseMatrix& matrix, double tolerance) {
   if (!factor_if_definite(matrix)) return false;
   Parts& p = *parts_;
-  p.round();
+  if (p.factor != nullptr) p.rounded.take(*p.factor);
   const VectorXd any =
       VectorXd::LinSpaced(matrix.rows(), 1, static_cast<double>(matrix.rows())).unaryExpr([](double i) {
         return std::sin(i * i);
@@ -375,7 +426,7 @@ bool SubstructuredSolver::has_factor() const {
 double SubstructuredSolver::factor_megabytes() const {
   const Parts& p = *parts_;
   const double of_inside =
-      p.factor == nullptr ? 0.0 : 1e-6 * (p.rounded.empty() ? 8 : 4) * static_cast<double>(p.factor->xsize);
+      p.factor == nullptr ? 0.0 : 1e-6 * (p.rounded.is_empty() ? 8 : 4) * static_cast<double>(p.factor->xsize);
   return of_inside + p.of_sum.factor_megabytes();
 }
 

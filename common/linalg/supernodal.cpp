@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "common/base/error.hpp"
 #include "common/linalg/blas_kernels.hpp"
@@ -54,6 +55,27 @@ cholmod_sparse view_of(const SparseMatrix& matrix) {
   result.sorted = 1;
   result.packed = 1;
   return result;
+}
+
+void RoundedValues::take(cholmod_factor& factor) {
+  drop();
+  const std::size_t size = factor.xsize;
+  values_ = static_cast<float*>(factor.x);
+  for (std::size_t i = 0; i < size; ++i) {
+    double value = 0;
+    std::memcpy(&value, static_cast<const double*>(factor.x) + i, sizeof value);
+    const auto single = static_cast<float>(value);
+    std::memcpy(values_ + i, &single, sizeof single);
+  }
+  room_ = size;
+  values_ = static_cast<float*>(cholmod_realloc(size / 2 + 1, 8, factor.x, &room_, &common_));
+  factor.x = nullptr;  // as cholmod_change_factor leaves it, which would have freed the values
+  factor.xtype = CHOLMOD_PATTERN;
+}
+
+void RoundedValues::drop() {
+  values_ = static_cast<float*>(cholmod_free(room_, 8, values_, &common_));
+  room_ = 0;
 }
 
 std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, cholmod_common& common) {

@@ -21,6 +21,28 @@ cholmod_sparse view_of(const SparseMatrix& matrix);
 /// RunError.
 std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, cholmod_common& common);
 
+/// A supernodal factor's values in single precision, instead of its own.
+class RoundedValues {
+ public:
+  explicit RoundedValues(cholmod_common& common) : common_(common) {}
+  ~RoundedValues() { drop(); }
+  RoundedValues(const RoundedValues&) = delete;
+  RoundedValues& operator=(const RoundedValues&) = delete;
+
+  /// In place: nothing more is needed than the factor takes, and half of that is given back. The factor keeps its
+  /// pattern.
+  void take(cholmod_factor& factor);
+  void drop();
+
+  bool is_empty() const { return values_ == nullptr; }
+  const float* data() const { return values_; }
+
+ private:
+  cholmod_common& common_;
+  float* values_ = nullptr;
+  std::size_t room_ = 0;  ///< in doubles
+};
+
 /// Some columns of a supernodal factor that have the same rows: a dense block, the triangle of the columns' own rows
 /// above the others.
 template <class Scalar>
