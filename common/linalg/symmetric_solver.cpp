@@ -10,10 +10,6 @@
 namespace tether {
 namespace {
 
-/// Unknowns above which cycles of multigrid take less than a factor and its solves, and far less memory: a factor of a
-/// mesh in three dimensions grows as the square of the nodes, in work. (docs/decisions/0125-several-processes.md)
-constexpr int most_factored = 150'000;
-
 /// PETSc is loaded where it is used: to load it takes longer than a small model's first steps.
 MakeSharedSolver* shared_solvers() {
   void* library = dlopen(shared_solver_file, RTLD_NOW | RTLD_LOCAL);
@@ -39,8 +35,8 @@ std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share) {
   return std::make_unique<SubstructuredSolver>(share);
 }
 
-std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share) {
-  if (share.is_whole() || share.nodes() <= most_factored) return symmetric_solver(share);
+std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share, int most) {
+  if (share.is_whole() || share.nodes() <= most) return symmetric_solver(share);
   static MakeSharedSolver* const make = shared_solvers();
   return std::unique_ptr<SymmetricSolver>(make(share));
 }

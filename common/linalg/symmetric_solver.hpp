@@ -35,8 +35,11 @@ class SymmetricSolver {
 /// Direct. Of a shared matrix the rows of own nodes count, and the solution is complete. The share must outlive the
 /// solver.
 std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share);
-/// The same for Laplacians in three dimensions: shared by several processes, and too large to be factored, they are
-/// solved by multigrid. Throws RunError if PETSc cannot be loaded.
-std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share);
+/// Unknowns above which cycles of multigrid take less than a factor and its solves, and far less memory: a factor of a
+/// mesh in three dimensions grows as the square of the nodes, in work. (docs/decisions/0125-several-processes.md)
+inline constexpr int most_factored = 150'000;
+/// The same for Laplacians in three dimensions: shared by several processes, and with more unknowns than `most`, they
+/// are solved by multigrid. Throws RunError if PETSc cannot be loaded.
+std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share, int most = most_factored);
 
 }  // namespace tether
