@@ -1,5 +1,7 @@
 #include "common/linalg/cholesky.hpp"
 
+#include <cholmod.h>
+
 #include <algorithm>
 #include <cmath>
 

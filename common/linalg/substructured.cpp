@@ -1,7 +1,10 @@
 #include "common/linalg/substructured.hpp"
 
+#include <cholmod.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.hpp"
 #include "common/linalg/cholesky.hpp"
@@ -97,7 +100,7 @@ struct SubstructuredSolver::Parts {
   void find_pattern_between();
   void set_pattern_between(std::vector<std::vector<int>>& neighbours);
   bool factor_inside(const SparseMatrix& matrix);
-  void complement(Eigen::Ref<Eigen::MatrixXd> result) const;
+  Eigen::MatrixXd complement() const;
   bool factor_between(const SparseMatrix& matrix);
   void solve(VectorXd& rhs) const;
   template <class Scalar, class Solve>
@@ -115,13 +118,10 @@ struct SubstructuredSolver::Parts {
   std::vector<int> edge_places;        ///< where they stand in `between`
   substructures::Extract part;         ///< inner nodes, then those of the edge
   substructures::Extract own_between;  ///< of nodes between: what of their matrix is in own rows
-  VectorXd added;    ///< to the diagonal of the edge, so that a part that nothing holds can be factored
-  SparseMatrix sum;  ///< of all nodes between
-  std::vector<std::vector<int>> edges;  ///< of each process, as edge_places; it contributes a full block
-  std::vector<int> block_places;        ///< of these blocks, one a pair of nodes: where in the row of `sum` it stands
-  std::vector<int> block_starts;        ///< of each process's block
-  std::vector<int> entry_starts;        ///< of each process's own rows
-  std::vector<int> targets;             ///< in the values of `sum`, of all processes' own rows
+  VectorXd added;                 ///< to the diagonal of the edge, so that a part that nothing holds can be factored
+  SparseMatrix sum;               ///< of all nodes between
+  std::vector<int> block_places;  ///< of the block of the own edge, one a pair of nodes: where in the row of `sum`
+  std::vector<int> targets;       ///< in the values of `sum`, of the own rows
   std::vector<std::size_t> sent_from_own;  ///< of own_between's entries, those in own rows
   Cholesky of_sum;
   cholmod_common common{};
@@ -204,40 +204,35 @@ void SubstructuredSolver::Parts::find_pattern_between() {
         columns.push_back(static_cast<int>(entry.col()));
       }
   const std::vector<int> edges_of_all = of_all(edge_places, edge_starts);
-  rows = of_all(rows, entry_starts);
-  columns = of_all(columns, entry_starts);
+  const std::vector<int> own_rows = rows, own_columns = columns;
+  std::vector<int> ignored;
+  rows = of_all(rows, ignored);
+  columns = of_all(columns, ignored);
 
-  edges.clear();
-  for (std::size_t r = 0; r + 1 < edge_starts.size(); ++r)
-    edges.emplace_back(edges_of_all.begin() + edge_starts[r], edges_of_all.begin() + edge_starts[r + 1]);
   std::vector<std::vector<int>> neighbours(between.size());
-  for (const std::vector<int>& nodes : edges)
-    for (const int node : nodes) {
+  for (std::size_t r = 0; r + 1 < edge_starts.size(); ++r) {
+    const auto begin = edges_of_all.begin() + edge_starts[r], end = edges_of_all.begin() + edge_starts[r + 1];
+    std::for_each(begin, end, [&](int node) {
       auto& those = neighbours[static_cast<std::size_t>(node)];
-      those.insert(those.end(), nodes.begin(), nodes.end());
-    }
+      those.insert(those.end(), begin, end);
+    });
+  }
   for (std::size_t e = 0; e < rows.size(); ++e)
     neighbours[static_cast<std::size_t>(rows[e] / components)].push_back(columns[e] / components);
   set_pattern_between(neighbours);
 
-  const auto place_in_row = [&neighbours](int row_node, int column_node) {
+  const auto place_in_row = [this, &neighbours](int row_node, int column_node) {
     const auto& those = neighbours[static_cast<std::size_t>(row_node)];
-    return static_cast<int>(std::lower_bound(those.begin(), those.end(), column_node) - those.begin());
+    return static_cast<int>(std::lower_bound(those.begin(), those.end(), column_node) - those.begin()) * components;
   };
   block_places.clear();
-  for (const std::vector<int>& nodes : edges)
-    for (const int row : nodes)
-      for (const int column : nodes) block_places.push_back(place_in_row(row, column) * components);
+  for (const int row : edge_places)
+    for (const int column : edge_places) block_places.push_back(place_in_row(row, column));
   targets.clear();
-  for (std::size_t e = 0; e < rows.size(); ++e)
-    targets.push_back(sum.outerIndexPtr()[rows[e]] +
-                      place_in_row(rows[e] / components, columns[e] / components) * components +
-                      columns[e] % components);
-  block_starts.assign(1, 0);
-  for (const std::vector<int>& nodes : edges) {
-    const int n = static_cast<int>(nodes.size()) * components;
-    block_starts.push_back(block_starts.back() + n * n);
-  }
+  for (std::size_t e = 0; e < own_rows.size(); ++e)
+    targets.push_back(sum.outerIndexPtr()[own_rows[e]] +
+                      place_in_row(own_rows[e] / components, own_columns[e] / components) +
+                      own_columns[e] % components);
   if (!between.empty()) of_sum.analyze(sum, components);
 }
 
@@ -250,6 +245,9 @@ void SubstructuredSolver::Parts::set_pattern_between(std::vector<std::vector<int
     count += static_cast<Eigen::Index>(those.size()) * components * components;
   }
   const auto size = static_cast<Eigen::Index>(between.size()) * components;
+  if (count > std::numeric_limits<int>::max())
+    throw run_error("coupling.ranks: {} unknowns between the parts of {} processes are too many: fewer would do", size,
+                    share.team().size());
   sum.resize(size, size);
   sum.resizeNonZeros(count);
   int at = 0, row = 0;
@@ -280,11 +278,10 @@ bool SubstructuredSolver::Parts::factor_inside(const SparseMatrix& matrix) {
 }
 
 /// What the inside adds to the matrix of the edge: - A_ei A_ii^-1 A_ie = L_ee L_ee' - (A_ee + added).
-void SubstructuredSolver::Parts::complement(Eigen::Ref<Eigen::MatrixXd> result) const {
+Eigen::MatrixXd SubstructuredSolver::Parts::complement() const {
   const int n = edge(), first = inside();
-  result.setZero();
-  if (inner.empty() || n == 0) return;
-  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n), triangle = result;
+  if (inner.empty() || n == 0) return result;
   for (std::size_t k = 0; k < factor->nsuper; ++k) {
     const Supernode node(*factor, values(), k);
     for (int c = std::max(0, first - node.first); c < node.columns; ++c) {
@@ -299,34 +296,27 @@ void SubstructuredSolver::Parts::complement(Eigen::Ref<Eigen::MatrixXd> result) 
   for (int row = 0; row < n; ++row)
     for (SparseMatrix::InnerIterator entry(part.matrix, first + row); entry; ++entry)
       if (entry.col() >= first) result(row, entry.col() - first) -= entry.value();
+  return result;
 }
 
 bool SubstructuredSolver::Parts::factor_between(const SparseMatrix& matrix) {
   if (between.empty()) return true;
   own_between.take(matrix);
-  const auto rank = static_cast<std::size_t>(share.team().rank());
-  std::vector<double> blocks(static_cast<std::size_t>(block_starts.back())),
-      entries(static_cast<std::size_t>(entry_starts.back()));
-  complement(Eigen::Map<Eigen::MatrixXd>(blocks.data() + block_starts[rank], edge(), edge()));
-  double* entry = entries.data() + entry_starts[rank];
-  for (const std::size_t k : sent_from_own) *entry++ = own_between.matrix.valuePtr()[k];
-  share.team().gather(blocks, block_starts);
-  share.team().gather(entries, entry_starts);
-
   std::fill_n(sum.valuePtr(), sum.nonZeros(), 0.0);
-  const double* value = blocks.data();  // symmetric: by columns is by rows
-  const int* first_places = block_places.data();
-  for (const std::vector<int>& nodes : edges) {
-    for (const int row_node : nodes) {
-      for (int i = 0; i < components; ++i) {
-        double* row = sum.valuePtr() + sum.outerIndexPtr()[row_node * components + i];
-        for (std::size_t column = 0; column < nodes.size(); ++column)
-          for (int j = 0; j < components; ++j) row[first_places[column] + j] += *value++;
-      }
-      first_places += nodes.size();
+  const Eigen::MatrixXd block = complement();
+  const double* value = block.data();  // symmetric: by columns is by rows
+  const int* places = block_places.data();
+  for (const int node : edge_places) {
+    for (int i = 0; i < components; ++i) {
+      double* row = sum.valuePtr() + sum.outerIndexPtr()[node * components + i];
+      for (std::size_t column = 0; column < edge_places.size(); ++column)
+        for (int j = 0; j < components; ++j) row[places[column] + j] += *value++;
     }
+    places += edge_places.size();
   }
-  for (std::size_t e = 0; e < entries.size(); ++e) sum.valuePtr()[targets[e]] += entries[e];
+  for (std::size_t k = 0; k < targets.size(); ++k)
+    sum.valuePtr()[targets[k]] += own_between.matrix.valuePtr()[sent_from_own[k]];
+  share.team().sum({sum.valuePtr(), static_cast<std::size_t>(sum.nonZeros())});
   return of_sum.factor_if_definite(sum);
 }
 

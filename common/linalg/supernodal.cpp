@@ -1,5 +1,7 @@
 #include "common/linalg/supernodal.hpp"
 
+#include <cblas.h>
+#include <cholmod.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -112,6 +114,18 @@ std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, chol
 }
 
 template <class Scalar>
+Supernode<Scalar>::Supernode(const cholmod_factor& factor, const Scalar* values, std::size_t s) {
+  const int* super = static_cast<const int*>(factor.super) + s;
+  const int* place = static_cast<const int*>(factor.pi) + s;
+  first = super[0];
+  columns = super[1] - super[0];
+  height = place[1] - place[0];
+  rows = static_cast<const int*>(factor.s) + place[0] + columns;
+  triangle = values + static_cast<const int*>(factor.px)[s];
+  rectangle = triangle + columns;
+}
+
+template <class Scalar>
 void solve_forward(const cholmod_factor& factor, const Scalar* values, int end, Scalar* x, Scalar* other) {
   for (std::size_t k = 0; k < factor.nsuper && static_cast<const int*>(factor.super)[k] < end; ++k) {
     const Supernode node = Supernode<Scalar>(factor, values, k).before(end);
@@ -133,6 +147,8 @@ void solve_backward(const cholmod_factor& factor, const Scalar* values, int end,
   }
 }
 
+template struct Supernode<float>;
+template struct Supernode<double>;
 template void solve_forward(const cholmod_factor&, const float*, int, float*, float*);
 template void solve_forward(const cholmod_factor&, const double*, int, double*, double*);
 template void solve_backward(const cholmod_factor&, const float*, int, float*, float*);

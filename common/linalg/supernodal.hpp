@@ -1,13 +1,14 @@
 #pragma once
 
 // Only for this folder's .cpp files: what is done with CHOLMOD's supernodal factors.
-#include <cblas.h>
-#include <cholmod.h>
-
 #include <cstddef>
 #include <vector>
 
 #include "common/linalg/sparse.hpp"
+
+using cholmod_common = struct cholmod_common_struct;
+using cholmod_factor = struct cholmod_factor_struct;
+using cholmod_sparse = struct cholmod_sparse_struct;
 
 namespace tether {
 
@@ -48,9 +49,7 @@ class RoundedValues {
 template <class Scalar>
 struct Supernode {
   /// values: of the factor.
-  Supernode(const cholmod_factor& factor, const Scalar* values, std::size_t s)
-      : Supernode(static_cast<const int*>(factor.super) + s, static_cast<const int*>(factor.pi) + s,
-                  static_cast<const int*>(factor.s), values + static_cast<const int*>(factor.px)[s]) {}
+  Supernode(const cholmod_factor& factor, const Scalar* values, std::size_t s);
   /// The same, without the columns from `end` on.
   Supernode before(int end) const {
     Supernode part = *this;
@@ -65,15 +64,6 @@ struct Supernode {
   const int* rows;  ///< of what is below the triangle
   const Scalar *triangle, *rectangle;
   int below() const { return height - columns; }
-
- private:
-  Supernode(const int* super, const int* pi, const int* s, const Scalar* block)
-      : first(super[0]),
-        columns(super[1] - super[0]),
-        height(pi[1] - pi[0]),
-        rows(s + pi[0] + columns),
-        triangle(block),
-        rectangle(block + columns) {}
 };
 
 /// The factor's columns before `end`: x <- L^-1 x; what stands below them is subtracted from the rest of x. `other`:

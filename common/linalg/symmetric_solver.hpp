@@ -37,7 +37,7 @@ class SymmetricSolver {
 std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share);
 /// Unknowns above which cycles of multigrid take less than a factor and its solves, and far less memory: a factor of a
 /// mesh in three dimensions grows as the square of the nodes, in work. (docs/decisions/0125-several-processes.md)
-inline constexpr int most_factored = 150'000;
+inline constexpr int most_factored = 250'000;
 /// The same for Laplacians in three dimensions: shared by several processes, and with more unknowns than `most`, they
 /// are solved by multigrid. Throws RunError if PETSc cannot be loaded.
 std::unique_ptr<SymmetricSolver> laplacian_solver(const Share& share, int most = most_factored);
