@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <list>
+#include <map>
 #include <thread>
 
 #include "common/base/limits.hpp"
@@ -75,9 +76,10 @@ MPI_Comm own_processes(bool spawned) {
   return own;
 }
 
-MPI_Comm chosen(int communicator, MPI_Comm own) {
-  if (communicator == no_communicator) return MPI_COMM_SELF;
-  return communicator == all_processes ? own : MPI_Comm_f2c(communicator);
+/// Which of an mpirun line's processes one master has is not known before all have told who they are.
+MPI_Comm chosen(int communicator, MPI_Comm own, bool spawned) {
+  if (communicator == no_communicator || (communicator == one_masters && !spawned)) return MPI_COMM_SELF;
+  return communicator == all_processes || communicator == one_masters ? own : MPI_Comm_f2c(communicator);
 }
 
 int rank_in(MPI_Comm communicator) {
@@ -106,15 +108,17 @@ void refuse_company(const std::string& role, int rank) {
 
 /// Who a process of an mpirun line is. Its bytes are what programs of earlier versions exchange, whose last are zeros.
 struct Present {
-  std::array<char, 56> role{};
+  std::array<char, 55> role{};
+  char shares_master = 0;  ///< whether all processes of its role that have one master are one code
   std::uint64_t of_case = 0;
 };
 
 /// Of everybody, by world rank.
-std::vector<Present> gather_present(const std::string& role, const OfCase& of_case) {
+std::vector<Present> gather_present(const std::string& role, bool shares_master, const OfCase& of_case) {
   std::vector<Present> all(static_cast<std::size_t>(size_of(MPI_COMM_WORLD)));
   Present mine;
   role.copy(mine.role.data(), mine.role.size() - 1);
+  mine.shares_master = shares_master ? 1 : 0;
   if (of_case && !role.empty() && all.size() > 1) mine.of_case = of_case();
   check_mpi(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD),
             "MPI_Allgather");
@@ -151,6 +155,44 @@ void check_line(const std::vector<Present>& present, int rank) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
     end_job(exit_input_wrong);
   }
+}
+
+/// The world ranks of each code in several processes; of a code in one it has that.
+std::vector<std::vector<int>> teams_of(const std::vector<Present>& present) {
+  const std::vector<std::string> roles = roles_of(present);
+  std::map<std::pair<std::string, int>, std::vector<int>> of_masters;
+  std::vector<std::vector<int>> teams(roles.size());
+  for (std::size_t one = 0; one < roles.size(); ++one) {
+    const int rank = static_cast<int>(one), master = present[one].shares_master != 0 ? master_of(roles, rank) : -1;
+    if (master >= 0) of_masters[{roles[one], master}].push_back(rank);
+    teams[one] = {rank};
+  }
+  for (const auto& [whose, ranks] : of_masters)
+    for (const int rank : ranks) teams[static_cast<std::size_t>(rank)] = ranks;
+  return teams;
+}
+
+/// Who leads its code, by world rank; the others have no role.
+std::vector<std::string> roles_of_leaders(const std::vector<Present>& present,
+                                          const std::vector<std::vector<int>>& teams) {
+  std::vector<std::string> roles = roles_of(present);
+  for (std::size_t one = 0; one < roles.size(); ++one)
+    if (teams[one].front() != static_cast<int>(one)) roles[one].clear();
+  return roles;
+}
+
+/// Collective over these world ranks only.
+MPI_Comm communicator_of(const std::vector<int>& ranks) {
+  if (ranks.size() == 1) return MPI_COMM_SELF;
+  constexpr int tag = 0;
+  MPI_Group world = MPI_GROUP_NULL, group = MPI_GROUP_NULL;
+  MPI_Comm result = MPI_COMM_NULL;
+  MPI_Comm_group(MPI_COMM_WORLD, &world);
+  MPI_Group_incl(world, static_cast<int>(ranks.size()), ranks.data(), &group);
+  check_mpi(MPI_Comm_create_group(MPI_COMM_WORLD, group, tag, &result), "MPI_Comm_create_group");
+  MPI_Group_free(&group);
+  MPI_Group_free(&world);
+  return result;
 }
 
 /// Reads Arrival, answers Welcome.
@@ -224,12 +266,17 @@ Session::Session(const std::string& role, int communicator, const OfCase& of_cas
   if (spawned) parts.watch.follow(marking_master());
   parts.rank = rank_in(MPI_COMM_WORLD);
   if (spawned && communicator == no_communicator) refuse_company(role, parts.rank);
-  parts.own = chosen(communicator, own_processes(spawned));
+  parts.own = chosen(communicator, own_processes(spawned), spawned);
   parts.is_leader = rank_in(parts.own) == 0;
   if (spawned) return;
-  const std::vector<Present> present = gather_present(parts.is_leader ? role : "", of_case);
+  const bool shares_master = communicator == one_masters;
+  const std::vector<Present> present = gather_present(parts.is_leader ? role : "", shares_master, of_case);
   check_line(present, parts.rank);
-  parts.roles = roles_of(present);
+  const std::vector<std::vector<int>> teams = teams_of(present);
+  parts.roles = roles_of_leaders(present, teams);
+  if (!shares_master) return;
+  parts.own = communicator_of(teams[static_cast<std::size_t>(parts.rank)]);
+  parts.is_leader = rank_in(parts.own) == 0;
 }
 
 Session::~Session() = default;

@@ -40,8 +40,9 @@ std::string find_executable(const Program& program);
 /// mpirun line started the others, who may have been given another.
 using OfCase = std::function<std::uint64_t()>;
 
-/// Instead of a communicator: this process alone, or all processes that run this program.
-inline constexpr int no_communicator = -1, all_processes = -2;
+/// Instead of a communicator: this process alone; all processes that run this program; or those of them that one master
+/// has, as Tether's own codes: the n fluids of an mpirun line with m masters are m teams, in rank order.
+inline constexpr int no_communicator = -1, all_processes = -2, one_masters = -3;
 
 /// The membership of this process in the job, from MPI_Init to MPI_Finalize: one per process, first thing in main.
 class Session {

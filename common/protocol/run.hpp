@@ -87,7 +87,7 @@ int run_partner_together(const std::string& role, Build build, const OfCase& of_
     }
     serve<Requests>(*link.channel, handler->hello(), *handler);
   };
-  return run_master(role, body, of_case, all_processes);
+  return run_master(role, body, of_case, one_masters);
 }
 
 }  // namespace tether::protocol

@@ -64,6 +64,39 @@ TEST_F(Ranks, ComputeTheRunOfOneProcess) {
   EXPECT_EQ(content_of(folder / "one/fluid.pvd"), content_of(folder / "several/fluid.pvd"));
 }
 
+TEST_F(Ranks, AreThoseOfAnMpirunLine) {
+  expect_done(simulate("one", "one", steps));
+  const std::string programs = std::filesystem::path(TETHER_PROGRAM).parent_path(), file = folder / "one.yaml";
+  expect_done(capture({{"mpirun",
+                        "-q",
+                        "--oversubscribe",
+                        "--bind-to",
+                        "none",
+                        "--mca",
+                        "mpi_yield_when_idle",
+                        "1",
+                        "-n",
+                        "1",
+                        programs + "/fsi_master",
+                        file,
+                        "--output",
+                        folder / "line",
+                        "--steps",
+                        std::to_string(steps),
+                        ":",
+                        "-n",
+                        "2",
+                        programs + "/fluid",
+                        file,
+                        ":",
+                        "-n",
+                        "2",
+                        programs + "/solid",
+                        file},
+                       {}}));
+  expect_same("one", "line", steps);
+}
+
 /// How many processes there are is no part of the model.
 TEST_F(Ranks, GoOnFromWhatOneProcessSaved) {
   expect_done(simulate("one", "whole", steps));
