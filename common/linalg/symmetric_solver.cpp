@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <cmath>
+
 #include "common/base/error.hpp"
 #include "common/linalg/cholesky.hpp"
 #include "common/linalg/shared_solver.hpp"
@@ -28,6 +30,12 @@ VectorXd SymmetricSolver::solve(const VectorXd& rhs) const {
   Eigen::MatrixXd x = rhs;
   solve_in_place(x);
   return x.col(0);
+}
+
+bool SymmetricSolver::solves_within(double tolerance, const SparseMatrix& matrix) const {
+  VectorXd any(matrix.rows());
+  for (Eigen::Index i = 0; i < any.size(); ++i) any[i] = std::sin(static_cast<double>((i + 1) * (i + 1)));
+  return (solve(matrix * any) - any).norm() <= tolerance * any.norm();
 }
 
 std::unique_ptr<SymmetricSolver> symmetric_solver(const Share& share) {

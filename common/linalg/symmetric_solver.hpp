@@ -30,6 +30,10 @@ class SymmetricSolver {
   /// Throws RunError if the matrix is not positive definite.
   void factor(const SparseMatrix& matrix);
   VectorXd solve(const VectorXd& rhs) const;
+
+ protected:
+  /// Whether one solve, with no structure that a factor could be good at by chance, is wrong by at most that much.
+  bool solves_within(double tolerance, const SparseMatrix& matrix) const;
 };
 
 /// Direct. Of a shared matrix the rows of own nodes count, and the solution is complete. The share must outlive the

@@ -82,18 +82,6 @@ MPI_Comm chosen(int communicator, MPI_Comm own, bool spawned) {
   return communicator == all_processes || communicator == one_masters ? own : MPI_Comm_f2c(communicator);
 }
 
-int rank_in(MPI_Comm communicator) {
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  return rank;
-}
-
-int size_of(MPI_Comm communicator) {
-  int size = 0;
-  MPI_Comm_size(communicator, &size);
-  return size;
-}
-
 /// Ends a program that was started in several processes (coupling.ranks), each of which would answer the master alone.
 void refuse_company(const std::string& role, int rank) {
   const int size = size_of(MPI_COMM_WORLD);

@@ -7,18 +7,6 @@
 namespace tether::protocol {
 namespace {
 
-int rank_of(MPI_Comm communicator) {
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  return rank;
-}
-
-int size_of_team(MPI_Comm communicator) {
-  int size = 0;
-  MPI_Comm_size(communicator, &size);
-  return size;
-}
-
 int count(std::span<const double> values) {
   return static_cast<int>(values.size());
 }
@@ -26,7 +14,7 @@ int count(std::span<const double> values) {
 }  // namespace
 
 MpiTeam::MpiTeam(MPI_Comm communicator)
-    : Team(rank_of(communicator), size_of_team(communicator)), communicator_(communicator) {}
+    : Team(rank_in(communicator), size_of(communicator)), communicator_(communicator) {}
 
 /// What one process has summed goes to all: MPI promises equal bits no other way.
 void MpiTeam::sum(std::span<double> values) {

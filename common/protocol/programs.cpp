@@ -179,7 +179,9 @@ std::string how_it_failed(const ForegroundEnd& end, const std::string& master) {
   if (end.exit_code >= 128 + NSIG)
     return fmt::format("mpirun broke off ({}): a node of the job was lost, or the job was ended from outside",
                        end.exit_code);
-  const std::string how = fmt::format("{} {}", end.was_killed ? "mpirun" : master.c_str(), how_it_ended(end.exit_code));
+  // mpirun ends with the number of the process that died, and does not say which of the run it was.
+  const std::string who = end.was_killed ? "mpirun" : master + " or a process that it started";
+  const std::string how = fmt::format("{} {}", who, how_it_ended(end.exit_code));
   if (is_output_closed()) return "nobody reads what the run says any more (a pipe whose reader has ended)";
   if (end.exit_code == 128 + SIGKILL) return how + ": out of memory?";
   return (end.exit_code > 128 ? how : how + " and without a word: was mpirun interrupted?") + settings_of_mpi();

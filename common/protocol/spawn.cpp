@@ -156,6 +156,18 @@ void check_mpi(int code, const char* what) {
   throw run_error("{}: {}", what, text);
 }
 
+int rank_in(MPI_Comm communicator) {
+  int rank = 0;
+  check_mpi(MPI_Comm_rank(communicator, &rank), "MPI_Comm_rank");
+  return rank;
+}
+
+int size_of(MPI_Comm communicator) {
+  int size = 0;
+  check_mpi(MPI_Comm_size(communicator, &size), "MPI_Comm_size");
+  return size;
+}
+
 void give_up(const std::string& role, const std::string& message) {
   fmt::print(stderr, "{}: {}\n", role, message);
   note_told(Told::failure);

@@ -28,4 +28,8 @@ MPI_Comm meet(int other_rank, int tag, const std::string& other_role, const std:
 /// Throws RunError with MPI's own words if `code` is not MPI_SUCCESS.
 void check_mpi(int code, const char* what);
 
+/// Of this process, among those of the communicator.
+int rank_in(MPI_Comm communicator);
+int size_of(MPI_Comm communicator);
+
 }  // namespace tether::protocol

@@ -11,6 +11,7 @@
 #include "solid/elements/element_response.hpp"
 #include "solid/elements/prism.hpp"
 #include "solid/elements/prism_pack.hpp"
+#include "solid/elements/shared_elements.hpp"
 #include "solid/elements/tetrahedron.hpp"
 #include "solid/materials/registry.hpp"
 
@@ -488,73 +489,6 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ElementsOf<Element>::cauchy_stress(cons
   }
   return result;
 }
-
-/// Those at a process's own nodes; what is whole is put together from all.
-class SharedElements final : public WallElements {
- public:
-  /// numbers: in the mesh, of the elements held, ascending; answers: for which of them this process does.
-  SharedElements(const Share& share, std::unique_ptr<WallElements> held, std::vector<int> numbers,
-                 std::vector<char> answers, std::size_t count)
-      : share_(share),
-        held_(std::move(held)),
-        numbers_(std::move(numbers)),
-        answers_(std::move(answers)),
-        count_(count) {}
-
-  void static_force(const Points& x, const Material& material, VectorXd& force, SparseMatrix* tangent) const override {
-    VectorXd here = VectorXd::Zero(force.size());
-    held_->static_force(x, material, here, tangent);
-    add(std::move(here), force);
-  }
-  void step_force(const StepMotion& motion, const WallMaterial& material, VectorXd& force,
-                  SparseMatrix* tangent) const override {
-    VectorXd here = VectorXd::Zero(force.size());
-    held_->step_force(motion, material, here, tangent);
-    add(std::move(here), force);
-  }
-  VectorXd energies(const Points& x, const Material& material) const override {
-    return of_all(held_->energies(x, material).transpose()).transpose();
-  }
-  VectorXd volumes() const override { return of_all(held_->volumes().transpose()).transpose(); }
-  Eigen::Matrix<double, 6, Eigen::Dynamic> cauchy_stress(const Points& x, const Material& material) const override {
-    return of_all(held_->cauchy_stress(x, material));
-  }
-  SparseMatrix zero_matrix() const override { return held_->zero_matrix(); }
-  void set_initial_stress(const Points& u, const Material& material) override {
-    held_->set_initial_stress(u, material);
-  }
-  void set_places(std::vector<ElementPlace> places) override {
-    std::vector<ElementPlace> here;
-    for (const int number : numbers_) here.push_back(places[static_cast<std::size_t>(number)]);
-    held_->set_places(std::move(here));
-  }
-  void set_local(std::vector<WallLocal> regions) override { held_->set_local(std::move(regions)); }
-  VectorXd tension_force(const Points& x) const override {
-    VectorXd force = held_->tension_force(x);
-    share_.complete(force);
-    return force;
-  }
-
- private:
-  void add(VectorXd here, VectorXd& force) const {
-    share_.complete(here);
-    force += here;
-  }
-  /// A column an element: of those held, and of all.
-  Eigen::MatrixXd of_all(const Eigen::MatrixXd& held) const {
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(held.rows(), static_cast<Eigen::Index>(count_));
-    for (std::size_t i = 0; i < numbers_.size(); ++i)
-      if (answers_[i] != 0) all.col(numbers_[i]) = held.col(static_cast<Eigen::Index>(i));
-    share_.team().sum({all.data(), static_cast<std::size_t>(all.size())});
-    return all;
-  }
-
-  const Share& share_;
-  std::unique_ptr<WallElements> held_;
-  std::vector<int> numbers_;
-  std::vector<char> answers_;
-  std::size_t count_;
-};
 
 template <class Element>
 std::unique_ptr<WallElements> elements_of(const std::vector<typename Element::Cell>& cells, const Points& reference,

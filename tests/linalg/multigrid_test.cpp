@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "common/base/child_process.hpp"
+#include "tests/io/mpirun.hpp"
 
 namespace tether {
 namespace multigrid_test {
@@ -11,9 +11,7 @@ namespace multigrid_test {
 class Multigrid : public ::testing::TestWithParam<int> {};
 
 TEST_P(Multigrid, SolvesAsAFactorDoes) {
-  const ChildEnd end = capture(
-      {{"mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n", std::to_string(GetParam()), MULTIGRID_PROGRAM},
-       {}});
+  const ChildEnd end = capture(on_mpirun({"-n", std::to_string(GetParam()), MULTIGRID_PROGRAM}));
   ASSERT_EQ(end.exit_code, 0) << end.errors;
   std::istringstream told(end.output);
   int solved = 0;

@@ -17,6 +17,7 @@
 #include "common/io/lumen_motion.hpp"
 #include "observation_manager/measurements/observed_case.hpp"
 #include "tests/faults/fault.hpp"
+#include "tests/io/mpirun.hpp"
 #include "tests/scenarios/case_variant.hpp"
 #include "tests/scenarios/processes.hpp"
 #include "tests/scenarios/surface_file.hpp"
@@ -145,15 +146,14 @@ ChildEnd on_a_line(const fs::path& case_file, const fs::path& of_observation, co
   const auto part = [](const char* program, const char* number, const fs::path& given) {
     return std::vector<std::string>{"-n", number, fs::path(TETHER_PROGRAM).parent_path() / program, given};
   };
-  std::vector<std::string> words{"mpirun", "-q",    "--oversubscribe",     "--bind-to",
-                                 "none",   "--mca", "mpi_yield_when_idle", "1"};
+  std::vector<std::string> words;
   for (const auto& more : {part("identification_master", "1", case_file),
                            {"--output", output, "--steps", std::to_string(steps), "--quiet", ":"},
                            part("fsi_master", "2", case_file),
                            {":"},
                            part("observation_manager", "2", of_observation)})
     words.insert(words.end(), more.begin(), more.end());
-  return capture({words, {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}}});
+  return capture(on_mpirun(words));
 }
 
 TEST_F(Identify, OfAnMpirunLineAllHaveOneCase) {

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/child_process.hpp"
+#include "tests/io/mpirun.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/processes.hpp"
 #include "tests/scenarios/run_table.hpp"
+#include "tests/scenarios/simulate.hpp"
 
 namespace tether {
 namespace ranks_test {
@@ -32,15 +34,7 @@ class Ranks : public ::testing::Test {
   }
   std::vector<std::string> words(const std::string& name, const std::string& output, int until,
                                  const std::vector<std::string>& more) const {
-    std::vector<std::string> all{TETHER_PROGRAM,
-                                 "simulate",
-                                 (folder / (name + ".yaml")).string(),
-                                 "--output",
-                                 (folder / output).string(),
-                                 "--steps",
-                                 std::to_string(until)};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return simulate_line(folder / (name + ".yaml"), folder / output, until, more);
   }
   ChildEnd simulate(const std::string& name, const std::string& output, int until,
                     const std::vector<std::string>& more = {"--overwrite", "--quiet"}) const {
@@ -67,33 +61,9 @@ TEST_F(Ranks, ComputeTheRunOfOneProcess) {
 TEST_F(Ranks, AreThoseOfAnMpirunLine) {
   expect_done(simulate("one", "one", steps));
   const std::string programs = std::filesystem::path(TETHER_PROGRAM).parent_path(), file = folder / "one.yaml";
-  expect_done(capture({{"mpirun",
-                        "-q",
-                        "--oversubscribe",
-                        "--bind-to",
-                        "none",
-                        "--mca",
-                        "mpi_yield_when_idle",
-                        "1",
-                        "-n",
-                        "1",
-                        programs + "/fsi_master",
-                        file,
-                        "--output",
-                        folder / "line",
-                        "--steps",
-                        std::to_string(steps),
-                        ":",
-                        "-n",
-                        "2",
-                        programs + "/fluid",
-                        file,
-                        ":",
-                        "-n",
-                        "2",
-                        programs + "/solid",
-                        file},
-                       {}}));
+  expect_done(capture(on_mpirun({"-n", "1", programs + "/fsi_master", file, "--output", folder / "line", "--steps",
+                                 std::to_string(steps), ":", "-n", "2", programs + "/fluid", file, ":", "-n", "2",
+                                 programs + "/solid", file})));
   expect_same("one", "line", steps);
 }
 

@@ -7,6 +7,7 @@
 #include "common/base/child_process.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/run_table.hpp"
+#include "tests/scenarios/simulate.hpp"
 
 namespace tether {
 namespace {
@@ -26,15 +27,7 @@ class Together : public ::testing::Test {
   }
   ChildEnd simulate(const std::string& name, const std::string& output, int until,
                     const std::vector<std::string>& more = {"--overwrite"}) const {
-    std::vector<std::string> words{TETHER_PROGRAM,
-                                   "simulate",
-                                   (folder / (name + ".yaml")).string(),
-                                   "--output",
-                                   (folder / output).string(),
-                                   "--steps",
-                                   std::to_string(until)};
-    words.insert(words.end(), more.begin(), more.end());
-    return capture({words, {}});
+    return capture({simulate_line(folder / (name + ".yaml"), folder / output, until, more), {}});
   }
   Json summary(const std::string& output) const { return Json::parse(content_of(folder / output / "summary.json")); }
   void expect_same_table(const std::string& one, const std::string& other) const {

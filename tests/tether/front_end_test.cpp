@@ -252,7 +252,7 @@ TEST_F(FrontEnd, CallsAKilledRunFailed) {
   program("fsi_master", "case \"$*\" in *--validate*) exit 0;; esac; kill -KILL $$");
   const ChildEnd end = tether("simulate case.yaml --quiet");
   EXPECT_EQ(end.exit_code, 1);
-  EXPECT_NE(end.errors.find("tether: fsi_master was ended by signal 9"), std::string::npos) << end.errors;
+  EXPECT_NE(end.errors.find("tether: fsi_master or a process that it started was ended by signal 9"), std::string::npos) << end.errors;
 }
 
 /// With some values it does not begin, and says nothing.
