@@ -28,7 +28,7 @@ class Substructured : public ::testing::TestWithParam<std::tuple<int, int>> {};
 
 /// hold = 0.01: a part on its own is all but loose.
 TEST_P(Substructured, SolvesAsOneProcessDoes) {
-  const auto [processes, components] = GetParam();
+  const int processes = std::get<0>(GetParam()), components = std::get<1>(GetParam());
   constexpr int n = 6;
   for (const double hold : {1.0, 0.01}) {
     const SparseMatrix whole = assembled(2 * n * n * n, components, cubes(n), hold);
@@ -54,7 +54,7 @@ TEST_P(Substructured, SolvesAsOneProcessDoes) {
 }
 
 TEST_P(Substructured, RoundedToSingleItSolvesAlmostAsWellInLessMemory) {
-  const auto [processes, components] = GetParam();
+  const int processes = std::get<0>(GetParam()), components = std::get<1>(GetParam());
   constexpr int n = 6;
   in_team(processes, [&](Team& team) {
     Shared shared(team, n, components, 1.0);
