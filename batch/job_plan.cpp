@@ -144,10 +144,14 @@ ExpectedTime expected_time(const PlannedRuns& planned) {
   return {first_order + rounds(planned.least, at_once) * run, first_order + rounds(planned.most, at_once) * run};
 }
 
+int models_a_node(int models, int nodes) {
+  return (models + nodes - 1) / nodes;
+}
+
 double expected_memory(const PlannedRuns& planned, int nodes) {
   double of_one = planned.model.memory_mb;
   for (const MeasuredSteps& finer : planned.finer) of_one = std::max(of_one, finer.memory_mb);
-  return 1.25 * of_one * planned.processes / nodes + beside_models;
+  return 1.25 * of_one * models_a_node(planned.processes, nodes) + beside_models;
 }
 
 void fill_from(const PlannedRuns& planned, JobResources& resources) {

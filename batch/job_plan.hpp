@@ -30,7 +30,10 @@ struct ExpectedTime {
 };
 ExpectedTime expected_time(const PlannedRuns& planned);
 
-/// [MB], all models and a quarter more, and what stands beside them.
+/// On that with most of them: a model stays on one.
+int models_a_node(int models, int nodes);
+
+/// [MB] a node: its models and a quarter more, and what stands beside them.
 double expected_memory(const PlannedRuns& planned, int nodes);
 
 /// What the job asks for where the user said nothing: that memory, twice the most time.

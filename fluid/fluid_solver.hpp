@@ -63,6 +63,8 @@ class FluidSolver {
   VectorXd state() const;
   Eigen::Index state_size() const;
   void set_state(const VectorXd& values);
+  /// Goes on as one does that takes the state now: nothing of earlier meshes is kept.
+  void forget_earlier_meshes() { projection_.forget(); }
 
   /// All numbers that can be set, such as "fluid.outlets.outlet.distal_resistance".
   const ParameterTable& parameters() const { return parameters_; }

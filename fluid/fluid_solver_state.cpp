@@ -63,6 +63,7 @@ void FluidSolver::set_state(const VectorXd& values) {
     store_initial_pressures();
   derive(accepted_);
   rewind();
+  forget_earlier_meshes();
 }
 
 void FluidSolver::move_interface(const Points& change) {

@@ -28,6 +28,9 @@ class Projection {
   /// rhs: at all nodes. known: pressure at zero flow of each opening.
   Solution solve(const VectorXd& rhs, const VectorXd& known) const;
 
+  /// Of the meshes that it has seen: what follows is as if the next one were the first.
+  void forget() { solver_->forget(); }
+
   double megabytes() const { return solver_->factor_megabytes(); }
 
  private:

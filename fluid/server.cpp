@@ -51,6 +51,7 @@ protocol::Ready FluidServer::operator()(const protocol::SetParameters& m) {
 }
 
 protocol::State FluidServer::operator()(const protocol::GetState&) {
+  solver_->forget_earlier_meshes();
   return {as_list(solver_->state())};
 }
 

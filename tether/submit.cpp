@@ -142,8 +142,11 @@ void check_keeps_read(const Typed& typed, const fs::path& folder, const std::vec
   check_keeps_read(folder, cases, read);
 }
 
-int tasks_per_node(const JobResources& r, int cores_of_model) {
-  return (r.processes * cores_of_model + r.nodes - 1) / r.nodes;
+/// Of the case that needs most.
+int cores_of_model(const std::vector<JobCase>& cases) {
+  int most = 1;
+  for (const JobCase& one : cases) most = std::max(most, cores_of_model(CaseFile(one.case_file)));
+  return most;
 }
 
 /// What the job asks for where the user did not say. The runs that were measured for it, if any were.
@@ -151,11 +154,15 @@ std::optional<PlannedRuns> plan(const Typed& typed, Job& job) {
   JobResources& r = job.resources;
   const JobCase& first = job.cases.front();
   r.processes = typed.processes > 0 ? typed.processes : models_at_once(job.verb, first.case_file);
-  r.tasks_per_node =
-      typed.tasks_per_node > 0 ? typed.tasks_per_node : tasks_per_node(r, cores_of_model(CaseFile(first.case_file)));
+  if (r.nodes > r.processes)
+    throw input_error("--nodes: {}: a model stays on one node, and no more than {} {} at work at once", r.nodes,
+                      r.processes, r.processes == 1 ? "is" : "are");
+  const int cores = cores_of_model(job.cases);
+  r.tasks_per_node = typed.tasks_per_node > 0 ? typed.tasks_per_node : models_a_node(r.processes, r.nodes) * cores;
   if (!r.memory.empty() && !r.time.empty()) return std::nullopt;
   try {
     PlannedRuns planned = planned_of(job.verb, first.case_file, r.processes);
+    planned.cores_of_model = cores;
     job.measured = planned.model;
     fill_from(planned, r);
     return planned;

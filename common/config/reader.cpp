@@ -156,8 +156,11 @@ void Reader::integer(Text name, int& value, IntegerRange range, Text meaning) {
   int read = 0;
   const char* end = node->text.data() + node->text.size();
   const auto [last, error] = std::from_chars(node->text.data(), end, read);
-  if (error != std::errc{} || last != end) return wrong(field, node->place, node->text, "must be a whole number");
-  if (read < range.lower || read > range.upper) return wrong(field, node->place, node->text, rule_of(as_range(range)));
+  const bool is_large = error == std::errc::result_out_of_range && last == end;
+  if (!is_large && (error != std::errc{} || last != end))
+    return wrong(field, node->place, node->text, "must be a whole number");
+  if (is_large || read < range.lower || read > range.upper)
+    return wrong(field, node->place, node->text, rule_of(as_range(range)));
   value = read;
 }
 

@@ -53,6 +53,7 @@ class Multigrid final : public SymmetricSolver {
   bool factor_if_definite(const SparseMatrix& matrix) override;
   bool factor_roughly(const SparseMatrix& matrix, double /*tolerance*/) override { return factor_if_definite(matrix); }
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const override;
+  void forget() override { cycles_ = first_cycles_ = 0; }
   bool has_factor() const override { return has_values_; }
   double factor_megabytes() const override { return 0; }
 

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "common/base/error.hpp"
 #include "common/linalg/cholesky.hpp"
@@ -14,7 +15,9 @@ namespace {
 
 /// PETSc is loaded where it is used: to load it takes longer than a small model's first steps.
 MakeSharedSolver* shared_solvers() {
-  void* library = dlopen(shared_solver_file, RTLD_NOW | RTLD_LOCAL);
+  const auto beside = std::filesystem::read_symlink("/proc/self/exe").parent_path() / shared_solver_file;
+  const bool is_there = std::filesystem::exists(beside);  // else where the loader looks
+  void* library = dlopen(is_there ? beside.c_str() : shared_solver_file, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr)
     throw run_error("coupling.ranks: so large a mesh needs PETSc, which cannot be loaded: {}", dlerror());
   return reinterpret_cast<MakeSharedSolver*>(dlsym(library, shared_solver_function));

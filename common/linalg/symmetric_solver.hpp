@@ -23,6 +23,9 @@ class SymmetricSolver {
   /// rhs: one column or several; overwritten by the solution.
   virtual void solve_in_place(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
 
+  /// What is kept of earlier matrices to save time is kept no longer: what follows depends on the next one alone.
+  virtual void forget() {}
+
   virtual bool has_factor() const = 0;
   /// Of this process.
   virtual double factor_megabytes() const = 0;

@@ -13,6 +13,7 @@
 
 #include "common/base/limits.hpp"
 #include "common/base/process.hpp"
+#include "common/protocol/deadline.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/mpi_channel.hpp"
 #include "common/protocol/roster.hpp"
@@ -355,9 +356,7 @@ void Session::gather_processes() {
 int Session::end(int exit_code) {
   if (parts_->parent != MPI_COMM_NULL && !parts_->is_leader) {
     gather_processes();
-    const Guard deadline(0.5, [exit_code](double seconds) {
-      if (seconds > finalize_limit) end_job(exit_code);
-    });
+    const Deadline deadline(finalize_limit, exit_code);
     MPI_Comm_disconnect(&parts_->parent);
   }
   parts_->watch.unfollow();
@@ -373,9 +372,7 @@ int Session::end(int exit_code) {
   if (!parts_->watch.all_released()) end_job(exit_code, parts_->watch.abandoned_partners());
   const bool spawned_them = parts_->roles.size() <= 1;  // of an mpirun line all end together, in MPI_Finalize
   const std::vector<std::int64_t> running = spawned_them ? await_end(peers) : std::vector<std::int64_t>{};
-  const Guard deadline(0.5, [exit_code](double seconds) {
-    if (seconds > finalize_limit) end_job(exit_code);
-  });
+  const Deadline deadline(finalize_limit, exit_code);
   if (exit_code != exit_done || !running.empty()) leave_reaper(running);
   if (parts_->owns_mpi) MPI_Finalize();
   return exit_code;

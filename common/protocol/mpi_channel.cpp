@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "common/protocol/bell.hpp"
+#include "common/protocol/deadline.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/nodes.hpp"
@@ -103,9 +104,7 @@ void MpiChannel::close(int exit_code) {
   const bool may_be_lost = exit_code != exit_done && interrupted() && !own_node().empty();
   if (launcher_is_gone() || may_be_lost || (to_ == To::master && is_dead(peer()))) end_job(exit_code);
   const double limit = to_ == To::partner ? master_waits : partner_waits;
-  const Guard deadline(0.5, [exit_code, limit](double seconds) {
-    if (seconds > limit) end_job(exit_code);
-  });
+  const Deadline deadline(limit, exit_code);
   const Silence silence(exit_code != exit_done || to_ == To::master || !own_node().empty());
   if (MPI_Comm_disconnect(&communicator_) != MPI_SUCCESS) end_job(exit_code);  // the launcher has just gone
 }

@@ -160,22 +160,32 @@ class Explainer {
 
   /// What the best model lacks. False if nothing more is to be added.
   bool diagnose_best() {
+    ask();
+    if (static_cast<int>(accepted_of(*best().diagnosis, false).size()) < best().at_once && best().at_once > 1) {
+      ask_for_one(path_);
+      ask();
+    }
+    return effects_added() < given_.diagnosis.most && !accepted_of(*best().diagnosis, false).empty() &&
+           !are_data_to_be_checked();
+  }
+
+  /// Diagnoses the best model.
+  void ask() {
     PathModel& model = best();
+    ++model.asked;
     const std::string folder = model.diagnosis_folder();
     std::vector<Overlay::Value> values = model.values;
     std::vector<std::string> assumed = given_.diagnosis.assumed;
     for (const std::string& number : identified_numbers(case_of(model.folder()))) assumed.push_back(number);
     for (const auto& value : of_data_) set_value(values, value);
     if (!assumed.empty()) set_value(values, {"diagnosis.assumed", list_text(assumed)});
-    set_value(values, {"diagnosis.most", "1"});  // one at a time, all refitted in between
+    set_value(values, {"diagnosis.most", std::to_string(model.at_once)});  // all are refitted before the next
     write_case(folder, ", its diagnosis", values);
     const DiagnosisSettings settings{model.refused, enough()};
     steps_.make(
         fmt::format("model {}: what it lacks", model.told.number), case_of(folder), folder, "diagnosis.json",
         [&](bool) { return work_.diagnose(task(folder, folder), settings); }, hash_of(settings));
     model.diagnosis = read_record<Diagnosis>(output_ / folder / "diagnosis.json");
-    return effects_added() < given_.diagnosis.most && !accepted_of(*model.diagnosis, false).empty() &&
-           !are_data_to_be_checked();
   }
 
   /// Whether the last diagnosis says that all frames of a source are off: the user must see to that, and held-out
@@ -189,16 +199,15 @@ class Explainer {
   /// What was not confirmed is not to be accepted again: another may be. False if that was often enough.
   bool refuse() {
     constexpr std::size_t often_enough = 3;
-    PathModel& model = best();
-    for (const Finding& effect : accepted_of(*model.diagnosis, false))
-      for (const FoundAmplitude& amplitude : effect.parameters) model.refused.push_back(amplitude.parameter);
+    ask_otherwise(path_, given_.diagnosis.most - effects_added());
     return path_.refused_since_best() <= often_enough;
   }
 
   int effects_added() const {
-    return static_cast<int>(std::count_if(path_.models.begin(), path_.models.end(), [](const auto& model) {
-      return model.told.accepted && !model.told.added.empty();
-    }));
+    std::size_t count = 0;
+    for (const PathModel& model : path_.models)
+      if (model.told.accepted) count += model.told.added.size();
+    return static_cast<int>(count);
   }
 
   /// What the first model left beyond noise, times the share that may be left.

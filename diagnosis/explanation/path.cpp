@@ -54,9 +54,25 @@ bool is_settled(const ExplanationPath& path) {
                                     [](const PathModel& model) { return model.told.accepted; });
   const Diagnosis& diagnosis = *made_by->diagnosis;
   if (diagnosis.more || diagnosis.doubtful || diagnosis.verdict == Verdict::not_in_catalogue) return false;
-  const std::optional<Gain> foreseen = accepted_of(diagnosis, false).front().held_out_gain;
+  const std::vector<Finding> added = accepted_of(diagnosis, false);
+  const std::optional<Gain> foreseen = added.size() == 1 ? added.front().held_out_gain : diagnosis.held_out;
   const std::optional<Gain>& gain = best_of(path).told.gain;
   return !foreseen || !gain || gain->value > kept * foreseen->value;
+}
+
+void ask_otherwise(ExplanationPath& path, int left) {
+  PathModel& model = path.models[path.best];
+  if (model.diagnosis->more && model.at_once < left)
+    ++model.at_once;
+  else
+    ask_for_one(path);
+}
+
+void ask_for_one(ExplanationPath& path) {
+  PathModel& model = path.models[path.best];
+  for (const Finding& effect : path.models.back().told.added)
+    for (const FoundAmplitude& amplitude : effect.parameters) model.refused.push_back(amplitude.parameter);
+  model.at_once = 1;
 }
 
 Verdict verdict_of(const ExplanationPath& path) {

@@ -13,9 +13,13 @@ struct PathModel {
   std::vector<Overlay::Value> values;  ///< what it says otherwise than the case as given
   std::optional<Diagnosis> diagnosis;
   std::vector<std::string> refused;  ///< numbers that a diagnosis of it accepted and an identification did not confirm
+  int asked = 0;                     ///< diagnoses of it; `diagnosis` is the last one
+  int at_once = 1;                   ///< effects that the next one may add
 
   std::string folder() const { return "model_" + std::to_string(told.number); }
-  std::string diagnosis_folder() const { return "diagnosis_" + std::to_string(told.number); }
+  std::string diagnosis_folder() const {
+    return "diagnosis_" + std::to_string(told.number) + (asked > 1 ? "_" + std::to_string(asked) : "");
+  }
   std::string identification_folder() const { return "identification_" + std::to_string(told.number); }
 };
 
@@ -44,6 +48,13 @@ const Diagnosis* first_diagnosis(const ExplanationPath& path);
 /// keeps what it promised. What is left beside a strong effect is for runs about the model that has it: what other
 /// candidates do was known about the model before.
 bool is_settled(const ExplanationPath& path);
+
+/// What the best model's next diagnosis is asked, since what the last one accepted was not confirmed: for one effect
+/// more at once where it said that another stands out beside it, whose lack held-out data may have judged, and `left`
+/// may be added; else for others than what was tried.
+void ask_otherwise(ExplanationPath& path, int left);
+/// It was asked for several at once and found fewer: for one at a time again, and others than what was tried.
+void ask_for_one(ExplanationPath& path);
 
 /// Of the whole path.
 Verdict verdict_of(const ExplanationPath& path);

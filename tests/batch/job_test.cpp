@@ -134,6 +134,7 @@ TEST_F(Jobs, AskForTwiceTheTimeThatAFewStepsFortell) {
   diagnosis.coarser = coarser;
   EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 2000 + 200) << "of the coarser model";
   EXPECT_DOUBLE_EQ(expected_memory(diagnosis, 1), 1.25 * 4 * 1000 + 400);
+  EXPECT_DOUBLE_EQ(expected_memory(diagnosis, 3), 1.25 * 2 * 1000 + 400) << "a model stays on one node";
   diagnosis.finer = {{3, 800, 0.5, 1000}, {3, 400, 2, 3000}};
   EXPECT_DOUBLE_EQ(expected_time(diagnosis).least, 2000 + 200 + 400 + 800) << "and each finer model once";
   EXPECT_DOUBLE_EQ(expected_memory(diagnosis, 1), 1.25 * 4 * 3000 + 400) << "whose processes are as many";

@@ -86,6 +86,25 @@ TEST_F(Submit, TellsTheNumberThatItCannotRecord) {
   EXPECT_EQ(submit().exit_code, 2);
 }
 
+/// A model stays on one node: what it needs is there, however many nodes there are.
+TEST_F(Submit, AsksForWholeModelsOnEachNode) {
+  fs::create_directories(folder_ / "cases");
+  folder_.file("cases/a.yaml", "base: ../model.yaml\nname: a\n");
+  folder_.file("cases/b.yaml", "base: ../model.yaml\nname: b\ncoupling: {ranks: {fluid: 4, solid: 3}}\n");
+  const std::vector<std::string> sizes{"--memory", "1G", "--time", "10", "--output", job(), "--dry-run"};
+  const auto dry_run = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "submit");
+    words.insert(words.end(), sizes.begin(), sizes.end());
+    return tether(words);
+  };
+  const ChildEnd all = dry_run({"simulate", folder_ / "cases"});
+  EXPECT_NE(all.output.find("--ntasks-per-node=4"), std::string::npos) << "of the case that needs most\n"
+                                                                       << all.output << all.errors;
+  const ChildEnd wide = dry_run({"simulate", folder_ / "model.yaml", "--nodes", "4"});
+  EXPECT_EQ(wide.exit_code, 2);
+  EXPECT_EQ(wide.errors, "--nodes: 4: a model stays on one node, and no more than 1 is at work at once\n");
+}
+
 TEST_F(Submit, ReservesNoProcessesForOneRun) {
   const ChildEnd end = submit({"--processes", "4"});
   EXPECT_EQ(end.exit_code, 2);

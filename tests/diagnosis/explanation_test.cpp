@@ -91,6 +91,53 @@ TEST(Explanation, EndsWhereNothingButNoiseIsLeft) {
   EXPECT_FALSE(settled([](Diagnosis& made) { made.verdict = Verdict::not_in_catalogue; }, 0.45));
 }
 
+/// A model that lacks something else too may fail held-out data for that: both are asked for before the first is given
+/// up.
+TEST(Explanation, AsksForTwoAtOnceWhereOneIsNotConfirmedAndAnotherStandsOut) {
+  const auto number_of = [](const std::string& name) { return "solid.effects.of_" + name + ".factor"; };
+  const auto tried = [&](const std::string& name) {
+    PathModel made = refused(1, name);
+    made.told.added.front().parameters = {made.told.added.front().amplitude};
+    return made;
+  };
+  ExplanationPath path;
+  path.models = {model(0, diagnosis(Verdict::missing, {}), {}), tried("spring")};
+  path.models.push_back(tried("ring"));
+  PathModel& best = path.models.front();
+  best.diagnosis->more = true;
+
+  ask_otherwise(path, 1);
+  EXPECT_EQ(best.at_once, 1) << "only one may be added";
+  EXPECT_EQ(best.refused, std::vector{number_of("ring")}) << "the last that was tried";
+  best.refused.clear();
+
+  ask_otherwise(path, 2);
+  EXPECT_EQ(best.at_once, 2);
+  EXPECT_TRUE(best.refused.empty()) << "both together may be confirmed";
+  ask_otherwise(path, 2);
+  EXPECT_EQ(best.at_once, 1) << "neither were both";
+  EXPECT_EQ(best.refused, std::vector{number_of("ring")});
+
+  best.diagnosis->more = false;
+  ask_otherwise(path, 2);
+  EXPECT_EQ(best.at_once, 1) << "nothing else stands out";
+}
+
+TEST(Explanation, OfSeveralAtOnceWhatAllPromisedIsAsked) {
+  Finding spring = effect("spring", Role::accepted, 3), ring = effect("ring", Role::accepted, 2);
+  spring.held_out_gain = Gain{.value = 0.1};
+  ring.held_out_gain = Gain{.value = 0.6};
+  Diagnosis made = diagnosis(Verdict::missing, {spring, ring});
+  made.held_out = Gain{.value = 0.5};
+  ExplanationPath path;
+  path.models = {model(0, made, {}), model(1, std::nullopt, {spring, ring})};
+  path.best = 1;
+  path.models[1].told.gain = Gain{.value = 0.45};
+  EXPECT_TRUE(is_settled(path));
+  path.models[1].told.gain = Gain{.value = 0.35};
+  EXPECT_FALSE(is_settled(path)) << "less than was foreseen";
+}
+
 /// What each diagnosis asks for anew, since no model takes it up, is told once, as it is in the end.
 TEST(Explanation, TellsOnceWhatEachDiagnosisFinds) {
   const auto mesh = [](double share) { return finding("coarse_mesh", CandidateKind::numerics, Role::accepted, share); };

@@ -252,7 +252,8 @@ TEST_F(FrontEnd, CallsAKilledRunFailed) {
   program("fsi_master", "case \"$*\" in *--validate*) exit 0;; esac; kill -KILL $$");
   const ChildEnd end = tether("simulate case.yaml --quiet");
   EXPECT_EQ(end.exit_code, 1);
-  EXPECT_NE(end.errors.find("tether: fsi_master or a process that it started was ended by signal 9"), std::string::npos) << end.errors;
+  EXPECT_NE(end.errors.find("tether: fsi_master or a process that it started was ended by signal 9"), std::string::npos)
+      << end.errors;
 }
 
 /// With some values it does not begin, and says nothing.
@@ -537,7 +538,8 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
   const ChildEnd help = capture({{TETHER_PROGRAM, "conform", "--help"}, {}}),
                  without = capture({{TETHER_PROGRAM, "conform"}, {}});
   EXPECT_EQ(help.exit_code, 0);
-  EXPECT_TRUE(help.output.starts_with("tether conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]: "));
+  EXPECT_TRUE(
+      help.output.starts_with("tether conform [--dt SECONDS] [--ranks N] [--with PROGRAM] PROGRAM [ARGUMENTS]: "));
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_EQ(without.errors, help.output);
   for (const char* dt : {"1,5", "x", "0", "11", "1e-3 s"}) {
@@ -546,6 +548,9 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
     EXPECT_NE(no_step.errors.find(fmt::format("--dt: {}: must be a number from 1e-09 to 10 s", dt)), std::string::npos)
         << no_step.errors;
   }
+  for (const char* ranks : {"0", "two", "1.5", "99999999999"})
+    EXPECT_EQ(capture({{TETHER_PROGRAM, "conform", "--ranks", ranks, "/bin/true"}, {}}).errors,
+              fmt::format("tether_conform: --ranks: {}: must be a whole number from 1 to 1000\n", ranks));
 }
 
 }  // namespace

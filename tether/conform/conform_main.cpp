@@ -11,13 +11,13 @@ using namespace tether::protocol;
 namespace {
 
 constexpr const char* usage =
-    "tether conform [--dt SECONDS] [--with PROGRAM] PROGRAM [ARGUMENTS]: starts a fluid or solid program, plays its "
-    "master, and checks that it keeps the contract of docs/protocol.md; --with: and that its interface fits that of "
-    "the "
-    "other code, which gets the same arguments";
+    "tether conform [--dt SECONDS] [--ranks N] [--with PROGRAM] PROGRAM [ARGUMENTS]: starts a fluid or solid program, "
+    "in N processes where it is said, plays its master, and checks that it keeps the contract of docs/protocol.md; "
+    "--with: and that its interface fits that of the other code, which gets the same arguments";
 
 struct Options {
   double dt = 1e-3;
+  int ranks = 1;
   std::string with;  ///< the other code; empty: none
   Program program;
 };
@@ -30,18 +30,27 @@ double step_in(const std::string& text) {
   return dt;
 }
 
+int ranks_in(const std::string& text) {
+  constexpr int most = 1000;
+  const int ranks = number_in<int>(text).value_or(0);
+  if (ranks < 1 || ranks > most) throw input_error("--ranks: {}: must be a whole number from 1 to {}", text, most);
+  return ranks;
+}
+
 Options options_from(std::vector<std::string> words) {
   Options options;
   for (; words.size() >= 2 && words[0].starts_with("--"); words.erase(words.begin(), words.begin() + 2)) {
     if (words[0] == "--dt")
       options.dt = step_in(words[1]);
+    else if (words[0] == "--ranks")
+      options.ranks = ranks_in(words[1]);
     else if (words[0] == "--with")
       options.with = words[1];
     else
       throw InputError(usage);
   }
   if (words.empty()) throw InputError(usage);
-  options.program = {"", words[0], {words.begin() + 1, words.end()}};
+  options.program = {"", words[0], {words.begin() + 1, words.end()}, options.ranks};
   return options;
 }
 

@@ -128,7 +128,7 @@ std::string Examiner::operators() {
   };
   require(dot(a, ka) > 0 && dot(b, kb) > 0, "the product is not positive");
   require(asymmetry(ka, kb) <= symmetry_tolerance, "product: asymmetry {:.2g}", asymmetry(ka, kb));
-  require(asymmetry(pa, pb) <= symmetry_tolerance, "preconditioner: asymmetry {:.2g}", asymmetry(pa, pb));
+  require(asymmetry(pa, pb) <= preconditioner_tolerance, "preconditioner: asymmetry {:.2g}", asymmetry(pa, pb));
   return fmt::format("asymmetry {:.2g} and {:.2g}", asymmetry(ka, kb), asymmetry(pa, pb));
 }
 

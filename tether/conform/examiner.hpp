@@ -14,7 +14,9 @@ inline constexpr double repeat_tolerance = 1e-8;         // the same evaluation 
 inline constexpr double tangent_tolerance = 1e-3;        // against central differences
 inline constexpr double mean_velocity_tolerance = 1e-6;  // as of the operators: a state is known to round-off
 inline constexpr double balance_tolerance = 1e-10;       // of sums over both sides of an interface: round-off
-inline constexpr double symmetry_tolerance = 1e-8;       // of the solid's operators
+inline constexpr double symmetry_tolerance = 1e-8;       // of the solid's product
+/// Of its preconditioner: single precision (2^-24), some hundred times as much after the roundings of a factor.
+inline constexpr double preconditioner_tolerance = 1e-5;
 
 /// Thrown by a check that found something wrong, or has nothing to look at.
 struct Broken : RunError {
