@@ -57,6 +57,7 @@ class Search {
     for (TestedEffect& effect : result_.effects) set_detectable(effect);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
     while (add_one()) continue;
+    try_in_place();
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
     refit_accepted();
@@ -252,7 +253,8 @@ class Search {
       effect.held_out = confirmation_.of(before.residual, one->state().residual);
       effect.deviations *= std::sqrt(spread);
       effect.accepted = one == chosen;
-      const bool may_be_it = !is_the_groups || group.has(effect.candidate);
+      const bool explains_more = chosen && one->best() < chosen->best();
+      const bool may_be_it = !is_the_groups || group.has(effect.candidate) || explains_more;
       effect.rival = chosen && one != chosen && may_be_it && !was_too_weak(effect.candidate) &&
                      (before.accepted.empty() || one->best() < chosen->best() + hopeless);
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
@@ -260,6 +262,7 @@ class Search {
     }
     if (!chosen) return;
     keep_others_as_good(group, *chosen);
+    accepted_.push_back({chosen->effect(), before, chosen->best()});
     now_ = chosen->state();
     plain_ = left_free(problem_, now_.errors);
     naming_ = left_free(naming(problem_), now_.errors);
@@ -288,6 +291,36 @@ class Search {
       if (!residual_at_(effect.run).allFinite()) continue;
       effect.rival = true;
       rival_of_[effect.candidate] = chosen.effect().candidate;
+      keep(std::move(effect));
+    }
+  }
+
+  /// What the table has beside an effect, and runs find nothing left for there, may do in its place: what two do is
+  /// added up in the table, so that of one law's two numbers both were probable, and the one that was run first was
+  /// named.
+  void try_in_place() {
+    if (accepted_.empty() || !problem_.candidates[accepted_.back().effect.candidate].takes_runs()) return;
+    const Addition& last = accepted_.back();
+    const Trained trained(problem_, last.before.changes, last.before.errors);
+    const std::vector<TestedEffect> tested =
+        test_all(problem_, trained.scores(problem_.changes, last.before.residual), result_.independent);
+    for (const WeighedGroup& group : result_.weighed.groups) {
+      const std::size_t candidate = group.members.front();
+      if (group.probability < even || group.has(last.effect.candidate) || !was_too_weak(candidate)) continue;
+      TestedEffect effect =
+          *std::find_if(tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == candidate; });
+      if (std::isfinite(group.amplitudes.front())) effect.amplitudes(0) = group.amplitudes.front();
+      std::vector<Refinement> alone;
+      alone.emplace_back(effect, last.before, error_of(effect), problem_);
+      Refinement& one = alone.front();
+      while (!one.done() && one.runs() < settings_.refinements && one.hope() < last.best + hopeless) run({&one});
+      if (!one.begun() || one.best() >= last.best + hopeless) continue;
+      effect = one.effect();
+      effect.run = one.state().amplitudes;
+      effect.held_out = confirmation_.of(last.before.residual, one.state().residual);
+      effect.deviations *= std::sqrt(result_.dispersion);
+      effect.rival = true;
+      rival_of_[candidate] = last.effect.candidate;
       keep(std::move(effect));
     }
   }
@@ -448,6 +481,12 @@ class Search {
     return {problem, MatrixXd(problem.residual.size(), 0), errors};
   }
 
+  struct Addition {
+    TestedEffect effect;
+    AmplitudeState before;  ///< without it
+    double best;            ///< of the misfit, with it
+  };
+
   EffectProblem problem_;  ///< the model is as far off as the data say
   const SetEvidence& evidence_;
   const SearchSettings& settings_;
@@ -457,6 +496,7 @@ class Search {
   Trained naming_;
   Confirmation confirmation_;
   AmplitudeState now_;
+  std::vector<Addition> accepted_;
   double misfit_as_it_is_ = 0;
   SearchResult result_;
   std::vector<std::size_t> rival_of_;

@@ -180,6 +180,56 @@ TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
   EXPECT_EQ(result.verdict, Verdict::ambiguous);
 }
 
+WeighedGroup of_one(std::size_t candidate, double amplitude) {
+  return {1, 1, {candidate}, {1.0}, {amplitude}, {true}, {}, {}};
+}
+
+/// What runs of both say explains more than what is named beside the first is a rival of that, whatever the table has.
+TEST(EffectSearch, WhatExplainsMoreThanWhatIsNamedBesideAnotherIsItsRival) {
+  const auto rivals = [](Index hidden) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = band();
+          add_candidate(problem, "other", response(2, 11, beat));
+          problem.residual = noise(generator) + 9 * problem.changes.col(0) + 3.5 * problem.changes.col(hidden);
+          const auto residual_at = linear_residual(problem);
+          Weighing weighing = weighed_fully(problem, {}, residual_at);
+          weighing.weighed.groups = {of_one(0, 9), of_one(4, 3.5)};
+          for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
+            weighing.shown.push_back(run);  // so that nothing is weighed again
+          const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+          return effect_of(result, 4).accepted && effect_of(result, 8).rival && result.verdict == Verdict::ambiguous;
+        },
+        20);
+  };
+  EXPECT_GT(rivals(8), 0.8);
+  EXPECT_LT(rivals(4), 0.2) << "explains less, as a rule";
+}
+
+/// The table adds up what each of two look-alikes does, and has both; runs find nothing for the second beside the
+/// first, and as much as the first in its place.
+TEST(EffectSearch, WhatIsTooWeakBesideAnotherMayStandInItsPlace) {
+  const auto rivals = [](const VectorXd& other) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = band();
+          add_candidate(problem, "other", other);
+          problem.residual = noise(generator) + 4 * problem.changes.col(0);
+          const auto residual_at = linear_residual(problem);
+          Weighing weighing = weighed_fully(problem, {}, residual_at);
+          weighing.weighed.groups = {of_one(0, 4), of_one(8, 4)};
+          for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
+            weighing.shown.push_back(run);
+          const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+          return effect_of(result, 0).accepted && !effect_of(result, 8).accepted && effect_of(result, 8).rival;
+        },
+        20);
+  };
+  const EffectProblem given = band();
+  EXPECT_GT(rivals(0.97 * given.changes.col(0) + 0.15 * given.changes.col(1)), 0.8);
+  EXPECT_LT(rivals(given.changes.col(3)), 0.1) << "acts elsewhere";
+}
+
 /// Beside the first effect the table asks for a second one, which is refused; what explains less is no stand-in for it.
 TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
   std::mt19937_64 generator(31);
