@@ -55,6 +55,16 @@ class SlurmOverHosts(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((output / "timeseries.csv").read_bytes(), (self.folder / "run_here/timeseries.csv").read_bytes())
 
+    def test_srun_starts_several_processes_of_each_code_on_three_hosts(self):
+        """To the bits of as many on one host."""
+        case, here, output = self.folder / "ranks.yaml", self.folder / "ranks_here", self.folder / "ranks_srun"
+        case.write_text("base: tube.yaml\nname: ranks\ncoupling: {ranks: {fluid: 2, solid: 2}}\n")
+        self.call(TETHER, "simulate", case, "--steps", "20", "--output", here, "--quiet")
+        done = self.srun([f"fsi_master {case} --steps 20 --output {output}", *[f"fluid {case}"] * 2, *[f"solid {case}"] * 2],
+                         ["h0", "h0", "h1", "h1", "h2"], "--overcommit")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((output / "timeseries.csv").read_bytes(), (here / "timeseries.csv").read_bytes())
+
     def test_srun_starts_an_identification_with_a_model_on_each_host(self):
         case, output, hosts = self.identification, self.folder / "srun", ["h0", "h1", "h2"]
         programs = [f"identification_master {case} --output {output}"]
