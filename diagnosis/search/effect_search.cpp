@@ -147,6 +147,13 @@ class Search {
     return error ? MatrixXd(*error) : MatrixXd(problem_.residual.size(), 0);
   }
 
+  /// So far behind what is named a rival may lie: what decides, and what another mesh makes wrong in it. Of that only
+  /// one form is free, that of the run most alike; what is really wrong has another, and is as large.
+  double reach_of(const Refinement& one) const {
+    const MatrixXd error = error_of(one.effect());
+    return hopeless + (error.cols() > 0 ? std::expm1(plain_.cost(error.col(0))) : 0);
+  }
+
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
   std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) {
     std::vector<Refinement> all;
@@ -256,7 +263,7 @@ class Search {
       const bool explains_more = chosen && one->best() < chosen->best();
       const bool may_be_it = !is_the_groups || group.has(effect.candidate) || explains_more;
       effect.rival = chosen && one != chosen && may_be_it && !was_too_weak(effect.candidate) &&
-                     (before.accepted.empty() || one->best() < chosen->best() + hopeless);
+                     (before.accepted.empty() || one->best() < chosen->best() + reach_of(*one));
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
@@ -314,7 +321,7 @@ class Search {
       alone.emplace_back(effect, last.before, error_of(effect), problem_);
       Refinement& one = alone.front();
       while (!one.done() && one.runs() < settings_.refinements && one.hope() < last.best + hopeless) run({&one});
-      if (!one.begun() || one.best() >= last.best + hopeless) continue;
+      if (!one.begun() || one.best() >= last.best + reach_of(one)) continue;
       effect = one.effect();
       effect.run = one.state().amplitudes;
       effect.held_out = confirmation_.of(last.before.residual, one.state().residual);

@@ -206,6 +206,38 @@ TEST(EffectSearch, WhatExplainsMoreThanWhatIsNamedBesideAnotherIsItsRival) {
   EXPECT_LT(rivals(4), 0.2) << "explains less, as a rule";
 }
 
+/// What another mesh changes in what is named tells how wrong a law may be that looks like it: no lead within that
+/// decides.
+TEST(EffectSearch, ALeadThatAnotherMeshMayMakeDecidesNothingBesideAnother) {
+  const auto rivals = [](bool on_another_mesh) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = band();
+          constexpr double size = 6, reach = 0.6;  // of the way that a mesh twice as fine goes
+          const VectorXd own = problem.changes.col(4);
+          add_candidate(problem, "other", own + 1.4 * response(2, 3, beat));
+          problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * own;
+          const auto residual_at = linear_residual(problem);
+          Weighing weighing = weighed_fully(problem, {}, residual_at);
+          weighing.weighed.groups = {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}};
+          for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
+            weighing.shown.push_back(run);
+          if (on_another_mesh) {
+            const VectorXd amplitudes = size * VectorXd::Unit(problem.changes.cols(), 4),
+                           finer = own - 0.5 * response(2, 4, beat);
+            weighing.shown.push_back({amplitudes, problem.residual - size * own, RunOf::model});
+            weighing.shown.push_back(
+                {amplitudes, problem.residual - size * (own + reach * (finer - own)), RunOf::finer});
+          }
+          const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+          return effect_of(result, 4).accepted && effect_of(result, 8).rival;
+        },
+        20);
+  };
+  EXPECT_GT(rivals(true), 0.8);
+  EXPECT_LT(rivals(false), 0.2);
+}
+
 /// The table adds up what each of two look-alikes does, and has both; runs find nothing for the second beside the
 /// first, and as much as the first in its place.
 TEST(EffectSearch, WhatIsTooWeakBesideAnotherMayStandInItsPlace) {
