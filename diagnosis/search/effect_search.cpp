@@ -147,11 +147,12 @@ class Search {
     return error ? MatrixXd(*error) : MatrixXd(problem_.residual.size(), 0);
   }
 
-  /// So far behind what is named a rival may lie: what decides, and what another mesh makes wrong in it. Of that only
-  /// one form is free, that of the run most alike; what is really wrong has another, and is as large.
-  double reach_of(const Refinement& one) const {
-    const MatrixXd error = error_of(one.effect());
-    return hopeless + (error.cols() > 0 ? std::expm1(plain_.cost(error.col(0))) : 0);
+  /// Whether it comes as near to the misfit of what is named as a rival must: behind by what decides; and, if it
+  /// explains more than that itself, by what another mesh makes wrong in it. Of that only one form is free, that of the
+  /// run most alike; what is really wrong has another, and is as large.
+  bool comes_near(const Refinement& one, double named) const {
+    const MatrixXd error = one.effect().confirmed_gain > hopeless ? error_of(one.effect()) : MatrixXd();
+    return one.best() < named + hopeless + (error.cols() > 0 ? std::expm1(plain_.cost(error.col(0))) : 0);
   }
 
   /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
@@ -263,7 +264,7 @@ class Search {
       const bool explains_more = chosen && one->best() < chosen->best();
       const bool may_be_it = !is_the_groups || group.has(effect.candidate) || explains_more;
       effect.rival = chosen && one != chosen && may_be_it && !was_too_weak(effect.candidate) &&
-                     (before.accepted.empty() || one->best() < chosen->best() + reach_of(*one));
+                     (before.accepted.empty() || comes_near(*one, chosen->best()));
       if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
       keep(effect);
     }
@@ -321,7 +322,7 @@ class Search {
       alone.emplace_back(effect, last.before, error_of(effect), problem_);
       Refinement& one = alone.front();
       while (!one.done() && one.runs() < settings_.refinements && one.hope() < last.best + hopeless) run({&one});
-      if (!one.begun() || one.best() >= last.best + reach_of(one)) continue;
+      if (!one.begun() || !comes_near(one, last.best)) continue;
       effect = one.effect();
       effect.run = one.state().amplitudes;
       effect.held_out = confirmation_.of(last.before.residual, one.state().residual);
