@@ -6,9 +6,9 @@
 #include <numeric>
 #include <set>
 
-#include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/search/amplitude_interval.hpp"
 #include "diagnosis/search/confirmation.hpp"
+#include "diagnosis/search/judgement.hpp"
 #include "diagnosis/search/phase_gain.hpp"
 #include "diagnosis/search/refinement.hpp"
 
@@ -26,8 +26,6 @@ constexpr double alone = 0.98;
 
 /// What is named only at so many times the size that it may have is not what data like these look for.
 constexpr double beyond_patients = 5;
-constexpr double noteworthy = 2;     ///< of what an error is allowed
-constexpr double unexplainable = 6;  ///< misfit beyond noise, as above: neither noise nor errors allowed do that
 
 class Search {
  public:
@@ -61,7 +59,7 @@ class Search {
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
     refit_accepted();
-    judge();
+    judge({problem_, settings_, plain_, now_, confirmation_, misfit_as_it_is_, rival_of_}, result_);
     set_groups(result_.effects, problem_, scores, result_.independent, rival_of_);
     std::stable_sort(result_.effects.begin(), result_.effects.end(), [&](const auto& a, const auto& b) {
       if (a.accepted != b.accepted) return a.accepted;
@@ -132,11 +130,6 @@ class Search {
           !refused_[other.candidate] && problem_.candidates[other.candidate].takes_runs())
         all.push_back(other);
     }
-  }
-
-  /// By so many of the deviations that noise gives the misfit.
-  bool is_far_beyond_noise(double deviations) const {
-    return plain_.counted_misfit(now_.residual) > result_.independent + deviations * std::sqrt(2 * result_.independent);
   }
 
   /// What mesh and step may make wrong in what it does at its amplitude: a column, or none.
@@ -392,88 +385,6 @@ class Search {
           effect.deviations = in_proportion.size() == 1 ? in_proportion : in_proportion.cwiseMax(effect.deviations);
         }
     }
-  }
-
-  double strict() const { return settings_.alpha / 5; }
-  /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
-  bool leaves_something() const { return result_.after.p < strict() || is_far_beyond_noise(unexplainable); }
-  /// Of what the data ask for, the part that is left: the rest of the misfit's patterns beyond what noise may make.
-  bool leaves_too_much() const {
-    const double removed = misfit_as_it_is_ - now_misfit();
-    return leaves_something() && result_.after.excess > settings_.enough &&
-           result_.after.beyond_noise > settings_.unexplained * (removed + result_.after.beyond_noise);
-  }
-
-  /// Whether candidates that were not accepted only since they are not probable enough leave no lack of fit.
-  bool some_explain_it() const {
-    return std::any_of(result_.path.begin(), result_.path.end(), [&](const SearchStep& step) {
-      return step.objection && is_of_probability(*step.objection) && step.left.p >= settings_.alpha;
-    });
-  }
-
-  /// Allowed errors that somebody may look after, by how much of them the data ask for.
-  std::vector<StrainedError> strained_errors() const {
-    const VectorXd& deviation = problem_.allowed_deviation;  // behind the allowed ones stand others that are left free
-    const VectorXd found = plain_.amplitudes(now_.residual).head(deviation.size()).cwiseQuotient(deviation);
-    std::vector<StrainedError> all;
-    for (std::size_t k = 0; k < problem_.allowed_names.size(); ++k)
-      if (const double size = std::abs(found(static_cast<Index>(k)));
-          !problem_.allowed_names[k].empty() && size > noteworthy)
-        all.push_back({problem_.allowed_names[k], size});
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.deviations > b.deviations; });
-    return all;
-  }
-
-  /// Of what is left now. (D.20)
-  Adequacy adequacy() const {
-    const auto named = problem_.allowed_names.size() -
-                       std::count(problem_.allowed_names.begin(), problem_.allowed_names.end(), std::string{});
-    Adequacy found;
-    found.whole = chi_square_tail(plain_.counted_misfit(now_.residual), static_cast<int>(result_.independent));
-    found.pooled = result_.after.pooled;
-    found.local = result_.after.p;
-    if (!result_.strained.empty())
-      found.errors = std::min(1.0, 2 * static_cast<double>(named) * normal_tail(result_.strained.front().deviations));
-    if (confirmation_.has_data())
-      found.held_out =
-          chi_square_tail(confirmation_.missed(now_.residual), static_cast<int>(confirmation_.independent()));
-    return found;
-  }
-
-  void judge() {
-    const bool accepted = !now_.accepted.empty();
-    const bool ambiguous = std::any_of(result_.effects.begin(), result_.effects.end(), [&](const auto& e) {
-      return e.rival && !is_variant(problem_.candidates[e.candidate], problem_.candidates[rival_of_[e.candidate]]);
-    });
-    result_.strained = strained_errors();
-    result_.adequacy = adequacy();
-    result_.doubtful = result_.adequacy.p() < settings_.alpha;
-    if (accepted) result_.held_out = confirmation_.held_out(problem_.residual, result_.residual);
-    if (leaves_too_much() && !result_.more)
-      result_.verdict = !accepted && some_explain_it() ? Verdict::undecided : Verdict::not_in_catalogue;
-    else if (ambiguous)
-      result_.verdict = Verdict::ambiguous;
-    else if (accepted)
-      result_.verdict = Verdict::missing;
-    else if (stands_out() || !sees_anything() || result_.doubtful)
-      result_.verdict = Verdict::undecided;
-    else
-      result_.verdict = Verdict::nothing_missing;
-  }
-
-  /// Whether something had the evidence, but was not confirmed.
-  bool stands_out() const {
-    return std::any_of(result_.path.begin(), result_.path.end(),
-                       [](const SearchStep& step) { return step.objection != Objection::too_weak; });
-  }
-
-  /// Whether any effect would be seen at the size that it may have in a patient.
-  bool sees_anything() const {
-    return std::any_of(result_.effects.begin(), result_.effects.end(), [&](const TestedEffect& effect) {
-      const Candidate& candidate = problem_.candidates[effect.candidate];
-      const double scale = problem_.amplitudes[static_cast<std::size_t>(candidate.amplitudes.front())].scale;
-      return candidate.kind == Candidate::Kind::effect && std::abs(effect.visible) < scale;
-    });
   }
 
   void compare_strongest(const Scores& scores) {

@@ -184,6 +184,26 @@ WeighedGroup of_one(std::size_t candidate, double amplitude) {
   return {1, 1, {candidate}, {1.0}, {amplitude}, {true}, {}, {}};
 }
 
+/// Found where the table has these groups; `more` was run too.
+SearchResult found_with(const EffectProblem& problem, std::vector<WeighedGroup> groups,
+                        const std::vector<ShownRun>& more = {}) {
+  const auto residual_at = linear_residual(problem);
+  Weighing weighing = weighed_fully(problem, {}, residual_at);
+  weighing.weighed.groups = std::move(groups);
+  for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
+    weighing.shown.push_back(run);  // so that nothing is weighed again
+  weighing.shown.insert(weighing.shown.end(), more.begin(), more.end());
+  return search_effects(problem, {}, residual_at, weighing);
+}
+
+/// A candidate at `size`, and what it does there on a finer mesh per unit.
+std::vector<ShownRun> shown_on_finer(const EffectProblem& problem, Index candidate, double size,
+                                     const VectorXd& finer) {
+  const VectorXd amplitudes = size * VectorXd::Unit(problem.changes.cols(), candidate);
+  return {{amplitudes, problem.residual - size * problem.changes.col(candidate), RunOf::model},
+          {amplitudes, problem.residual - size * finer, RunOf::finer}};
+}
+
 /// What runs of both say explains more than what is named beside the first is a rival of that, whatever the table has.
 TEST(EffectSearch, WhatExplainsMoreThanWhatIsNamedBesideAnotherIsItsRival) {
   const auto rivals = [](Index hidden) {
@@ -192,12 +212,7 @@ TEST(EffectSearch, WhatExplainsMoreThanWhatIsNamedBesideAnotherIsItsRival) {
           EffectProblem problem = band();
           add_candidate(problem, "other", response(2, 11, beat));
           problem.residual = noise(generator) + 9 * problem.changes.col(0) + 3.5 * problem.changes.col(hidden);
-          const auto residual_at = linear_residual(problem);
-          Weighing weighing = weighed_fully(problem, {}, residual_at);
-          weighing.weighed.groups = {of_one(0, 9), of_one(4, 3.5)};
-          for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
-            weighing.shown.push_back(run);  // so that nothing is weighed again
-          const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+          const SearchResult result = found_with(problem, {of_one(0, 9), of_one(4, 3.5)});
           return effect_of(result, 4).accepted && effect_of(result, 8).rival && result.verdict == Verdict::ambiguous;
         },
         20);
@@ -217,25 +232,35 @@ TEST(EffectSearch, ALeadThatAnotherMeshMayMakeDecidesNothingBesideAnother) {
           const VectorXd own = problem.changes.col(4);
           add_candidate(problem, "other", own + 1.4 * response(2, 3, beat));
           problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * own;
-          const auto residual_at = linear_residual(problem);
-          Weighing weighing = weighed_fully(problem, {}, residual_at);
-          weighing.weighed.groups = {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}};
-          for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
-            weighing.shown.push_back(run);
-          if (on_another_mesh) {
-            const VectorXd amplitudes = size * VectorXd::Unit(problem.changes.cols(), 4),
-                           finer = own - 0.5 * response(2, 4, beat);
-            weighing.shown.push_back({amplitudes, problem.residual - size * own, RunOf::model});
-            weighing.shown.push_back(
-                {amplitudes, problem.residual - size * (own + reach * (finer - own)), RunOf::finer});
-          }
-          const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+          std::vector<ShownRun> more;
+          if (on_another_mesh)
+            more = shown_on_finer(problem, 4, size, own - reach * 0.5 * response(2, 4, beat));
+          const SearchResult result = found_with(
+              problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}}, more);
           return effect_of(result, 4).accepted && effect_of(result, 8).rival;
         },
         20);
   };
   EXPECT_GT(rivals(true), 0.8);
   EXPECT_LT(rivals(false), 0.2);
+}
+
+/// What explains nothing itself is no rival, however wrong another mesh makes what it does.
+TEST(EffectSearch, WhatExplainsNothingIsNoRivalHoweverWrongItsMesh) {
+  const double rivals = share(
+      [](std::mt19937_64& generator) {
+        EffectProblem problem = band();
+        constexpr double size = 6;
+        const VectorXd weak = 0.1 * response(3, 8, beat);
+        add_candidate(problem, "weak", weak);
+        problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * problem.changes.col(4);
+        const SearchResult result = found_with(
+            problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}},
+            shown_on_finer(problem, 8, size, weak + 3 * response(3, 8, beat)));
+        return effect_of(result, 4).accepted && effect_of(result, 8).rival;
+      },
+      20);
+  EXPECT_EQ(rivals, 0);
 }
 
 /// The table adds up what each of two look-alikes does, and has both; runs find nothing for the second beside the
@@ -247,12 +272,7 @@ TEST(EffectSearch, WhatIsTooWeakBesideAnotherMayStandInItsPlace) {
           EffectProblem problem = band();
           add_candidate(problem, "other", other);
           problem.residual = noise(generator) + 4 * problem.changes.col(0);
-          const auto residual_at = linear_residual(problem);
-          Weighing weighing = weighed_fully(problem, {}, residual_at);
-          weighing.weighed.groups = {of_one(0, 4), of_one(8, 4)};
-          for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
-            weighing.shown.push_back(run);
-          const SearchResult result = search_effects(problem, {}, residual_at, weighing);
+          const SearchResult result = found_with(problem, {of_one(0, 4), of_one(8, 4)});
           return effect_of(result, 0).accepted && !effect_of(result, 8).accepted && effect_of(result, 8).rival;
         },
         20);

@@ -1,83 +1,11 @@
 // The front-end beside a fsi_master that is a shell script: what reaches it, what comes back, what a person reads.
-#include <gtest/gtest.h>
+#include "tests/tether/front_end.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <numbers>
 #include <regex>
 
-#include "common/base/child_process.hpp"
-#include "common/io/record_file.hpp"
-#include "diagnosis/results/noise.hpp"
-#include "fsi_master/results/run_summary.hpp"
-#include "tests/io/temporary_folder.hpp"
-#include "tests/scenarios/surface_file.hpp"
-#include "twin/noise.hpp"
-
 namespace tether {
-namespace {
-
-namespace fs = std::filesystem;
-
-RunSummary summary_of_two_steps() {
-  RunSummary s;
-  s.steps = 2;
-  s.wall_seconds = 1.25, s.seconds_per_step = 0.625;
-  s.cpu_seconds["total"] = 2.5, s.peak_memory_mb["total"] = 99.6;
-  s.pressure.emplace();
-  s.pressure->min_mmhg = 0.75, s.pressure->max_mmhg = 1.5;
-  s.max_displacement_mm = 2;
-  s.coupling_method = "iqn_ils";
-  s.coupling_iterations = {2.5, 3};
-  s.mass_balance_error_max = 1e-13;
-  s.periodicity = Periodicity{0.1, 5e-3, {{2, 0.004, 0.0012}}, 2};
-  s.units.flow = "cm3/s";
-  return s;
-}
-
-constexpr const char* finished_run = R"sh(
-case "$*" in
-  *--describe-config*) echo "fluid.density [g/cm3]  (number)"; echo "    mass per volume"; exit 0;;
-  *--validate*) exit 0;;
-esac
-echo "$@" >arguments
-mkdir -p results
-cat >results/timeseries.csv <<end
-time [s],fluid.outlet.flow [cm3/s],fluid.outlet.pressure [g/(cm s2)],point.middle.displacement_length [cm],coupling.evaluations
-0.1,1,1000,0.1,2
-0.2,2,2000,0.2,3
-end
-cp summary_of_two_steps.json results/summary.json
-(echo "# case_file: $PWD/case.yaml"; cat case.yaml) >results/case_as_run.yaml
-)sh";
-
-/// A folder with the front-end, a case, and the programs that a test makes up.
-class FrontEnd : public ::testing::Test {
- protected:
-  void SetUp() override {
-    fs::copy_file(TETHER_PROGRAM, folder_ / "tether");
-    std::ofstream(folder_ / "case.yaml") << "name: tube\ntitle: A tube\nunits: cgs\ntime: {step: 0.1, end: 0.2}\n";
-    write_record(folder_ / "summary_of_two_steps.json", summary_of_two_steps());
-    for (const char* name : {"fluid", "solid", "fsi_master", "observation_manager", "identification_master"})
-      program(name, finished_run);
-  }
-  void program(const std::string& name, const std::string& script) {
-    std::ofstream(folder_ / name) << "#!/bin/sh\n" << script;
-    fs::permissions(folder_ / name, fs::perms::owner_all);
-  }
-  ChildEnd tether(const std::string& arguments) {
-    return capture({{"/bin/sh", "-c", "cd " + folder_.string() + " && ./tether " + arguments}, {}});
-  }
-  std::string content(const std::string& name) {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  const TemporaryFolder own_;
-  const fs::path folder_ = own_.path();
-};
+namespace front_end_test {
 
 TEST_F(FrontEnd, SimulatesDrawsAndSaysWhereToLook) {
   const ChildEnd end = tether("simulate case.yaml --output results");
@@ -97,110 +25,6 @@ In results:
 )");
   for (const char* picture : {"pressures.png", "flows.png", "displacements.png", "coupling.png"})
     EXPECT_GT(fs::file_size(folder_ / "results/plots" / picture), 5000u) << picture;
-}
-
-/// A tube of radius 10 and length 60 with errors of the deviation 0.3, alike over 5, a fifth of the variance nowhere.
-void write_tube(const fs::path& path, std::uint64_t seed, double scale = 1) {
-  constexpr int around = 20, along = 21;
-  Points x(3, around * along), out(3, around * along);
-  for (int i = 0; i < x.cols(); ++i) {
-    const double angle = 2 * std::numbers::pi * (i % around) / around;
-    out.col(i) = Vec3(std::cos(angle), std::sin(angle), 0);
-    x.col(i) = 10 * out.col(i) + Vec3(0, 0, 60.0 / 20 * static_cast<double>(i / around));
-  }
-  const VectorXd error = 0.3 * (std::sqrt(0.8) * RandomField(5, Random(seed, 0), CorrelationShape::gaussian)(x) +
-                                std::sqrt(0.2) * RandomField(0, Random(seed, 1))(x));
-  x += out * error.asDiagonal();
-  std::vector<Triangle> triangles;
-  for (int i = 0; i < around * (along - 1); ++i) {
-    const int side = i / around * around + (i + 1) % around;
-    triangles.push_back({i, side, side + around}), triangles.push_back({i, side + around, i + around});
-  }
-  write_stl(path, scale * x, triangles);
-}
-
-TEST_F(FrontEnd, WritesAndTellsTheNoiseOfTwoSurfaces) {
-  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2);
-  const ChildEnd end = tether("measure-noise one.stl two.stl --output noise");
-  ASSERT_EQ(end.exit_code, 0) << end.errors;
-  const auto noise = read_record<NoiseMeasurements>(folder_ / "noise/noise.json");
-  ASSERT_EQ(noise.measurements.size(), 1u);
-  const MeasuredNoise& one = noise.measurements.front();
-  EXPECT_EQ(one.from, NoiseOrigin::repeated);
-  EXPECT_GT(one.points, 380);
-  EXPECT_EQ(one.fits.front().shape, CorrelationShape::gaussian);
-  EXPECT_NEAR(one.fits.front().deviation.value, 0.3, 0.06);
-  EXPECT_NEAR(one.fits.front().correlation_length.value, 5, 1.5);
-  EXPECT_NE(end.output.find(one.line), std::string::npos) << end.output;
-  EXPECT_EQ(one.line.rfind("noise: {deviation: ", 0), 0u) << one.line;
-  EXPECT_TRUE(fs::exists(folder_ / "noise/plots/noise_repeated_one_stl_and_two_stl.png"));
-  EXPECT_EQ(tether("measure-noise one.stl none.stl").exit_code, 2);
-}
-
-TEST_F(FrontEnd, TellsNoNoiseOfSurfacesThatAreNoTwoOfOneMoment) {
-  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "large.stl", 2, 10), write_tube(folder_ / "two.stl", 2);
-  fs::copy_file(folder_ / "one.stl", folder_ / "same.stl");
-  const auto refusal = [&](const std::string& files) {
-    const ChildEnd end = tether("measure-noise " + files);
-    EXPECT_EQ(end.exit_code, 2) << end.output;
-    return end.errors;
-  };
-  EXPECT_EQ(refusal("one.stl same.stl"),
-            "one.stl and same.stl: are the same surface: must be two segmentations, which differ by their noise\n");
-  for (const auto& [files, named] :
-       {std::pair{"one.stl large.stl", "one.stl and large.stl: "}, {"large.stl one.stl", "large.stl and one.stl: "}}) {
-    const std::string said = refusal(files);
-    EXPECT_EQ(said.rfind(named, 0), 0u) << said;
-    EXPECT_NE(said.find("unit"), std::string::npos) << said;
-  }
-}
-
-TEST_F(FrontEnd, MeasuresNoiseIntoNoFolderOfOtherFiles) {
-  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2), write_tube(folder_ / "three.stl", 3);
-  EXPECT_EQ(tether("measure-noise one.stl none.stl --output noise").exit_code, 2);
-  EXPECT_FALSE(fs::exists(folder_ / "noise")) << "of a refused call";
-  for (int again = 0; again < 2; ++again)
-    EXPECT_EQ(tether("measure-noise one.stl two.stl --output noise").exit_code, 0);
-  const std::string of_two = content("noise/noise.json");
-  const ChildEnd other = tether("measure-noise one.stl three.stl --output noise");
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.errors.find("two.stl; choose another folder with --output, or give --overwrite\n"), std::string::npos)
-      << other.errors;
-  EXPECT_EQ(content("noise/noise.json"), of_two);
-  EXPECT_EQ(tether("measure-noise one.stl three.stl --overwrite --output noise").exit_code, 0);
-  EXPECT_NE(content("noise/noise.json"), of_two);
-  EXPECT_FALSE(fs::exists(folder_ / "noise/plots/noise_repeated_one_stl_and_two_stl.png"));
-  fs::create_directories(folder_ / "mine");
-  std::ofstream(folder_ / "mine/noise.json") << "precious";
-  EXPECT_EQ(tether("measure-noise one.stl two.stl --output mine").exit_code, 2);
-  EXPECT_EQ(content("mine/noise.json"), "precious");
-  EXPECT_FALSE(fs::exists(folder_ / "mine/.lock"));
-  EXPECT_EQ(tether("measure-noise one.stl two.stl --output . --overwrite").exit_code, 2) << "they would be replaced";
-}
-
-TEST_F(FrontEnd, MakesNoFolderOfATableThatIsRefused) {
-  std::ofstream(folder_ / "cases.csv") << "name, time.end [s]\n../mine, 0.2\n";
-  const ChildEnd job = tether("submit simulate case.yaml --table cases.csv --output job --time 20 --memory 1G");
-  EXPECT_EQ(job.exit_code, 2) << job.output;
-  EXPECT_NE(job.errors.find("cases.csv"), std::string::npos) << job.errors;
-  EXPECT_FALSE(fs::exists(folder_ / "job"));
-  write_tube(folder_ / "one.stl", 1);
-  std::ofstream(folder_ / "frames.csv") << "file, time\none.stl, 0\n";
-  std::ofstream(folder_ / "ring.yaml") << "name: root\nframes: {file: frames.csv, unit: mm}\n";
-  const ChildEnd ring = tether("track-ring ring.yaml --output ring");
-  EXPECT_EQ(ring.exit_code, 2) << ring.output;
-  EXPECT_NE(ring.errors.find("frames.csv"), std::string::npos) << ring.errors;
-  EXPECT_FALSE(fs::exists(folder_ / "ring"));
-}
-
-/// A closed stream's number would be that of the next file, into which what is told would go.
-TEST_F(FrontEnd, TellsNothingIntoAFileWhereItsOutputIsClosed) {
-  write_tube(folder_ / "one.stl", 1), write_tube(folder_ / "two.stl", 2);
-  const ChildEnd end = tether("measure-noise one.stl two.stl --output noise >&-");
-  EXPECT_EQ(end.exit_code, 0) << end.errors;
-  const std::string holder = content("noise/.lock");
-  EXPECT_EQ(std::count(holder.begin(), holder.end(), '\n'), 1) << holder;
-  EXPECT_LT(holder.size(), 300U);
 }
 
 TEST_F(FrontEnd, HandsTheOptionsOn) {
@@ -553,5 +377,5 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
               fmt::format("tether_conform: --ranks: {}: must be a whole number from 1 to 1000\n", ranks));
 }
 
-}  // namespace
+}  // namespace front_end_test
 }  // namespace tether
