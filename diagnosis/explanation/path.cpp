@@ -81,7 +81,8 @@ Verdict verdict_of(const ExplanationPath& path) {
   const auto upheld = upheld_diagnoses(path);
   if (std::any_of(upheld.begin(), upheld.end(), [](const auto* d) { return d->verdict == Verdict::ambiguous; }))
     return Verdict::ambiguous;
-  if (!found_on(path).empty()) return Verdict::missing;
+  const bool is_open = last.verdict == Verdict::undecided && leaves_patterns(last);
+  if (!found_on(path).empty() && !is_open) return Verdict::missing;
   if (path.was_last_refused()) return Verdict::undecided;  // what a diagnosis accepted was not confirmed
   return last.verdict;
 }

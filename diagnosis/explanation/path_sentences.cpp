@@ -35,11 +35,11 @@ std::string headline_of(const ExplanationPath& path) {
     default:
       break;
   }
-  if (path.was_last_refused() && last.verdict != Verdict::not_in_catalogue)
-    return "UNDECIDED: " + refused_model(path, " stands out, but ");
+  const bool is_refused = path.was_last_refused() && last.verdict != Verdict::not_in_catalogue;
+  const std::string open = is_refused ? "UNDECIDED: " + refused_model(path, " stands out, but ") : headline_of(last);
   std::vector<std::string> found;
   for (const Finding& finding : found_on(path)) found.push_back(text_of(finding));
-  return found.empty() ? headline_of(last) : fmt::format("{}; beside {}", headline_of(last), fmt::join(found, " and "));
+  return found.empty() ? open : fmt::format("{}; beside {}", open, fmt::join(found, " and "));
 }
 
 std::string held_out_sentence(const ExplanationPath& path) {

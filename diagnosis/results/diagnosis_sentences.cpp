@@ -179,7 +179,7 @@ void add_place(std::vector<std::string>& all, const Diagnosis& diagnosis) {
 void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const Verdict verdict = diagnosis.verdict;
   const auto& after = diagnosis.lack_of_fit.after;
-  if (verdict == Verdict::missing && after && after->p < diagnosis.alpha / 5)
+  if (verdict == Verdict::missing && leaves_patterns(diagnosis))
     all.push_back(fmt::format("Something smaller is left: {}", where_left(*after)));
   if (!diagnosis.strained_errors.empty() && !any_accepted(diagnosis)) all.push_back(strained_sentence(diagnosis));
   if (verdict == Verdict::undecided && diagnosis.doubtful && after)
@@ -257,7 +257,19 @@ std::vector<Finding> accepted_of(const Diagnosis& diagnosis, bool of_data) {
   return all;
 }
 
+bool leaves_patterns(const Diagnosis& diagnosis) {
+  const auto& after = diagnosis.lack_of_fit.after;
+  return after && after->p < diagnosis.alpha / 5;
+}
+
 std::string open_question_of(const Diagnosis& diagnosis) {
+  if (const std::vector<Finding> laws = accepted_of(diagnosis, false); leaves_patterns(diagnosis) && !laws.empty()) {
+    std::vector<std::string> names;
+    for (const Finding& law : laws) names.push_back(text_of(law));
+    return fmt::format(
+        "{} explains most, but what that leaves is not noise: another law belongs in its place, or something beside it",
+        fmt::join(names, " and "));
+  }
   const auto& path = diagnosis.path;
   const auto open = std::find_if(path.begin(), path.end(), [](const Attempt& attempt) {
     return attempt.objection && is_of_probability(*attempt.objection);

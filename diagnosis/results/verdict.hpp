@@ -13,7 +13,8 @@ inline constexpr auto words_of<Verdict> = std::to_array<WordOf<Verdict>>({
     {Verdict::nothing_missing, "nothing_missing", "what is left is within the noise and the errors allowed"},
     {Verdict::ambiguous, "ambiguous", "something is missing, and the data cannot tell which of several"},
     {Verdict::not_in_catalogue, "not_in_catalogue", "something is missing that no candidate explains"},
-    {Verdict::undecided, "undecided", "something stands out and is not confirmed, or the data would not show it"},
+    {Verdict::undecided, "undecided",
+     "what stands out is not confirmed, or leaves more than noise, or the data would not show it"},
 });
 
 /// Why a candidate, or a model that has it, was refused.

@@ -10,15 +10,15 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double noteworthy = 2;     ///< of what an error is allowed
-constexpr double unexplainable = 6;  ///< deviations of the misfit beyond noise: neither noise nor errors allowed do that
+constexpr double noteworthy = 2;  ///< of what an error is allowed
+constexpr double unexplainable =
+    6;  ///< deviations of the misfit beyond noise: neither noise nor errors allowed do that
 
 /// Allowed errors that somebody may look after, by how much of them the data ask for.
 std::vector<StrainedError> strained_errors(const SearchEnd& end) {
   const EffectProblem& problem = end.problem;
   const VectorXd& deviation = problem.allowed_deviation;  // behind the allowed ones stand others that are left free
-  const VectorXd found =
-      end.trained.amplitudes(end.state.residual).head(deviation.size()).cwiseQuotient(deviation);
+  const VectorXd found = end.trained.amplitudes(end.state.residual).head(deviation.size()).cwiseQuotient(deviation);
   std::vector<StrainedError> all;
   for (std::size_t k = 0; k < problem.allowed_names.size(); ++k)
     if (const double size = std::abs(found(static_cast<Index>(k)));
@@ -33,23 +33,25 @@ Adequacy adequacy_of(const SearchEnd& end, const SearchResult& result) {
   const std::vector<std::string>& names = end.problem.allowed_names;
   const auto named = names.size() - static_cast<std::size_t>(std::count(names.begin(), names.end(), std::string{}));
   Adequacy found;
-  found.whole =
-      chi_square_tail(end.trained.counted_misfit(end.state.residual), static_cast<int>(result.independent));
+  found.whole = chi_square_tail(end.trained.counted_misfit(end.state.residual), static_cast<int>(result.independent));
   found.pooled = result.after.pooled;
   found.local = result.after.p;
   if (!result.strained.empty())
     found.errors = std::min(1.0, 2 * static_cast<double>(named) * normal_tail(result.strained.front().deviations));
   if (end.confirmation.has_data())
-    found.held_out = chi_square_tail(end.confirmation.missed(end.state.residual),
-                                     static_cast<int>(end.confirmation.independent()));
+    found.held_out =
+        chi_square_tail(end.confirmation.missed(end.state.residual), static_cast<int>(end.confirmation.independent()));
   return found;
 }
 
 /// Asked more strictly than of candidates, so that both questions together give hardly more false alarms than one.
+bool leaves_patterns(const SearchEnd& end, const SearchResult& result) {
+  return result.after.p < end.settings.alpha / 5;
+}
+
 bool leaves_something(const SearchEnd& end, const SearchResult& result) {
-  const double strict = end.settings.alpha / 5;
   const double beyond = result.independent + unexplainable * std::sqrt(2 * result.independent);
-  return result.after.p < strict || end.trained.counted_misfit(end.state.residual) > beyond;
+  return leaves_patterns(end, result) || end.trained.counted_misfit(end.state.residual) > beyond;
 }
 
 /// Of the part that the data ask for, what is left: the rest of the misfit's patterns beyond what noise may make.
@@ -89,11 +91,20 @@ bool has_rivals(const SearchEnd& end, const SearchResult& result) {
   });
 }
 
+/// Whether something of the model was accepted, no error of the data or of the mesh.
+bool names_a_law(const SearchEnd& end) {
+  return std::any_of(end.state.accepted.begin(), end.state.accepted.end(), [&](std::size_t candidate) {
+    const Candidate::Kind kind = end.problem.candidates[candidate].kind;
+    return kind == Candidate::Kind::effect || kind == Candidate::Kind::input;
+  });
+}
+
 Verdict verdict_of(const SearchEnd& end, const SearchResult& result) {
   const bool accepted = !end.state.accepted.empty();
   if (leaves_too_much(end, result) && !result.more)
     return !accepted && some_explain_it(end, result) ? Verdict::undecided : Verdict::not_in_catalogue;
   if (has_rivals(end, result)) return Verdict::ambiguous;
+  if (names_a_law(end) && leaves_patterns(end, result) && !result.more) return Verdict::undecided;
   if (accepted) return Verdict::missing;
   const bool is_decided = !stands_out(result) && sees_anything(end.problem, result) && !result.doubtful;
   return is_decided ? Verdict::nothing_missing : Verdict::undecided;

@@ -350,5 +350,22 @@ TEST(EffectSearch, RunsLookAlikesBeforeItChooses) {
   EXPECT_LE(first + second, 4);
 }
 
+/// A law that explains most, and leaves a place farther off at a moment than noise makes, is not named for sure.
+TEST(EffectSearch, ALawThatLeavesPatternsIsNotNamedForSure) {
+  const auto verdicts = [](double besides, Verdict verdict) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = band();
+          problem.residual = noise(generator) + 12 * problem.changes.col(2) +
+                             besides * response(3, 8, [](int m) { return m == 4 ? 1.0 : 0.0; });
+          const SearchResult result = found(problem);
+          return effect_of(result, 2).accepted && result.verdict == verdict;
+        },
+        20);
+  };
+  EXPECT_GT(verdicts(4, Verdict::undecided), 0.8);
+  EXPECT_GT(verdicts(0, Verdict::missing), 0.9) << "leaves noise";
+}
+
 }  // namespace effect_search_test
 }  // namespace tether

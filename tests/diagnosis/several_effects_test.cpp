@@ -233,10 +233,9 @@ TEST(EffectSearch, ALeadThatAnotherMeshMayMakeDecidesNothingBesideAnother) {
           add_candidate(problem, "other", own + 1.4 * response(2, 3, beat));
           problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * own;
           std::vector<ShownRun> more;
-          if (on_another_mesh)
-            more = shown_on_finer(problem, 4, size, own - reach * 0.5 * response(2, 4, beat));
-          const SearchResult result = found_with(
-              problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}}, more);
+          if (on_another_mesh) more = shown_on_finer(problem, 4, size, own - reach * 0.5 * response(2, 4, beat));
+          const SearchResult result =
+              found_with(problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}}, more);
           return effect_of(result, 4).accepted && effect_of(result, 8).rival;
         },
         20);
@@ -254,9 +253,9 @@ TEST(EffectSearch, WhatExplainsNothingIsNoRivalHoweverWrongItsMesh) {
         const VectorXd weak = 0.1 * response(3, 8, beat);
         add_candidate(problem, "weak", weak);
         problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * problem.changes.col(4);
-        const SearchResult result = found_with(
-            problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}},
-            shown_on_finer(problem, 8, size, weak + 3 * response(3, 8, beat)));
+        const SearchResult result =
+            found_with(problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}},
+                       shown_on_finer(problem, 8, size, weak + 3 * response(3, 8, beat)));
         return effect_of(result, 4).accepted && effect_of(result, 8).rival;
       },
       20);

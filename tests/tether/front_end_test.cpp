@@ -1,6 +1,8 @@
 // The front-end beside a fsi_master that is a shell script: what reaches it, what comes back, what a person reads.
 #include "tests/tether/front_end.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <regex>
 
