@@ -186,14 +186,18 @@ WeighedGroup of_one(std::size_t candidate, double amplitude) {
 
 /// Found where the table has these groups; `more` was run too.
 SearchResult found_with(const EffectProblem& problem, std::vector<WeighedGroup> groups,
-                        const std::vector<ShownRun>& more = {}) {
-  const auto residual_at = linear_residual(problem);
+                        const std::vector<ShownRun>& more, const ResidualAt& residual_at) {
   Weighing weighing = weighed_fully(problem, {}, residual_at);
   weighing.weighed.groups = std::move(groups);
   for (const ShownRun& run : search_effects(problem, {}, residual_at, weighing).runs)
     weighing.shown.push_back(run);  // so that nothing is weighed again
   weighing.shown.insert(weighing.shown.end(), more.begin(), more.end());
   return search_effects(problem, {}, residual_at, weighing);
+}
+
+SearchResult found_with(const EffectProblem& problem, std::vector<WeighedGroup> groups,
+                        const std::vector<ShownRun>& more = {}) {
+  return found_with(problem, std::move(groups), more, linear_residual(problem));
 }
 
 /// A candidate at `size`, and what it does there on a finer mesh per unit.
@@ -244,22 +248,28 @@ TEST(EffectSearch, ALeadThatAnotherMeshMayMakeDecidesNothingBesideAnother) {
   EXPECT_LT(rivals(false), 0.2);
 }
 
-/// What explains nothing itself is no rival, however wrong another mesh makes what it does.
-TEST(EffectSearch, WhatExplainsNothingIsNoRivalHoweverWrongItsMesh) {
+/// What promises much and explains little, once it is run, is no rival, however wrong another mesh makes it.
+TEST(EffectSearch, WhatExplainsLittleIsNoRivalHoweverWrongItsMesh) {
   const double rivals = share(
       [](std::mt19937_64& generator) {
         EffectProblem problem = band();
         constexpr double size = 6;
-        const VectorXd weak = 0.1 * response(3, 8, beat);
-        add_candidate(problem, "weak", weak);
-        problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * problem.changes.col(4);
-        const SearchResult result =
-            found_with(problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}},
-                       shown_on_finer(problem, 8, size, weak + 3 * response(3, 8, beat)));
+        const VectorXd promised = problem.changes.col(4) + 0.3 * response(2, 3, beat),
+                       does = 0.14 * problem.changes.col(6);
+        add_candidate(problem, "idle", promised);
+        problem.residual = noise(generator) + 9 * problem.changes.col(0) + size * problem.changes.col(4) + size * does;
+        const ResidualAt runs = [&](const MatrixXd& amplitudes) -> MatrixXd {
+          return linear_residual(problem)(amplitudes) + (promised - does) * amplitudes.row(8);
+        };
+        std::vector<ShownRun> more = shown_on_finer(problem, 8, size, does + problem.changes.col(7));
+        more.front().residual = problem.residual - size * does;
+        for (const ShownRun& run : shown_on_finer(problem, 0, 9, 1.01 * problem.changes.col(0))) more.push_back(run);
+        const SearchResult result = found_with(
+            problem, {of_one(0, 9), {1, 1, {4, 8}, {0.9, 0.1}, {size, size}, {true, true}, {}, {}}}, more, runs);
         return effect_of(result, 4).accepted && effect_of(result, 8).rival;
       },
       20);
-  EXPECT_EQ(rivals, 0);
+  EXPECT_LT(rivals, 0.2);
 }
 
 /// The table adds up what each of two look-alikes does, and has both; runs find nothing for the second beside the
