@@ -20,7 +20,7 @@ struct PlannedRuns {
 };
 
 /// Of a verb other than a diagnosis: of an identification a run of each particle. What a diagnosis does beside varying
-/// numbers takes as long as in the 70 of docs/diagnosis-validation.md: half of them at most `least`, the longest
+/// numbers takes as long as in those of docs/diagnosis-validation.md: half of them at most `least`, the longest
 /// `most`.
 PlannedRuns planned_runs(JobVerb verb, int parameters);
 
