@@ -16,9 +16,10 @@ void write_tube(const fs::path& path, std::uint64_t seed, double scale = 1) {
   constexpr int around = 20, along = 21;
   Points x(3, around * along), out(3, around * along);
   for (int i = 0; i < x.cols(); ++i) {
+    const int ring = i / around;
     const double angle = 2 * std::numbers::pi * (i % around) / around;
     out.col(i) = Vec3(std::cos(angle), std::sin(angle), 0);
-    x.col(i) = 10 * out.col(i) + Vec3(0, 0, 60.0 / 20 * static_cast<double>(i / around));
+    x.col(i) = 10 * out.col(i) + Vec3(0, 0, 60.0 / 20 * ring);
   }
   const VectorXd error = 0.3 * (std::sqrt(0.8) * RandomField(5, Random(seed, 0), CorrelationShape::gaussian)(x) +
                                 std::sqrt(0.2) * RandomField(0, Random(seed, 1))(x));
