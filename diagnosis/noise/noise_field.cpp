@@ -29,19 +29,19 @@ double least_spread(const Points& places) {
   return std::sqrt(std::max(0.0, axes.eigenvalues()(0)));
 }
 
-Points averaged(const Points& places, const Points& normals) {
+}  // namespace
+
+MatrixXd averaged(const Points& places, const MatrixXd& columns) {
   const double near = least_spread(places);
-  if (near == 0) return normals;  // in a plane: a contour's normals are its own
-  Points mean = normals;
+  if (near == 0) return columns;  // in a plane: a contour's are its own
+  MatrixXd mean = columns;
   for (Index i = 0; i < places.cols(); ++i) {
-    const Eigen::ArrayXd apart = (places.colwise() - places.col(i)).colwise().squaredNorm();
-    mean.col(i) = normals * (-apart / (2 * near * near)).exp().matrix();
+    const VectorXd apart = (places.colwise() - places.col(i)).colwise().squaredNorm();
+    const VectorXd weights = (-apart / (2 * near * near)).array().exp();
+    mean.row(i) = weights.transpose() * columns / weights.sum();
   }
-  mean.colwise().normalize();
   return mean;
 }
-
-}  // namespace
 
 std::vector<NoiseField> thinned(std::vector<NoiseField> fields, Index most) {
   for (NoiseField& field : fields) {
@@ -59,7 +59,7 @@ std::vector<NoiseField> thinned(std::vector<NoiseField> fields, Index most) {
 
 MatrixXd offset_and_shift(const Points& places, const Points& normals) {
   MatrixXd columns(normals.cols(), 4);
-  columns << VectorXd::Ones(normals.cols()), averaged(places, normals).transpose();
+  columns << VectorXd::Ones(normals.cols()), averaged(places, normals.transpose()).rowwise().normalized();
   return columns;
 }
 

@@ -27,4 +27,8 @@ std::vector<NoiseField> thinned(std::vector<NoiseField> fields, Eigen::Index mos
 /// near each: those of data are rough with their errors, and columns that know these would take them out.
 MatrixXd offset_and_shift(const Points& places, const Points& normals);
 
+/// Columns averaged over the places near each in the same way: what a motion does to distances from data is rough with
+/// their errors, too.
+MatrixXd averaged(const Points& places, const MatrixXd& columns);
+
 }  // namespace tether

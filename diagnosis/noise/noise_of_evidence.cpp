@@ -60,6 +60,7 @@ NoiseField field_of(const Evidence& evidence, const Frames& frames, std::vector<
     normals += evidence.normals()(Eigen::all, own);
     field.frames.push_back({residual(own), free(own, Eigen::all), part->time});
   }
+  for (NoiseFrame& frame : field.frames) frame.shared = averaged(places, frame.shared);
   normals.colwise().normalize();
   field.places = places;
   field.free = offset_and_shift(places, normals);

@@ -84,7 +84,7 @@ class RestingPairs {
     for (std::size_t k = 0; k < resting.size(); ++k) {
       const std::size_t i = resting[k].first;
       MatrixXd own = MatrixXd::Zero(mean.places.cols(), static_cast<Index>(resting.size()));
-      own.col(static_cast<Index>(k)) = motion(frames, i, samples);
+      own.col(static_cast<Index>(k)) = averaged(mean.places, motion(frames, i, samples));
       field.frames.push_back({difference(frames, i, samples) / std::sqrt(2), own, frames[i].time});
       seen_.frames.push_back(
           fmt::format("{} and {}", name_of(data_, frames[i].frame), name_of(data_, frames[i + 1].frame)));
@@ -133,7 +133,7 @@ std::optional<NoiseField> residual_field(std::vector<SeenFrame> frames, const Ru
     MatrixXd shared(mean.places.cols(), 2);
     shared.col(0) = along_normals(run.positions(frame.time) - run.imaged, frame, samples);
     shared.col(1) = along_normals(run.positions(after) - run.positions(before), frame, samples) / (after - before);
-    field.frames.push_back({distances(frame, samples), shared, frame.time});
+    field.frames.push_back({distances(frame, samples), averaged(mean.places, shared), frame.time});
   }
   return field;
 }

@@ -155,6 +155,25 @@ TEST(MeasuredNoise, LeavesOutWhatIsShared) {
   EXPECT_NEAR(freed.fits[0].deviation.value, bare.fits[0].deviation.value, 0.1 * deviation);
 }
 
+/// What a motion does to distances is rough with the data's errors: columns of it would take these out.
+TEST(MeasuredNoise, ColumnsThatAreRoughWithItAreAveraged) {
+  const Tube tube;
+  int raw = 0, smooth = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    NoiseField field = noise_on(tube, {}, seed), even = field;
+    for (std::size_t k = 0; k < field.frames.size(); ++k) {
+      const VectorXd error = RandomField(length, Random(seed, k), CorrelationShape::exponential)(tube.places);
+      const Eigen::ArrayXd swells = (std::numbers::pi / 4 * tube.places.row(2).transpose().array()).cos();
+      field.frames[k].shared = std::sin(0.3 * static_cast<double>(k + 1)) * (swells + 0.1 * error.array()).matrix();
+      even.frames[k].shared = averaged(tube.places, field.frames[k].shared);
+    }
+    raw += measured_noise({field}, {deviation, length}).stated->p < 0.01;
+    smooth += measured_noise({even}, {deviation, length}).stated->p < 0.01;
+  }
+  EXPECT_EQ(raw, 12);
+  EXPECT_LE(smooth, 1);
+}
+
 TEST(MeasuredNoise, ItsCorrelationByDistanceIsThatOfTheFit) {
   const Tube tube;
   std::vector<NoiseField> fields{noise_on(tube, {.frames = 40}, 5)};
