@@ -189,6 +189,33 @@ TEST(Explanation, IsUndecidedIfNothingWasConfirmed) {
   EXPECT_EQ(said_of(path).front(), "UNDECIDED: with contact at spine stands out, but held-out data do not confirm it");
 }
 
+/// What was found explains most; what its model leaves is no noise, and no candidate explains that.
+TEST(Explanation, IsUndecidedWhereWhatWasFoundLeavesMoreThanNoise) {
+  const auto path_that_leaves = [](double p) {
+    Diagnosis last = diagnosis(Verdict::undecided, {});
+    last.lack_of_fit.after.emplace().p = p;
+    ExplanationPath path;
+    path.models = {model(0, diagnosis(Verdict::undecided, {effect("tension", Role::accepted, 1)}), {}),
+                   model(1, last, {effect("tension", Role::accepted, 7)})};
+    path.best = 1;
+    return path;
+  };
+  EXPECT_EQ(verdict_of(path_that_leaves(0.001)), Verdict::undecided);
+  EXPECT_EQ(verdict_of(path_that_leaves(0.02)), Verdict::missing);
+  const std::string said = said_of(path_that_leaves(0.001)).front();
+  EXPECT_TRUE(said.starts_with("UNDECIDED: ") && said.find("; beside tension") != std::string::npos) << said;
+}
+
+/// The same of one diagnosis.
+TEST(Diagnosis, NamesNoLawForSureThatLeavesMoreThanNoise) {
+  Diagnosis open = diagnosis(Verdict::undecided, {effect("tension", Role::accepted, 1)});
+  open.lack_of_fit.after.emplace().p = 0.001;
+  const std::string said = headline_of(open);
+  EXPECT_TRUE(said.starts_with("UNDECIDED: tension") &&
+              said.ends_with("what that leaves is not noise: another law belongs in its place, or something beside it"))
+      << said;
+}
+
 /// What is sure is not mixed with what is not, and what stood out last is not lost.
 TEST(Explanation, TellsWhatIsSureBesideWhatIsNot) {
   Finding frame = finding("misplaced_frame", CandidateKind::data, Role::accepted, 2);
