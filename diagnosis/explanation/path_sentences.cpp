@@ -65,7 +65,8 @@ void add_remarks(Sentences& all, const ExplanationPath& path) {
   append(all, remarks_on(last, HeldOutGain::left_out));
   for (const Diagnosis* diagnosis : upheld_diagnoses(path))
     if (diagnosis != &last) append(all, look_alike_sentences(*diagnosis));
-  if (last.verdict == Verdict::undecided && !found_on(path).empty())
+  const bool is_told = verdict_of(path) == Verdict::undecided;  // by the first sentence
+  if (last.verdict == Verdict::undecided && !found_on(path).empty() && !is_told)
     all.push_back("Beside what was found: " + open_question_of(last));
 }
 

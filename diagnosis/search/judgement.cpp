@@ -11,8 +11,8 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double noteworthy = 2;  ///< of what an error is allowed
-constexpr double unexplainable =
-    6;  ///< deviations of the misfit beyond noise: neither noise nor errors allowed do that
+/// Deviations of the misfit beyond noise: neither noise nor errors allowed do that.
+constexpr double unexplainable = 6;
 
 /// Allowed errors that somebody may look after, by how much of them the data ask for.
 std::vector<StrainedError> strained_errors(const SearchEnd& end) {
