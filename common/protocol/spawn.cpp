@@ -125,13 +125,15 @@ void check_initialising(double seconds, const std::string& role, const Start& st
   if (seconds > start.limit + 2) end_job(exit_run_failed);
 }
 
-/// "env NAME=VALUE ...": the variables of Tether's own for a program on another node, where nobody set them, and which
-/// node that is. Not in MPI_Info: its values end after 255 characters.
+/// "env NAME=VALUE ...": the variables of Tether's own and of OpenBLAS, whose kernels decide the last digits, for a
+/// program on another node, where nobody set them, and which node that is. Not in MPI_Info: its values end after 255
+/// characters.
 std::vector<std::string> told_on(const std::string& node) {
   std::vector<std::string> words{"env"};
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry, name = text.substr(0, text.find('='));
-    if (name.starts_with("TETHER_") && name != master_variable && name != node_variable) words.emplace_back(text);
+    const bool is_ours = name.starts_with("TETHER_") && name != master_variable && name != node_variable;
+    if (is_ours || name.starts_with("OPENBLAS_")) words.emplace_back(text);
   }
   words.push_back(fmt::format("{}={}", node_variable, node));
   return words;

@@ -16,6 +16,7 @@ from waiting import wait
 
 TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolute()
 OURS = {"tether", "mpirun", "ssh", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
+KERNELS = {"OPENBLAS_CORETYPE": "Nehalem"}  # other last digits than those of the kernels that a host would choose by itself
 NOTICED = 60  # [s]: half a minute without a word, and what programs then have to say to each other
 
 class Hosts(unittest.TestCase):
@@ -34,11 +35,11 @@ class Hosts(unittest.TestCase):
 
     @classmethod
     def tether(cls, *words):
-        subprocess.run([TETHER, *words], cwd=cls.folder, env=os.environ | cases.AS_ROOT, check=True, capture_output=True)
+        subprocess.run([TETHER, *words], cwd=cls.folder, env=os.environ | cases.AS_ROOT | KERNELS, check=True, capture_output=True)
 
     def identify(self, name, *words, nodes="h0,h1,h2", **more):
         line = [TETHER, "identify", "twin/springs.yaml", "--processes", "3", "--output", name, "--quiet", *words]
-        return self.group.start(self.group.hosts[0], line, self.folder, cases.AS_ROOT | {"TETHER_NODES": nodes} | more,
+        return self.group.start(self.group.hosts[0], line, self.folder, cases.AS_ROOT | KERNELS | {"TETHER_NODES": nodes} | more,
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def ours(self, host):
