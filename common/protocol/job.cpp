@@ -70,13 +70,20 @@ Pids launchers() {
   return pids;
 }
 
+/// Until the process has ended and its parent knows how. Three seconds, where it waits itself for one that is to be
+/// killed; a busy machine takes one.
+void await_end_of(pid_t pid) {
+  for (int i = 0; i < 60 && kill(pid, 0) == 0; ++i) usleep(50'000);
+}
+
 /// The reaper's life: only calls that are allowed after a fork in a program with threads. `scratch`: what an mpirun
 /// that has to be killed leaves on disk.
-[[noreturn]] void reap(const Pids& pids, Pids& launchers, const char* scratch) {
+[[noreturn]] void reap(pid_t master, const Pids& pids, Pids& launchers, const char* scratch) {
   setsid();
   prctl(PR_SET_NAME, "tether-reaper");
   close_range(0, ~0U, 0);  // mpirun waits for the end of the pipes and sockets that were inherited
   usleep(500'000);
+  await_end_of(master);  // mpirun's exit code is that of whom it sees end first
   for (const std::int64_t pid : pids) kill(static_cast<pid_t>(pid), SIGKILL);
   bool waiting = true;
   for (int i = 0; i < 25 && waiting; ++i) {
@@ -120,7 +127,8 @@ void leave_reaper(const Pids& pids) {
   Pids last = launchers();
   if (pids.empty() && last.empty()) return;
   const char* scratch = std::getenv("PMIX_SERVER_TMPDIR");
-  if (fork() == 0) reap(pids, last, scratch);
+  const pid_t master = getpid();
+  if (fork() == 0) reap(master, pids, last, scratch);
 }
 
 void end_job(int exit_code, const std::vector<Peer>& others) {

@@ -24,12 +24,13 @@ Peer marking_master();
 /// Whether the mpirun or orted that started this process has ended.
 bool launcher_is_gone();
 
-/// Leaves a process behind that ends `pids` half a second later (first this process's exit code should reach mpirun),
-/// and three seconds later an mpirun that still runs: it may hang in its own end when a process of its job died.
+/// Leaves a process behind that ends `pids` half a second later, and not before this process's exit code has reached
+/// mpirun; at the latest after three and a half seconds. An mpirun that still runs three seconds after that is ended
+/// too: it may hang in its own end when a process of its job died.
 void leave_reaper(const std::vector<std::int64_t>& pids);
 
 /// Ends this process now, without MPI_Finalize; then `others` and all marked children that still run half a second
-/// later.
+/// later, or when its exit code is known.
 [[noreturn]] void end_job(int exit_code, const std::vector<Peer>& others = {});
 
 }  // namespace tether::protocol
