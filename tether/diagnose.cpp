@@ -58,8 +58,8 @@ class CandidateModels {
 };
 
 /// Throws InputError if the programs refuse the case, or know no number that its diagnosis names.
-void check_numbers(const DiagnosedCase& given, const ModelRuns& runs) {
-  varied_numbers(runs.parameters(), given.diagnosis, given.file);
+void check_numbers(const DiagnosedCase& given, const ModelRuns& runs, const std::vector<PlacedEffect>& effects) {
+  varied_numbers(runs.parameters(), effects, given.diagnosis, given.file);
 }
 
 /// Null where the case does not want a coarser model, or that does not come to its end.
@@ -126,8 +126,8 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
   const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
   const CandidateModels models(given, command, output);
   GrowingRuns runs(effects, [&](const auto& all, int grown) { return models.runs(all, grown); });
-  check_numbers(given, runs);  // a case that is refused is refused before anything else runs
-  given.inputs.check();        // the groups have read it
+  check_numbers(given, runs, effects);  // a case that is refused is refused before anything else runs
+  given.inputs.check();                 // the groups have read it
   for (const char* old :
        {"diagnosis.json", "misfit.vtu", "misfit_patch.vtp", "plots/misfit.png", "plots/diagnosis.png"})
     fs::remove(output / old);  // nothing speaks against a new one any more
@@ -159,7 +159,8 @@ Diagnosis diagnosed(const DiagnosedCase& given, const CommandLine& command, cons
 void check_numbers(const DiagnosedCase& given, const CommandLine& command) {
   const SessionFolder scratch("tether_numbers");
   const CandidateModels models(given, command, scratch.path());
-  check_numbers(given, *models.runs(catalogue_of(given.file, given.diagnosis), 0));
+  const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
+  check_numbers(given, *models.runs(effects, 0), effects);
 }
 
 Made<Diagnosis> diagnose_further(const CommandLine& command, const DiagnosisSettings& settings) {

@@ -55,7 +55,7 @@ void add_first_order(const fs::path& case_file, PlannedRuns& planned) {
   command.processes = 1;
   command.quiet = true;
   const LivingRuns runs(command, candidates, scratch.path());
-  const Division division(effects, varied_numbers(runs.parameters(), given.diagnosis, given.file));
+  const Division division(effects, varied_numbers(runs.parameters(), effects, given.diagnosis, given.file));
   planned.first_order = 1 + static_cast<int>(division.undivided().size());
   if (given.diagnosis.coarse) planned.coarser = measured(write_coarse(candidates, given));
   if (!given.diagnosis.numerics) return;

@@ -75,7 +75,9 @@ Sensitivities sensitivities_in(const DiagnosedCase& given, const std::filesystem
   const auto file = write_coarse(folder / "candidates.yaml", given);
   MappedRuns coarse(std::make_unique<LivingRuns>(quiet(), file, folder), given.lumen, lumen_in(file),
                     file.stem().string());
-  Sensitivities all = sensitivities_of(coarse, varied_numbers(coarse.parameters(), given.diagnosis, given.file));
+  const std::vector<PlacedEffect> effects = catalogue_of(given.file, given.diagnosis);
+  Sensitivities all =
+      sensitivities_of(coarse, varied_numbers(coarse.parameters(), effects, given.diagnosis, given.file));
   all.is_coarse = true;
   return all;
 }

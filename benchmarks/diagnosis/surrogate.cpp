@@ -40,7 +40,8 @@ Surrogate::Surrogate(const std::string& case_file, const std::filesystem::path& 
       runs(runs_in(folder, given)),
       effects(catalogue_of(given.file, given.diagnosis)),
       sensitivities(sensitivities_of(
-          *runs, Division(effects, varied_numbers(runs->parameters(), given.diagnosis, given.file)).undivided())),
+          *runs,
+          Division(effects, varied_numbers(runs->parameters(), effects, given.diagnosis, given.file)).undivided())),
       evidence(given.data, given.lumen, sensitivities.motions.front()),
       as_measured(problem_of(given, evidence, sensitivities.motions.front(), sensitivities, effects)),
       whitening(evidence, as_measured),

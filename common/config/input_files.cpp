@@ -109,7 +109,8 @@ struct NamedInput {
 
 void gather(const YamlNode& node, const std::string& field, const fs::path& folder, std::vector<NamedInput>& found) {
   std::error_code none;
-  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && fs::exists(folder / node.text, none))
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty() && !is_number(node.text) &&
+      fs::exists(folder / node.text, none))
     found.push_back({field, node.text, named_path(folder, node.text)});
   for (const YamlNode& item : node.items) gather(item, field, folder, found);
   for (const YamlNode::Entry& entry : node.entries) gather(entry.value, field + "." + entry.key, folder, found);

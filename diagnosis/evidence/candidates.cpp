@@ -220,7 +220,7 @@ void add_model_changes(EffectProblem& problem, const ModelChanges& changes, cons
     const bool is_absent = number.value == number.absent, is_assumed = holds(diagnosis.assumed, amplitude.name);
     if (!is_absent || is_assumed) {
       const auto before = problem.allowed.cols();
-      allow(problem, change / step, allowed_deviation(amplitude, diagnosis), amplitude.name);
+      allow(problem, change / step, allowed_deviation(amplitude, diagnosis), {amplitude.name, amplitude});
       if (problem.allowed.cols() > before) problem.allowed_runs.push_back({before, run, step});
     }
     if (is_assumed) continue;

@@ -93,7 +93,7 @@ class SourceErrors {
     return error;
   }
   void allow_all(const MatrixXd& columns, double deviation) {
-    for (const auto& column : columns.colwise()) allow(problem_, column, deviation, "");
+    for (const auto& column : columns.colwise()) allow(problem_, column, deviation);
   }
   /// As an error that is allowed and as a candidate, unless it is not looked for.
   void add(Candidate added, const Possible& error, const Evidence::Part* frame, double allowed) {
@@ -102,7 +102,7 @@ class SourceErrors {
     for (Index k = 0; k < columns.cols(); ++k) {
       added.amplitudes.push_back(problem_.changes.cols() + k);
       problem_.amplitudes.push_back(amplitude_of(error.columns.numbers[static_cast<std::size_t>(k)], units_));
-      allow(problem_, columns.col(k), allowed, added.name + " at " + added.where);
+      allow(problem_, columns.col(k), allowed, {added.name + " at " + added.where, problem_.amplitudes.back()});
     }
     append_columns(problem_.changes, columns);
     problem_.candidates.push_back(added);
@@ -169,9 +169,9 @@ void append_columns(MatrixXd& to, const MatrixXd& columns) {
   to.rightCols(columns.cols()) = columns;
 }
 
-void allow(EffectProblem& problem, const VectorXd& column, double deviation, const std::string& name) {
+void allow(EffectProblem& problem, const VectorXd& column, double deviation, const AllowedError& error) {
   if (!(deviation > 0)) return;
-  problem.allowed_names.push_back(name);
+  problem.allowed_errors.push_back(error);
   append_columns(problem.allowed, column);
   problem.allowed_deviation.conservativeResize(problem.allowed.cols());
   problem.allowed_deviation(problem.allowed.cols() - 1) = deviation;

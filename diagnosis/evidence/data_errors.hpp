@@ -18,6 +18,6 @@ std::string frame_text(const Evidence& evidence, const Evidence::Part& part);
 /// Appends columns to a matrix of the problem.
 void append_columns(MatrixXd& to, const MatrixXd& columns);
 /// Appends an error that is allowed with a deviation, if that is above zero. name: empty if nobody can look after it.
-void allow(EffectProblem& problem, const VectorXd& column, double deviation, const std::string& name);
+void allow(EffectProblem& problem, const VectorXd& column, double deviation, const AllowedError& error = {});
 
 }  // namespace tether

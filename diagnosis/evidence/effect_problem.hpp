@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,13 @@ struct Pattern {
   Form form = Form::alike;
 };
 
+/// An error that is allowed. Without a name nobody may look after it; without an amplitude it has no size but in
+/// deviations.
+struct AllowedError {
+  std::string name = {};
+  std::optional<Amplitude> amplitude = {};
+};
+
 /// An allowed error that is a number of the model: what a run showed of it.
 struct AllowedRun {
   Eigen::Index column = 0, run = 0;  ///< of `allowed`; of the sensitivity runs
@@ -95,10 +103,10 @@ struct EffectProblem {
   MatrixXd changes;  ///< S [n x q]
   std::vector<Amplitude> amplitudes;
   std::vector<Candidate> candidates;
-  MatrixXd allowed;                        ///< N [n x k]
-  VectorXd allowed_deviation;              ///< [k]
-  double left_by_refinement = 0;           ///< of what a coarser model differs by, what is wrong still (D.8)
-  std::vector<std::string> allowed_names;  ///< of those that a person may look after, else empty [k]
+  MatrixXd allowed;                          ///< N [n x k]
+  VectorXd allowed_deviation;                ///< [k]
+  double left_by_refinement = 0;             ///< of what a coarser model differs by, what is wrong still (D.8)
+  std::vector<AllowedError> allowed_errors;  ///< [k]
   std::vector<AllowedRun> allowed_runs;
   MatrixXd patterns;                           ///< [n x g]
   VectorXd pattern_deviation;                  ///< of what the model itself may not do [g]

@@ -67,7 +67,7 @@ double wrong_before_refinement(double ratio) {
 void allow_numerics(EffectProblem& problem, const VectorXd& coarse) {
   const VectorXd difference = problem.residual - coarse;
   if (difference.allFinite())
-    allow(problem, difference, problem.left_by_refinement, "error of the model's step and mesh");
+    allow(problem, difference, problem.left_by_refinement, {"error of the model's step and mesh"});
 }
 
 }  // namespace tether

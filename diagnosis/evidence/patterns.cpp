@@ -56,7 +56,7 @@ void add_patterns(EffectProblem& problem, const Evidence& evidence, const Allowa
     problem.pattern_deviation.conservativeResize(problem.patterns.cols());
     problem.pattern_deviation.tail(1).setConstant(column.deviation);
     const auto before = problem.allowed.cols();
-    allow(problem, column.values, column.deviation, "");
+    allow(problem, column.values, column.deviation);
     if (problem.allowed.cols() > before) problem.allowed_patterns.push_back(before);
   }
 }

@@ -46,6 +46,14 @@ bool is_idle(const ParameterInfo& p, const std::vector<ParameterInfo>& parameter
   return any;
 }
 
+/// The number as such, or an effect that the case has switched off: its type, or its part of the wall.
+bool is_excluded(const ParameterInfo& p, const std::vector<PlacedEffect>& effects, const Words& words) {
+  if (is_among(p.name, words)) return true;
+  return p.value == p.absent && std::any_of(effects.begin(), effects.end(), [&](const PlacedEffect& effect) {
+           return effect.path == effect_of(p) && (is_among(effect.type, words) || is_among(effect.part, words));
+         });
+}
+
 /// Words with a dot are numbers of the model; types and parts are the catalogue's.
 void check_announced(const Words& known, const std::string& field, const Words& words, const CaseFile& file) {
   for (const std::string& word : words) {
@@ -62,7 +70,8 @@ std::string in_folder(const std::string& name) {
 
 }  // namespace
 
-std::vector<VariedNumber> varied_numbers(const std::vector<ParameterInfo>& parameters, const DiagnosisCase& diagnosis,
+std::vector<VariedNumber> varied_numbers(const std::vector<ParameterInfo>& parameters,
+                                         const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis,
                                          const CaseFile& file) {
   Words known;
   for (const ParameterInfo& p : parameters) known.push_back(p.name);
@@ -70,7 +79,7 @@ std::vector<VariedNumber> varied_numbers(const std::vector<ParameterInfo>& param
   check_announced(known, "diagnosis.assumed", diagnosis.assumed, file);
   std::vector<VariedNumber> varied;
   for (const ParameterInfo& p : parameters) {
-    if (is_among(p.name, diagnosis.exclude) || is_idle(p, parameters)) continue;
+    if (is_excluded(p, effects, diagnosis.exclude) || is_idle(p, parameters)) continue;
     if (const auto value = stepped(p, diagnosis.step)) varied.push_back({p, *value});
   }
   return varied;

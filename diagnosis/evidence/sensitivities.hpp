@@ -5,6 +5,7 @@
 #include "common/config/case_file.hpp"
 #include "diagnosis/evidence/diagnosis_case.hpp"
 #include "diagnosis/evidence/model_runs.hpp"
+#include "diagnosis/evidence/placed_effect.hpp"
 
 namespace tether {
 
@@ -22,10 +23,12 @@ struct Sensitivities {
 };
 
 /// The numbers that may be wrong, changed by `step` of their scale, or of their prior deviation where they are there
-/// already (D.7). Numbers that switch nothing on and have no prior stay. Throws InputError if the case names a number
+/// already (D.7). Numbers that switch nothing on and have no prior stay, and so does what is excluded: numbers, and
+/// those by which one of `effects` that is excluded would be switched on. Throws InputError if the case names a number
 /// that the model does not have.
 std::vector<VariedNumber> varied_numbers(const std::vector<protocol::ParameterInfo>& parameters,
-                                         const DiagnosisCase& diagnosis, const CaseFile& file);
+                                         const std::vector<PlacedEffect>& effects, const DiagnosisCase& diagnosis,
+                                         const CaseFile& file);
 
 /// The model as it is.
 WantedRun base_run();

@@ -70,10 +70,16 @@ struct StrainedError {
   static constexpr const char* type_name = "strained_error";
   std::string name;
   double deviations = 0;
+  std::optional<std::string> number;
+  std::optional<double> value;
+  std::string unit = "1";
 
   static void fields(auto& self, auto&& field) {
     field("name", self.name, "of the error");
     field("deviations", self.deviations, "its size in the deviations that are allowed");
+    field("number", self.number, "which of its numbers that is; null: it has none");
+    field("value", self.value, "that the number would have to have, in `unit`; null: it has none");
+    field("unit", self.unit, "of the value; 1: none");
   }
 };
 

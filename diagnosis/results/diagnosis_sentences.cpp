@@ -48,7 +48,8 @@ std::string nothing_missing_sentence(const Diagnosis& diagnosis) {
 }
 
 std::string percent_of(double probability) {
-  return probability > 0.995 ? "above 99 %" : fmt::format("{:.0f} %", 100 * probability);
+  if (probability > 0.995) return "above 99 %";
+  return probability < 0.005 ? "below 1 %" : fmt::format("{:.0f} %", 100 * probability);
 }
 
 /// answer: what it is asked for.
@@ -56,8 +57,8 @@ std::string split_sentence(const FurtherData& best, const char* answer) {
   if (best.tells)
     return fmt::format("Measuring {} would {} (chance {}; {})", best.measurement, answer, percent_of(best.probability),
                        best.assuming);
-  return fmt::format("No pressure, no flow and no more or better frames would {}; most would {} (chance {}; {})",
-                     answer, best.measurement, percent_of(best.probability), best.assuming);
+  return fmt::format("Of the measurements that were weighed none would {}. The best is {} (chance {}; {})", answer,
+                     best.measurement, percent_of(best.probability), best.assuming);
 }
 
 std::string held_out_sentence(const Gain& gain) {
@@ -73,10 +74,17 @@ std::vector<std::string> accepted_texts(const Diagnosis& diagnosis) {
   return all;
 }
 
+/// "misregistration at ct, x -0.12 cm"; "solid.material.young, 3e+06 g/(cm s2)".
+std::string size_of(const StrainedError& error) {
+  if (!error.value) return error.name;
+  const std::string number = error.number && *error.number != error.name ? *error.number + " " : "";
+  return fmt::format("{}, {}{:.2g}{}", error.name, number, *error.value, error.unit == "1" ? "" : " " + error.unit);
+}
+
 std::string strained_sentence(const Diagnosis& diagnosis) {
   std::vector<std::string> all;
   for (const StrainedError& error : diagnosis.strained_errors)
-    all.push_back(fmt::format("{} ({:.1f} times the deviation that is allowed)", error.name, error.deviations));
+    all.push_back(fmt::format("{} ({:.1f} times the deviation that is allowed)", size_of(error), error.deviations));
   return fmt::format("Errors that are allowed would have to be large, see to them: {}", fmt::join(all, "; "));
 }
 
@@ -100,9 +108,10 @@ bool is_same(const Alternative& member, const Finding& finding) {
   return finding.name == member.name && finding.parameter == member.parameter && finding.where == member.where;
 }
 
-/// Those that by their probability would be told from what was found.
+constexpr double told = 0.02;  ///< a probability below which it would be told from what was found
+
+/// Those that by their probability would be.
 std::vector<std::string> improbable_rivals(const Diagnosis& diagnosis, const AlternativeGroup& group) {
-  constexpr double told = 0.02;
   std::vector<std::string> all;
   for (const Alternative& member : group.members)
     for (const Finding& finding : diagnosis.effects)
@@ -121,22 +130,38 @@ void add_why_open(std::vector<std::string>& all, const Diagnosis& diagnosis) {
                   fmt::join(open, ", nor ")));
 }
 
+/// What is said to be missing nowhere is more probable than nothing, though too little to be tried.
+void add_what_is_not_ruled_out(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const auto& table = diagnosis.table;
+  if (diagnosis.verdict != Verdict::nothing_missing || table.groups.empty()) return;
+  const AlternativeGroup& first = table.groups.front();
+  if (first.probability <= table.nothing) return;
+  std::vector<std::string> members;
+  for (const Alternative& member : first.members) members.push_back(name_of(member));
+  all.push_back(
+      fmt::format("It is not ruled out that {} is: its probability is {}, at least {} whatever is assumed, that of "
+                  "nothing {}. These data cannot tell",
+                  fmt::join(members, " or "), percent_of(first.probability), percent_of(first.least_probability),
+                  percent_of(table.nothing)));
+}
+
 /// Where runs of several effects together named what the table, which adds up what each does by itself, does not have.
 void add_what_runs_changed(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const auto& groups = diagnosis.table.groups;
-  const auto is_in = [](const AlternativeGroup& group, const Finding& finding) {
-    return std::any_of(group.members.begin(), group.members.end(),
-                       [&](const Alternative& member) { return is_same(member, finding); });
+  const auto has = [](const AlternativeGroup& group, const Finding& finding) {
+    return std::any_of(group.members.begin(), group.members.end(), [&](const Alternative& member) {
+      return member.share * group.probability >= told && is_same(member, finding);
+    });
   };
   std::vector<std::string> named, instead;
   for (const Finding& finding : diagnosis.effects)
     if (finding.accepted &&
-        std::none_of(groups.begin(), groups.end(), [&](const auto& group) { return is_in(group, finding); }))
+        std::none_of(groups.begin(), groups.end(), [&](const auto& group) { return has(group, finding); }))
       named.push_back(name_of(finding));
   for (const AlternativeGroup& group : groups)
     if (group.probability >= 0.95 &&
         std::none_of(diagnosis.effects.begin(), diagnosis.effects.end(), [&](const Finding& finding) {
-          return (finding.accepted || finding.rival) && is_in(group, finding);
+          return (finding.accepted || finding.rival) && has(group, finding);
         }))
       instead.push_back(name_of(group.members.front()));
   if (named.empty() || instead.empty()) return;
@@ -311,6 +336,7 @@ std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain
   if (diagnosis.verdict == Verdict::undecided && diagnosis.split_by)
     all.push_back(split_sentence(*diagnosis.split_by, "show whether it is there"));
   add_why_open(all, diagnosis);
+  add_what_is_not_ruled_out(all, diagnosis);
   add_what_runs_changed(all, diagnosis);
   if (any_accepted(diagnosis)) add_foretold(all, diagnosis);
   if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));

@@ -195,7 +195,7 @@ class DiagnosisRun {
         how_(search_settings(given.diagnosis, settings)),
         effects_(effects),
         first_order_(model.coarse != nullptr ? *model.coarse : model.runs),
-        division_(effects, varied_numbers(model.runs.parameters(), given.diagnosis, given.file)),
+        division_(effects, varied_numbers(model.runs.parameters(), effects, given.diagnosis, given.file)),
         sensitivities_(sensitivities_of(first_order_, division_.undivided())),
         base_(model.coarse != nullptr ? base_of(model.runs) : sensitivities_.motions.front()),
         evidence_(given.data, given.lumen, base_),
@@ -284,7 +284,8 @@ class DiagnosisRun {
       if (wanted.empty()) break;
       model_.extend(effects_of(wanted));
       for (const PatchEffect& patch : wanted) report_.effects.push_back(patch.effect);
-      explore(numbers_of(wanted, varied_numbers(first_order_.parameters(), given_.diagnosis, given_.file)));
+      explore(numbers_of(wanted,
+                         varied_numbers(first_order_.parameters(), report_.effects, given_.diagnosis, given_.file)));
     }
     settle(report_.problem.candidates, patches.place());
     report_.patch = patches.place();

@@ -116,6 +116,11 @@ AmplitudeRange range_of(const AmplitudeInterval& interval, double size, double s
   return {lower, upper, does_at(lower, saturation), does_at(upper, saturation)};
 }
 
+/// Whether runs found the amplitude where the table has it.
+bool holds(const AmplitudeInterval& interval, double size) {
+  return interval.least < size && size < interval.most;
+}
+
 /// Of one of several, known to first order.
 AmplitudeRange range_about(const AmplitudeInterval& interval, double saturation) {
   const auto [least, most] = std::minmax({interval.least / interval.middle, interval.most / interval.middle});
@@ -150,7 +155,7 @@ AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect
   const AmplitudeRange along = range_along_runs(effect, half, amplitude.one_sided, c);
   if (interval && effect.intervals.size() == 1) {
     const AmplitudeRange weighed = range_of(*interval, size, c);
-    return effect.beside ? both(weighed, along) : weighed;
+    return effect.beside || !holds(*interval, size) ? both(weighed, along) : weighed;
   }
   return interval && interval->middle * size > 0 ? range_about(*interval, c) : along;
 }

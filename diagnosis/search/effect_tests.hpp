@@ -40,9 +40,9 @@ struct AmplitudeRange {
 
 /// 95 %, of one of the effect's own amplitudes: as its interval, where there is one; of one of several, what it does
 /// lies about what was found as the interval does about its middle. That is of what each of several does by itself:
-/// beside others that were accepted it holds what runs of all of them show too. Else what runs showed is known in the
-/// logarithm of what the amplitude does: of one that saturates much larger ones do hardly more. It ends at a hundred
-/// times what was found. (D.10)
+/// beside others that were accepted, or where runs found the amplitude outside of it, it holds what these show too.
+/// Else what runs showed is known in the logarithm of what the amplitude does: of one that saturates much larger ones
+/// do hardly more. It ends at a hundred times what was found. (D.10)
 AmplitudeRange range_of(const EffectProblem& problem, const TestedEffect& effect, Eigen::Index own);
 
 /// Every candidate against a residual of which `scores` tell, to first order; count: of independent data. (D.8-D.10)

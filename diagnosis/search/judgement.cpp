@@ -20,18 +20,26 @@ std::vector<StrainedError> strained_errors(const SearchEnd& end) {
   const VectorXd& deviation = problem.allowed_deviation;  // behind the allowed ones stand others that are left free
   const VectorXd found = end.trained.amplitudes(end.state.residual).head(deviation.size()).cwiseQuotient(deviation);
   std::vector<StrainedError> all;
-  for (std::size_t k = 0; k < problem.allowed_names.size(); ++k)
-    if (const double size = std::abs(found(static_cast<Index>(k)));
-        !problem.allowed_names[k].empty() && size > noteworthy)
-      all.push_back({problem.allowed_names[k], size});
+  for (std::size_t k = 0; k < problem.allowed_errors.size(); ++k) {
+    const auto column = static_cast<Index>(k);
+    const auto& [name, amplitude] = problem.allowed_errors[k];
+    if (name.empty() || std::abs(found(column)) <= noteworthy) continue;
+    StrainedError& error = all.emplace_back();
+    error.name = name;
+    error.deviations = std::abs(found(column));
+    if (!amplitude) continue;
+    error.number = amplitude->name;
+    error.value = amplitude->value(found(column) * deviation(column));
+    error.unit = amplitude->unit;
+  }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.deviations > b.deviations; });
   return all;
 }
 
 /// Of what is left now. (D.20)
 Adequacy adequacy_of(const SearchEnd& end, const SearchResult& result) {
-  const std::vector<std::string>& names = end.problem.allowed_names;
-  const auto named = names.size() - static_cast<std::size_t>(std::count(names.begin(), names.end(), std::string{}));
+  const auto& errors = end.problem.allowed_errors;
+  const auto named = std::count_if(errors.begin(), errors.end(), [](const auto& error) { return !error.name.empty(); });
   Adequacy found;
   found.whole = chi_square_tail(end.trained.counted_misfit(end.state.residual), static_cast<int>(result.independent));
   found.pooled = result.after.pooled;

@@ -5,6 +5,7 @@
 
 #include "diagnosis/comparison/beat_quantities.hpp"
 #include "diagnosis/comparison/displacement.hpp"
+#include "diagnosis/evidence/data_errors.hpp"
 
 namespace tether {
 namespace {
@@ -50,7 +51,7 @@ VectorXd values_of(const std::vector<QuantityFound>& quantities) {
 /// One model's quantities and how each of its effects moves them.
 class Published {
  public:
-  Published(const DiagnosedCase& given, const Evidence& evidence, const DiagnosisReport& report, const Trials& trials,
+  Published(const DiagnosedCase& given, const Evidence& evidence, const DiagnosisReport& report, Trials& trials,
             BeatFacts facts, const FinishedMotion& base)
       : given_(given),
         report_(report),
@@ -60,22 +61,51 @@ class Published {
         times_(measured_times(evidence)),
         base_(quantities_of(base)) {}
 
-  std::vector<PublishedQuantities> all() const {
-    std::vector<const TestedEffect*> accepted = accepted_in_order();
+  std::vector<PublishedQuantities> all() {
+    const std::vector<const TestedEffect*> accepted = accepted_in_order();
     if (accepted.empty() || base_.empty()) return {};
-    std::vector<PublishedQuantities> models{{ModelRole::as_it_is, {}, base_}};
-    add(models, ModelRole::accepted, accepted);
+    std::vector<Variant> variants{{ModelRole::accepted, accepted, {}, accepted.back()->run}};
     for (const TestedEffect& rival : report_.found.effects)
       for (std::size_t k = 0; k < accepted.size(); ++k)
-        if (rival.rival && !rival.accepted && rival.group == accepted[k]->group && changes_model(rival)) {
-          std::vector<const TestedEffect*> with(accepted.begin(), accepted.begin() + static_cast<std::ptrdiff_t>(k));
-          with.push_back(&rival);
-          add(models, ModelRole::rival, with);
-        }
+        if (rival.rival && !rival.accepted && rival.group == accepted[k]->group && changes_model(rival))
+          variants.push_back(in_place_of(k, accepted, rival));
+    make_runs_of(variants);
+    std::vector<PublishedQuantities> models{{ModelRole::as_it_is, {}, base_}};
+    for (const Variant& variant : variants) add(models, variant);
     return models;
   }
 
  private:
+  /// A model that explains the data.
+  struct Variant {
+    ModelRole role;
+    std::vector<const TestedEffect*> effects;  ///< each has all before it in its run
+    std::vector<const TestedEffect*> beside;  ///< the one in whose place the last of these is, and those accepted after
+    VectorXd run;                             ///< amplitudes of all
+    bool is_made_of_several() const { return beside.size() > 1; }
+  };
+
+  /// With the others as they were found.
+  Variant in_place_of(std::size_t k, const std::vector<const TestedEffect*>& accepted,
+                      const TestedEffect& rival) const {
+    const auto place = accepted.begin() + static_cast<std::ptrdiff_t>(k);
+    Variant variant{ModelRole::rival, {accepted.begin(), place}, {place, accepted.end()}, rival.run};
+    variant.effects.push_back(&rival);
+    if (!variant.is_made_of_several()) return variant;
+    const auto &own = candidate_of(rival).amplitudes, &others = candidate_of(**place).amplitudes;
+    variant.run = accepted.back()->run;
+    variant.run(others).setZero();
+    variant.run(own) = rival.run(own);
+    return variant;
+  }
+
+  void make_runs_of(const std::vector<Variant>& variants) {
+    MatrixXd wanted(report_.problem.changes.cols(), 0);
+    for (const Variant& variant : variants)
+      if (variant.is_made_of_several()) append_columns(wanted, variant.run);
+    if (wanted.cols() > 0) trials_.residual_at(wanted);
+  }
+
   const Candidate& candidate_of(const TestedEffect& effect) const {
     return report_.problem.candidates[effect.candidate];
   }
@@ -91,23 +121,30 @@ class Published {
     return all;
   }
 
-  /// effects: the last one's run has them all.
-  void add(std::vector<PublishedQuantities>& models, ModelRole role,
-           const std::vector<const TestedEffect*>& effects) const {
-    const std::optional<VectorXd> found = quantities_with(effects.back()->run);
+  void add(std::vector<PublishedQuantities>& models, const Variant& variant) const {
+    const std::optional<VectorXd> found = quantities_with(variant.run);
     if (!found) return;
-    PublishedQuantities model{role, {}, base_};
+    PublishedQuantities model{variant.role, {}, base_};
     VectorXd below = VectorXd::Zero(found->size()), above = below;  // squares
-    VectorXd before = values_of(base_);
     bool is_known = true;
-    for (const TestedEffect* effect : effects) {
-      model.effects.push_back(text_of(finding_of(report_.problem, *effect)));
-      const VectorXd with = quantities_with(effect->run).value_or(before);
-      const Ends ends = ends_of(*effect, with - before, effects.size() == 1);
+    const auto add_effect = [&](const TestedEffect& effect, const VectorXd& change, bool by_itself) {
+      model.effects.push_back(text_of(finding_of(report_.problem, effect)));
+      const Ends ends = ends_of(effect, change, by_itself);
       below += ends.least.cwiseMin(ends.most).cwiseMin(0).cwiseAbs2();
       above += ends.least.cwiseMax(ends.most).cwiseMax(0).cwiseAbs2();
+      is_known = is_known && !effect.at_limit;
+    };
+    VectorXd before = values_of(base_);
+    for (const TestedEffect* effect : variant.effects) {
+      const VectorXd with = quantities_with(effect->run).value_or(before);
+      add_effect(*effect, with - before, variant.effects.size() == 1 && !variant.is_made_of_several());
       before = with;
-      is_known = is_known && !effect->at_limit;
+    }
+    for (std::size_t k = 1; k < variant.beside.size(); ++k) {  // as in the model with what was accepted
+      const std::optional<VectorXd> with = quantities_with(variant.beside[k]->run),
+                                    without = quantities_with(variant.beside[k - 1]->run);
+      add_effect(*variant.beside[k], with && without ? VectorXd(*with - *without) : VectorXd::Zero(found->size()),
+                 false);
     }
     for (Index i = 0; i < found->size(); ++i) {
       QuantityFound& quantity = model.quantities[static_cast<std::size_t>(i)];
@@ -169,7 +206,7 @@ class Published {
 
   const DiagnosedCase& given_;
   const DiagnosisReport& report_;
-  const Trials& trials_;
+  Trials& trials_;
   BeatFacts facts_;
   const FinishedMotion& base_run_;
   std::vector<double> times_;  ///< of frames
@@ -179,7 +216,7 @@ class Published {
 }  // namespace
 
 std::vector<PublishedQuantities> published_models(const DiagnosedCase& given, const Evidence& evidence,
-                                                  const DiagnosisReport& report, const Trials& trials,
+                                                  const DiagnosisReport& report, Trials& trials,
                                                   const FinishedMotion& base, const ModelRuns& runs) {
   return Published(given, evidence, report, trials, facts_of(given, runs), base).all();
 }

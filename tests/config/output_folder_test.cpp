@@ -221,6 +221,11 @@ TEST_F(OutputFolder, IsNotWhereACaseReadsFrom) {
   EXPECT_EQ(refused("observations: {surfaces: {ct: {folder: results, pattern: 'a*'}}}\n"), "results" + end);
   EXPECT_EQ(refused("initial_state: {from: results}\n"), "results" + end);
   EXPECT_EQ(refused("diagnosis: {candidates: [results]}\n"), "no error") << "a word";
+  std::filesystem::create_directory(test_folder() / "12");
+  const auto by_number = write_file("case.yaml", head + "mesh: {swept: {around: 12}}\n");
+  CommandLine command;
+  command.output = test_folder() / "12";
+  EXPECT_EQ(input_error_of([&] { claim_output(command, CaseFile(by_number)); }), "no error") << "a number";
 }
 
 /// For what a verb makes that is no run.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/search/published_models.hpp"
 #include "tests/diagnosis/fake_runs.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/scenarios/surface_file.hpp"
@@ -119,6 +120,72 @@ TEST(FoundValue, LiesBetweenItsEndsWhereTheAmplitudeIsNegative) {
   EXPECT_NEAR(found.value, 0.5, 1e-12);
   EXPECT_NEAR(found.lower, std::pow(2, -1.2), 1e-12);
   EXPECT_NEAR(found.upper, std::pow(2, -0.9), 1e-12);
+  effect.intervals = {AmplitudeInterval{-0.8, -0.7, -0.6}};
+  const FoundValue outside = value_of(problem, effect, 0);
+  EXPECT_NEAR(outside.lower, std::pow(2, -1.196), 1e-4) << "runs found it where the table does not have it";
+  EXPECT_NEAR(outside.upper, std::pow(2, -0.6), 1e-12);
+}
+
+/// A rival of the first of two is shown beside the second, as what was accepted is: a run of both is made.
+TEST_F(WholeDiagnosis, SaysWhatARivalChangesBesideWhatElseWasAccepted) {
+  DiagnosisReport found = report();
+  const FinishedMotion base = runs.make({base_run()}).front();
+  const Evidence evidence(given.data, given.lumen, base);
+  const Whitening whitening(evidence, evidence.problem());
+  Trials trials(found.problem, evidence, whitening, base, runs);
+  const auto at = [&](const std::string& part, bool whole) {
+    const auto& all = found.problem.candidates;
+    return static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(),
+                     [&](const Candidate& c) { return c.part == part && c.extent.is_all() == whole; }) -
+        all.begin());
+  };
+  const auto effect_of = [&](std::size_t candidate, double amplitude, VectorXd run) {
+    TestedEffect effect = found.found.effects.front();
+    effect.candidate = candidate;
+    effect.amplitudes = VectorXd::Constant(1, amplitude);
+    run(found.problem.candidates.at(candidate).amplitudes.front()) = amplitude;
+    effect.run = run;
+    effect.intervals.clear();
+    trials.residual_at(run);
+    return effect;
+  };
+  const VectorXd none = VectorXd::Zero(found.problem.changes.cols());
+  TestedEffect first = effect_of(at("spine", true), 0.8, none), second = effect_of(at("left", true), 0.5, first.run),
+               rival = effect_of(at("spine", false), 1.2, none);
+  second.group = first.group + 1;
+  rival.accepted = false;
+  rival.rival = true;
+  found.found.effects = {first, second, rival};
+  const auto models = published_models(given, evidence, found, trials, base, runs);
+  ASSERT_EQ(models.size(), 3U);
+  EXPECT_NEAR(models[1].quantities.at(0).value, 20 - 5 * (0.8 + 0.5), 1e-9);
+  EXPECT_EQ(models[2].effects.size(), 2U);
+  EXPECT_NEAR(models[2].quantities.at(0).value, 20 - 5 * (1.2 + 0.5), 1e-9);
+  EXPECT_LT(models[2].quantities.at(0).lower.value(), 20 - 5 * (1.2 + 0.5));
+}
+
+TEST_F(WholeDiagnosis, AsksForNothingThatIsExcluded) {
+  auto placed = effects();
+  placed.front().is_new = false;  // the case has it, switched off
+  const auto numbers = [&](const std::vector<std::string>& words) {
+    DiagnosisCase wanted;
+    wanted.exclude = words;
+    std::vector<std::string> names;
+    for (const VariedNumber& one : varied_numbers(runs.parameters(), placed, wanted, given.file))
+      names.push_back(one.number.name);
+    return names;
+  };
+  const std::string spring = "solid.effects.spring_spine.stiffness";
+  EXPECT_EQ(numbers({}).size(), 9U);
+  for (const char* word : {"spring", "spine", spring.c_str()}) {
+    const auto left = numbers({word});
+    EXPECT_EQ(std::count(left.begin(), left.end(), spring), 0) << word;
+  }
+  EXPECT_EQ(numbers({"left"}).size(), 6U) << "and its halves";
+  runs.infos.front().value = 0.5;
+  const auto left = numbers({"spine"});
+  EXPECT_EQ(std::count(left.begin(), left.end(), spring), 1) << "the model has it: how much is its own number";
 }
 
 /// A unit of spring holds a third of the lumen back by half a millimetre.

@@ -52,7 +52,7 @@ TEST(Numerics, WhatACoarserModelDiffersByIsAllowed) {
   ASSERT_EQ(problem.allowed.cols(), 1);
   EXPECT_EQ(problem.allowed.col(0), (VectorXd(3) << 3, -2, 0).finished());
   EXPECT_EQ(problem.allowed_deviation, VectorXd::Constant(1, 0.6));
-  EXPECT_FALSE(problem.allowed_names[0].empty()) << "a person may look after it";
+  EXPECT_FALSE(problem.allowed_errors[0].name.empty()) << "a person may look after it";
   allow_numerics(problem, VectorXd::Constant(3, undefined));
   EXPECT_EQ(problem.allowed.cols(), 1);
 }

@@ -36,7 +36,7 @@ Diagnosis diagnosis() {
   d.look_alike = MatrixXd::Identity(2, 2);
   d.detectable = {{"contact", "spine", "stiffness", 3, "1", 0, 0.2}};
   d.lack_of_fit.before = LackOfFitFound{0.01, 5, 3, "spine", PatternForm::end_to_end, 0.25, -4};
-  d.strained_errors = {{"bias", 2.5}};
+  d.strained_errors = {{"misregistration at ct", 2.5, "x", -0.12, "cm"}};
   d.noise_factors = {{"observations.surfaces.ct", 1.16}, {"observations.traces.p", 1.0}};
   d.split_by = FurtherData{{"pressure", "2 mmHg", 14, 0.86, true}, {{"flow", "", 3, 0.2, false}}};
   d.path = {{"contact", "stiffness", "spine", false, Objection::too_weak, "", 9, 8, {}}};
@@ -104,7 +104,10 @@ TEST(Results, RemarksAreOfWhatIsNoteworthy) {
   EXPECT_FALSE(says("observations.traces.p")) << "as stated";
   EXPECT_TRUE(says("Measuring pressure would tell them apart (chance 86 %; 2 mmHg)"));
   d.split_by->tells = false;
-  EXPECT_TRUE(says("No pressure, no flow and no more or better frames would tell them apart; most would pressure"));
+  EXPECT_TRUE(
+      says("Of the measurements that were weighed none would tell them apart. The best is pressure (chance 86 %"));
+  d.split_by->probability = 0.001;
+  EXPECT_TRUE(says("(chance below 1 %")) << "nothing has a chance of nought";
   d.effects[0].accepted = true;
   EXPECT_TRUE(says("Not confirmed: no frames are held out"));
   d.table.groups.emplace_back().foretold = PhaseGain{20, 4, 10, 9, 0.999};
@@ -125,8 +128,46 @@ TEST(Results, RemarksAreOfWhatIsNoteworthy) {
   d.table.groups[0].members.pop_back();
   d.table.groups[0].probability = 0.99;
   EXPECT_TRUE(says("Runs of all together ask for contact at spine, and not for contact at spine, inlet half"));
+  d.table.groups[0].members.push_back({"contact", {}, "spine", CandidateKind::effect, 1e-6, {}, "", true});
+  EXPECT_TRUE(says("Runs of all together ask for contact at spine")) << "a member that is hardly one";
   d.verdict = Verdict::undecided;
-  EXPECT_TRUE(says("would show whether it is there; most would pressure"));
+  EXPECT_TRUE(says("none would show whether it is there. The best is pressure"));
+}
+
+TEST(Results, AnErrorThatIsAllowedIsToldWithItsSize) {
+  Diagnosis d = diagnosis();
+  d.effects.clear();
+  const auto says = [&](const std::string& words) {
+    const std::vector<std::string> all = remarks_on(d, HeldOutGain::told);
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("see to them: misregistration at ct, x -0.12 cm (2.5 times the deviation that is allowed)"));
+  d.strained_errors = {{"solid.material.young", 3, "solid.material.young", 2e6, "Pa"}};
+  EXPECT_TRUE(says("see to them: solid.material.young, 2e+06 Pa (3.0 times"));
+  d.strained_errors = {{"error of the model's step and mesh", 3, {}, {}, "1"}};
+  EXPECT_TRUE(says("see to them: error of the model's step and mesh (3.0 times"));
+}
+
+/// What is more probable than nothing is told beside it, whatever the verdict rests on.
+TEST(Results, NothingMissingTellsWhatIsNotRuledOut) {
+  Diagnosis d = diagnosis();
+  d.verdict = Verdict::nothing_missing;
+  d.effects.clear();
+  d.table.nothing = 0.29;
+  AlternativeGroup& ring = d.table.groups.emplace_back();
+  ring.members = {{"loose_ring", {}, "inlet_ring", CandidateKind::effect, 1.0, {}, "", true}};
+  ring.least_probability = 0.11;
+  const auto is_said = [&](double probability) {
+    ring.probability = probability;
+    const std::vector<std::string> all = remarks_on(d, HeldOutGain::told);
+    return std::any_of(all.begin(), all.end(), [](const auto& one) {
+      return one ==
+             "It is not ruled out that loose_ring at inlet_ring is: its probability is 46 %, at least 11 % whatever is "
+             "assumed, that of nothing 29 %. These data cannot tell";
+    });
+  };
+  EXPECT_TRUE(is_said(0.456));
+  EXPECT_FALSE(is_said(0.28)) << "less probable than nothing";
 }
 
 /// As a schema has it: 2.0 is a whole number, 2.5 is none.
