@@ -79,7 +79,7 @@ class RefinedModels {
  public:
   RefinedModels(const DiagnosedCase& given, const CandidateModels& models, const std::vector<PlacedEffect>& effects,
                 bool has_coarse) {
-    if (!given.diagnosis.numerics) return;
+    if (!given.asks_numerics()) return;
     const std::vector<RefinedCase> cases = write_refined(models.written(effects, 0), given);
     for (std::size_t k = 0; k < cases.size(); ++k) {
       runs_.push_back(std::make_unique<GrowingRuns>(effects, [&given, &models, k](const auto& all, int grown) {

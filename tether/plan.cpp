@@ -58,7 +58,7 @@ void add_first_order(const fs::path& case_file, PlannedRuns& planned) {
   const Division division(effects, varied_numbers(runs.parameters(), effects, given.diagnosis, given.file));
   planned.first_order = 1 + static_cast<int>(division.undivided().size());
   if (given.diagnosis.coarse) planned.coarser = measured(write_coarse(candidates, given));
-  if (!given.diagnosis.numerics) return;
+  if (!given.asks_numerics()) return;
   for (const RefinedCase& refined : write_refined(candidates, given)) planned.finer.push_back(measured(refined.file));
 }
 

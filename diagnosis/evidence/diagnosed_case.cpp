@@ -34,6 +34,11 @@ DiagnosedCase::DiagnosedCase(const fs::path& path) : inputs(path), file(path) {
   for (const Measurement* source : data.all()) check_noise_of(source->facts(), where);
 }
 
+bool DiagnosedCase::asks_numerics() const {
+  if (diagnosis.numerics != "where_needed") return diagnosis.numerics == "true";
+  return mesh.source == "swept" && !has_coarser_mesh(mesh);
+}
+
 EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, const FinishedMotion& base,
                          const Sensitivities& sensitivities, const std::vector<PlacedEffect>& effects) {
   const UnitSystem& units = given.file.units();

@@ -18,6 +18,8 @@ namespace tether {
 struct DiagnosedCase {
   /// Throws InputError if there are none, or if the noise of one is not given.
   explicit DiagnosedCase(const std::filesystem::path& path);
+  /// Whether runs of a finer step and mesh compete with the effects.
+  bool asks_numerics() const;
 
   InputWatch inputs;  ///< since before they were read
   CaseFile file;

@@ -18,11 +18,13 @@ void DiagnosisCase::declare(Fields& f) {
   f.integer("refinements", refinements, {1, 20}, "runs at most to find an effect's amplitude");
   f.integer("confirmed", confirmed, {1, 100}, "candidates whose amplitude is found with runs before one is chosen");
   f.group("allowed", allowed, "errors of data, inputs and mesh that are no news: standard deviations");
-  f.flag(
-      "numerics", numerics,
-      "whether half the time step, and of a swept mesh twice the elements around and along, compete with the "
-      "effects: two runs that cost some six others, and where the mesh is as coarse as one may be, a few of what leads "
-      "on the finer mesh");
+  f.choice("numerics", numerics,
+           {{"where_needed", "for a swept mesh that is as coarse as one may be: no coarser one tells what it does"},
+            {"true", "always"},
+            {"false", "never: the mesh is known to be fine enough"}},
+           "whether half the time step, and of a swept mesh twice the elements around and along, compete with the "
+           "effects: two runs that cost some six others, and where the mesh is as coarse as one may be, a few of what "
+           "leads on the finer mesh");
   f.flag(
       "coarse", coarse,
       "whether what each number does to first order is found with twice the time step, and on a swept mesh with half "

@@ -10,7 +10,8 @@ struct DiagnosisCase {
   double step = 1, alpha = 0.05, unexplained = 0.1;
   int most = 3, refinements = 5, confirmed = 8;
   AllowanceCase allowed;
-  bool numerics = false, coarse = true;
+  std::string numerics = "where_needed";
+  bool coarse = true;
   void declare(Fields& f);
 };
 

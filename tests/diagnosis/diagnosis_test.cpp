@@ -165,6 +165,19 @@ TEST_F(WholeDiagnosis, SaysWhatARivalChangesBesideWhatElseWasAccepted) {
   EXPECT_LT(models[2].quantities.at(0).lower.value(), 20 - 5 * (1.2 + 0.5));
 }
 
+/// What the mesh does is asked of a finer one where none can be coarser.
+TEST_F(WholeDiagnosis, AsksAFinerMeshWhereNoneIsCoarser) {
+  EXPECT_FALSE(given.asks_numerics()) << "24 x 16: half of it is a mesh too";
+  const auto asks = [&](const std::string& more) {
+    return DiagnosedCase(folder.file("more.yaml", "base: case.yaml\nname: more\n" + more)).asks_numerics();
+  };
+  const std::string coarse = "mesh: {swept: {around: 12, along: 8}}\n";
+  EXPECT_TRUE(asks(coarse));
+  EXPECT_TRUE(asks("mesh: {swept: {along: 8}}\n"));
+  EXPECT_FALSE(asks(coarse + "diagnosis: {numerics: false}\n"));
+  EXPECT_TRUE(asks("diagnosis: {numerics: true}\n"));
+}
+
 TEST_F(WholeDiagnosis, AsksForNothingThatIsExcluded) {
   auto placed = effects();
   placed.front().is_new = false;  // the case has it, switched off

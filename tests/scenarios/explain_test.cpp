@@ -27,6 +27,7 @@ solid: {{support: {{regions: {{spine: {{stiffness: 0}}}}}}}}
 diagnosis:
   candidates: [{}]
   exclude: [vicinity_left, vicinity_right, opposite, fluid.density, solid.density, fluid.rheology.viscosity]
+  numerics: false
 twin:
   truth: held.yaml
   frames: 8

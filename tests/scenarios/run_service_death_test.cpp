@@ -20,7 +20,7 @@ constexpr const char* measured = R"(base: {}/configs/tube/case.yaml
 name: model
 time: {{step: 4e-3, end: 0.06}}
 mesh: {{swept: {{around: 12, along: 8}}}}
-diagnosis: {{candidates: [tissue_mass], exclude: [vicinity_left, vicinity_right, opposite]}}
+diagnosis: {{candidates: [tissue_mass], exclude: [vicinity_left, vicinity_right, opposite], numerics: false}}
 observations:
   traces:
     cuff: {{observable: fluid.outlet.pressure, quantity: pressure, absolute: false, noise: {{deviation: 5 mmHg}},
