@@ -70,8 +70,8 @@ Pids launchers() {
   return pids;
 }
 
-/// Until the process has ended and its parent knows how. Three seconds, where it waits itself for one that is to be
-/// killed; a busy machine takes one.
+/// Until the process has ended and its parent knows how: three seconds at most, since it may wait itself for what is to
+/// be killed.
 void await_end_of(pid_t pid) {
   for (int i = 0; i < 60 && kill(pid, 0) == 0; ++i) usleep(50'000);
 }

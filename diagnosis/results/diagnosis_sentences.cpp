@@ -130,7 +130,7 @@ void add_why_open(std::vector<std::string>& all, const Diagnosis& diagnosis) {
                   fmt::join(open, ", nor ")));
 }
 
-/// What is said to be missing nowhere is more probable than nothing, though too little to be tried.
+/// An explanation that is more probable than nothing, and not probable enough to be named.
 void add_what_is_not_ruled_out(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const auto& table = diagnosis.table;
   if (diagnosis.verdict != Verdict::nothing_missing || table.groups.empty()) return;
