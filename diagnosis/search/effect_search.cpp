@@ -280,12 +280,13 @@ class Search {
     });
   }
 
-  /// Members that moments do not tell from the first, of which there are more than were refined: with a run each.
+  /// Members that moments do not tell from the first, of which there are more than were refined: with a run each. One
+  /// that would have to do nothing stands for the others of its set alone.
   void keep_others_as_good(const WeighedGroup& group, const Refinement& chosen) {
     for (std::size_t k = 0; k < group.as_good.size(); ++k) {
       TestedEffect effect = *std::find_if(result_.effects.begin(), result_.effects.end(),
                                           [&](const TestedEffect& e) { return e.candidate == group.members[k]; });
-      if (!group.as_good[k] || effect.confirmed || effect.accepted) continue;
+      if (!group.as_good[k] || group.amplitudes[k] == 0 || effect.confirmed || effect.accepted) continue;
       effect.amplitudes(0) = group.amplitudes[k];
       effect.run = now_.amplitudes;
       effect.run(problem_.candidates[effect.candidate].amplitudes.front()) = group.amplitudes[k];

@@ -146,6 +146,10 @@ TEST(PhaseGain, AllThatMomentsDoNotTellApartAreTold) {
     EXPECT_EQ(result.verdict, as_good ? Verdict::ambiguous : Verdict::missing);
     EXPECT_EQ(effect_of(result, spring).group, effect_of(result, late).group);
   }
+  group.amplitudes[1] = 0;
+  const SearchResult without = search_effects(problem, settings, runs, weighing, {});
+  EXPECT_FALSE(effect_of(without, spring).rival) << "it would do nothing";
+  EXPECT_EQ(without.verdict, Verdict::missing);
 }
 
 /// The 95 % interval of what is named, where what is hidden is as large as expected beforehand, and beside something
