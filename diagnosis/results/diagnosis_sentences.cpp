@@ -110,12 +110,16 @@ bool is_same(const Alternative& member, const Finding& finding) {
 
 constexpr double told = 0.02;  ///< a probability below which it would be told from what was found
 
-/// Those that by their probability would be.
+/// Those that by their probability would be; none where what was found would be as well, and runs found it all the
+/// same.
 std::vector<std::string> improbable_rivals(const Diagnosis& diagnosis, const AlternativeGroup& group) {
   std::vector<std::string> all;
   for (const Alternative& member : group.members)
-    for (const Finding& finding : diagnosis.effects)
-      if (finding.rival && member.share < told && is_same(member, finding)) all.push_back(name_of(finding));
+    for (const Finding& finding : diagnosis.effects) {
+      if (!(member.share < told) || !is_same(member, finding)) continue;
+      if (finding.accepted) return {};
+      if (finding.rival) all.push_back(name_of(finding));
+    }
   return all;
 }
 

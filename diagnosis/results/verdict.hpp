@@ -27,6 +27,7 @@ enum class Objection {
   lack_of_fit_stays,
   beyond_its_limit,
   misfit_stays,
+  part_of_one_law,
 };
 
 template <>
@@ -40,6 +41,7 @@ inline constexpr auto words_of<Objection> = std::to_array<WordOf<Objection>>({
     {Objection::lack_of_fit_stays, "lack_of_fit_stays", "the lack of fit does not fall"},
     {Objection::beyond_its_limit, "beyond_its_limit", "it would have to be larger than it may be"},
     {Objection::misfit_stays, "misfit_stays", "the misfit does not fall"},
+    {Objection::part_of_one_law, "part_of_one_law", "one law explains as much as it does together with another"},
 });
 
 /// What was refused may be there: something else is not improbable enough.

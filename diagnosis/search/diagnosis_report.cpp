@@ -175,7 +175,8 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.held_out = found.held_out;
   d.lack_of_fit = {lack_of(problem, found.before), lack_of(problem, found.after)};
   d.located = report.located;
-  d.patch = report.patch;
+  const auto is_on_it = [](const Finding& finding) { return finding.patch && (finding.accepted || finding.rival); };
+  if (std::any_of(d.effects.begin(), d.effects.end(), is_on_it)) d.patch = report.patch;
   d.strained_errors = found.strained;
   d.noise = report.noise;
   d.more = found.more;

@@ -6,24 +6,21 @@
 #include <numeric>
 #include <set>
 
+#include "diagnosis/evidence/data_errors.hpp"
 #include "diagnosis/search/amplitude_interval.hpp"
 #include "diagnosis/search/confirmation.hpp"
+#include "diagnosis/search/contenders.hpp"
 #include "diagnosis/search/judgement.hpp"
 #include "diagnosis/search/phase_gain.hpp"
-#include "diagnosis/search/refinement.hpp"
+#include "diagnosis/search/race.hpp"
 
 namespace tether {
 namespace {
 
 using Index = Eigen::Index;
 
-constexpr double sure = 0.95;       ///< probability of a group
-constexpr double the_same = 0.99;   ///< cosine
-constexpr std::size_t at_once = 2;  ///< candidates that are run before others know what they are up against
-constexpr double even = 0.5;        ///< probability of a group that is tried
-/// Share of a group's member that is named alone: 95 % though logarithms of evidence are off by 1, as between runs.
-constexpr double alone = 0.98;
-
+constexpr double sure = 0.95;  ///< probability of a group
+constexpr double even = 0.5;   ///< probability of a group that is tried
 /// What is named only at so many times the size that it may have is not what data like these look for.
 constexpr double beyond_patients = 5;
 
@@ -35,8 +32,8 @@ class Search {
       : problem_(with_discrepancy(problem, weighed.discrepancy)),
         evidence_(evidence),
         settings_(settings),
-        refused_(refused_in(problem_, settings)),
         residual_at_(residual_at),
+        race_(problem_, settings, residual_at, result_.runs),
         plain_(problem_),
         naming_(naming(problem_)),
         confirmation_(problem_) {
@@ -55,6 +52,8 @@ class Search {
     for (TestedEffect& effect : result_.effects) set_detectable(effect);
     result_.before = result_.after = lack_of_fit(problem_, plain_, problem_.residual);
     while (add_one()) continue;
+    if (join_two())
+      while (add_one()) continue;
     try_in_place();
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
@@ -90,46 +89,12 @@ class Search {
     return static_cast<int>(std::count_if(now_.accepted.begin(), now_.accepted.end(),
                                           [&](std::size_t c) { return problem_.candidates[c].takes_runs(); }));
   }
-  bool is_accepted(std::size_t candidate) const {
-    return std::find(now_.accepted.begin(), now_.accepted.end(), candidate) != now_.accepted.end();
-  }
 
   /// The most probable group that was not tried yet; null if none is as probable as not.
   const WeighedGroup* next_group() {
     for (std::size_t g = 0; g < result_.weighed.groups.size(); ++g)
       if (result_.weighed.groups[g].probability >= even && tried_.insert(g).second) return &result_.weighed.groups[g];
     return nullptr;
-  }
-
-  /// Its members that may be it, at their most probable amplitudes. Beside what is accepted already all of them, and
-  /// all that look like the first: their shares are of what each does alone, runs of both together decide.
-  std::vector<TestedEffect> likely_of(const WeighedGroup& group, const Trained& trained) const {
-    const Scores scores = trained.scores(problem_.changes, now_.residual);
-    const std::vector<TestedEffect> tested = test_all(problem_, scores, result_.independent);
-    std::vector<TestedEffect> all;
-    for (std::size_t k = 0; k < group.members.size() && static_cast<int>(all.size()) < settings_.confirmed; ++k) {
-      const bool as_good = k < group.as_good.size() && group.as_good[k];
-      if (k > 0 && group.shares.front() >= alone && now_.accepted.empty() && !as_good) continue;
-      TestedEffect& effect = all.emplace_back(*std::find_if(
-          tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members[k]; }));
-      if (std::isfinite(group.amplitudes[k])) effect.amplitudes(0) = group.amplitudes[k];
-    }
-    if (!now_.accepted.empty()) add_in_its_place(all, group, tested, scores);
-    return all;
-  }
-
-  void add_in_its_place(std::vector<TestedEffect>& all, const WeighedGroup& group, std::vector<TestedEffect> tested,
-                        const Scores& scores) const {
-    const TestedEffect first = *std::find_if(
-        tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == group.members.front(); });
-    std::stable_sort(tested.begin(), tested.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
-    for (const TestedEffect& other : tested) {
-      const bool may_be_it =
-          other.gain > tested.front().gain / 2 || std::pow(cosine(problem_, scores, first, other), 2) > look_alike;
-      if (may_be_it && static_cast<int>(all.size()) < settings_.confirmed && !group.has(other.candidate) &&
-          !refused_[other.candidate] && problem_.candidates[other.candidate].takes_runs())
-        all.push_back(other);
-    }
   }
 
   /// What mesh and step may make wrong in what it does at its amplitude: a column, or none.
@@ -148,42 +113,12 @@ class Search {
     return one.best() < named + hopeless + (error.cols() > 0 ? std::expm1(plain_.cost(error.col(0))) : 0);
   }
 
-  /// Finds the amplitudes of the strongest with runs, always of those that promise most; the hopeless are not run.
-  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Trained& trained) {
+  /// Finds the amplitudes of the strongest with runs.
+  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Scores& scores) {
     std::vector<Refinement> all;
     for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, error_of(effect), problem_);
-    const Scores scores = trained.scores(problem_.changes, now_.residual);
-    while (true) {
-      std::vector<Refinement*> open;
-      for (Refinement& one : all)
-        if (!one.done() && one.runs() < settings_.refinements) open.push_back(&one);
-      if (open.empty()) return all;
-      std::stable_sort(open.begin(), open.end(), [](const auto* a, const auto* b) { return a->hope() < b->hope(); });
-      if (open.size() > at_once) open.resize(at_once);
-      run(open);
-      learn_from_look_alikes(all, scores);
-      give_up_hopeless(all);
-    }
-  }
-
-  void run(const std::vector<Refinement*>& open) {
-    MatrixXd wanted(problem_.changes.cols(), static_cast<Index>(open.size()));
-    for (std::size_t i = 0; i < open.size(); ++i) wanted.col(static_cast<Index>(i)) = open[i]->amplitudes();
-    const MatrixXd residuals = residual_at_(wanted);
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      const auto k = static_cast<Index>(i);
-      open[i]->take(residuals.col(k));
-      result_.runs.push_back({wanted.col(k), residuals.col(k)});
-    }
-  }
-
-  /// What does the same to first order saturates alike.
-  void learn_from_look_alikes(std::vector<Refinement>& all, const Scores& scores) const {
-    for (Refinement& one : all)
-      for (const Refinement& other : all)
-        if (!one.begun() && other.begun() &&
-            std::abs(cosine(problem_, scores, one.effect(), other.effect())) > the_same)
-          one.expect_at_most(now_misfit() - std::min(other.best(), other.hope()));
+    race_.run(all, scores, now_misfit());
+    return all;
   }
   double now_misfit() const { return plain_.misfit(now_.residual); }
 
@@ -220,12 +155,15 @@ class Search {
   bool add_one() {
     const WeighedGroup* group = next_group();
     if (!group) return false;
+    const Trained trained(problem_, now_.changes, now_.errors);
+    const Scores scores = trained.scores(problem_.changes, now_.residual);
     if (added() == settings_.most) {
-      result_.more = group->probability >= sure;
+      const std::vector<TestedEffect> beside = test_all(problem_, scores, result_.independent);
+      result_.more = group->probability >= sure && worth_of(of_candidate(beside, group->members.front())) > 0;
       return false;
     }
-    const Trained trained(problem_, now_.changes, now_.errors);
-    settle(refined(likely_of(*group, trained), trained), *group);
+    const Trial trial{problem_, settings_, scores, result_.independent, now_.accepted.empty()};
+    settle(refined(contenders_of(*group, trial), scores), *group);
     return true;
   }
 
@@ -249,27 +187,38 @@ class Search {
     }
     const double spread = dispersion((chosen ? chosen->state() : before).residual);
     for (const Refinement* one : order) {
-      TestedEffect effect = one->effect();
-      effect.run = one->state().amplitudes;
-      effect.held_out = confirmation_.of(before.residual, one->state().residual);
-      effect.deviations *= std::sqrt(spread);
+      TestedEffect effect = record_of(*one, before, spread);
       effect.accepted = one == chosen;
       const bool explains_more = chosen && one->best() < chosen->best();
       const bool may_be_it = !is_the_groups || group.has(effect.candidate) || explains_more;
       effect.rival = chosen && one != chosen && may_be_it && !was_too_weak(effect.candidate) &&
                      (before.accepted.empty() || comes_near(*one, chosen->best()));
-      if (effect.rival) rival_of_[effect.candidate] = chosen->effect().candidate;
-      keep(effect);
+      keep(effect, chosen ? chosen->effect().candidate : effect.candidate);
     }
     if (!chosen) return;
     keep_others_as_good(group, *chosen);
-    accepted_.push_back({chosen->effect(), before, chosen->best()});
-    now_ = chosen->state();
+    accept(*chosen, before, spread);
+    std::erase_if(tried_, [&](std::size_t g) { return may_be_beside(result_.weighed.groups[g]); });
+  }
+
+  /// What its runs showed of it, added to a model; spread: misfit per independent datum.
+  TestedEffect record_of(const Refinement& one, const AmplitudeState& before, double spread) const {
+    const AmplitudeState with = one.state();
+    TestedEffect effect = one.effect();
+    effect.run = with.amplitudes;
+    effect.held_out = confirmation_.of(before.residual, with.residual);
+    effect.deviations *= std::sqrt(spread);
+    return effect;
+  }
+
+  /// Goes on from there. The last step of the path is this one.
+  void accept(const Refinement& chosen, const AmplitudeState& before, double spread) {
+    accepted_.push_back({chosen.effect(), before, chosen.best()});
+    now_ = chosen.state();
     plain_ = left_free(problem_, now_.errors);
     naming_ = left_free(naming(problem_), now_.errors);
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
-    std::erase_if(tried_, [&](std::size_t g) { return may_be_beside(result_.weighed.groups[g]); });
   }
 
   /// Tried by itself it removed nothing, not enough, or left too much: what was accepted now was missing beside it.
@@ -284,16 +233,116 @@ class Search {
   /// that would have to do nothing stands for the others of its set alone.
   void keep_others_as_good(const WeighedGroup& group, const Refinement& chosen) {
     for (std::size_t k = 0; k < group.as_good.size(); ++k) {
-      TestedEffect effect = *std::find_if(result_.effects.begin(), result_.effects.end(),
-                                          [&](const TestedEffect& e) { return e.candidate == group.members[k]; });
+      TestedEffect effect = of_candidate(result_.effects, group.members[k]);
       if (!group.as_good[k] || group.amplitudes[k] == 0 || effect.confirmed || effect.accepted) continue;
       effect.amplitudes(0) = group.amplitudes[k];
       effect.run = now_.amplitudes;
       effect.run(problem_.candidates[effect.candidate].amplitudes.front()) = group.amplitudes[k];
       if (!residual_at_(effect.run).allFinite()) continue;
       effect.rival = true;
-      rival_of_[effect.candidate] = chosen.effect().candidate;
-      keep(std::move(effect));
+      keep(std::move(effect), chosen.effect().candidate);
+    }
+  }
+
+  /// Two of one place that look like one law, which explains about as much as both, are that law: what strong effects
+  /// do is no sum, so that another came first, and what that leaves of the law second.
+  bool join_two() {
+    for (const std::size_t one : now_.accepted)
+      for (const std::size_t other : now_.accepted) {
+        if (one == other || problem_.candidates[one].part != problem_.candidates[other].part) continue;
+        const std::vector<TestedEffect> laws = laws_for(one, other);
+        if (!laws.empty() && is_joined(one, other, laws)) return true;
+      }
+    return false;
+  }
+
+  /// Rivals of one that look like another beside it as well.
+  std::vector<TestedEffect> laws_for(std::size_t one, std::size_t other) const {
+    std::vector<TestedEffect> laws;
+    for (const TestedEffect& effect : result_.effects)
+      if (effect.rival && rival_of_[effect.candidate] == one &&
+          std::pow(evidence_.cosine(effect.candidate, other), 2) > look_alike)
+        laws.push_back(effect);
+    return laws;
+  }
+
+  AmplitudeState without(std::size_t one, std::size_t other) const {
+    AmplitudeState left = now_;
+    left.errors.resize(Eigen::NoChange, 0);
+    left.changes.resize(Eigen::NoChange, 0);
+    left.accepted.clear();
+    for (std::size_t k = 0; k < now_.accepted.size(); ++k) {
+      const std::size_t candidate = now_.accepted[k];
+      if (candidate == one || candidate == other) {
+        left.amplitudes(problem_.candidates[candidate].amplitudes).setZero();
+        continue;
+      }
+      left.accepted.push_back(candidate);
+      append_columns(left.changes, now_.changes.col(static_cast<Index>(k)));
+      append_columns(left.errors, error_of(of_candidate(result_.effects, candidate)));
+    }
+    left.residual = residual_at_(left.amplitudes).col(0);
+    return left;
+  }
+
+  bool is_joined(std::size_t one, std::size_t other, const std::vector<TestedEffect>& laws) {
+    const AmplitudeState both = now_, left = without(one, other);
+    if (!left.residual.allFinite()) return false;
+    const auto go_on_from = [&](const AmplitudeState& state) {
+      now_ = state;
+      plain_ = left_free(problem_, now_.errors);
+      naming_ = left_free(naming(problem_), now_.errors);
+    };
+    go_on_from(left);
+    const Trained trained(problem_, now_.changes, now_.errors);
+    const std::vector<Refinement> all = refined(laws, trained.scores(problem_.changes, now_.residual));
+    const auto law = std::min_element(all.begin(), all.end(), [](const Refinement& a, const Refinement& b) {
+      return std::pair(!a.begun(), a.best()) < std::pair(!b.begun(), b.best());
+    });
+    if (!law->begun() || law->effect().at_limit || are_asked_for(other, both, law->state())) {
+      go_on_from(both);
+      return false;
+    }
+    withdraw(one, other);
+    const AmplitudeState with = law->state();
+    const LackOfFit rest = lack_of_fit(problem_, left_free(problem_, with.errors), with.residual);
+    result_.path.push_back({law->effect().candidate, {}, now_misfit(), law->best(), rest});
+    const double spread = dispersion(with.residual);
+    for (const Refinement& each : all) {
+      if (!each.begun()) continue;
+      TestedEffect effect = record_of(each, left, spread);
+      effect.accepted = &each == &*law;
+      effect.rival = !effect.accepted && comes_near(each, law->best());
+      keep(effect, law->effect().candidate);
+    }
+    accept(*law, left, spread);
+    result_.more = false;
+    std::erase_if(tried_, [&](std::size_t g) { return may_be_beside(result_.weighed.groups[g]); });
+    return true;
+  }
+
+  /// Whether a second one is sure to be there, by what it removes that one law in the place of both does not.
+  bool are_asked_for(std::size_t second, const AmplitudeState& both, const AmplitudeState& law) const {
+    const auto misfit = [&](const AmplitudeState& state) {
+      return left_free(naming(problem_), state.errors).misfit(state.residual);
+    };
+    TestedEffect removed = of_candidate(result_.effects, second);
+    removed.confirmed_gain = (misfit(law) - misfit(both)) / dispersion(both.residual);
+    const double odds_before = 1 / static_cast<double>(problem_.candidates.size());
+    return std::exp(worth_of(removed) / 2) * odds_before > sure / (1 - sure);
+  }
+
+  /// Two that were accepted are so no longer, and nothing stands in their place.
+  void withdraw(std::size_t one, std::size_t other) {
+    const auto is_of_them = [&](std::size_t candidate) { return candidate == one || candidate == other; };
+    for (SearchStep& step : result_.path)
+      if (step.accepted() && is_of_them(step.candidate)) step.objection = Objection::part_of_one_law;
+    std::erase_if(accepted_, [&](const Addition& addition) { return is_of_them(addition.effect.candidate); });
+    for (TestedEffect& effect : result_.effects) {
+      if (is_of_them(effect.candidate)) effect.accepted = effect.confirmed = false;
+      if (!effect.rival || !is_of_them(rival_of_[effect.candidate])) continue;
+      effect.rival = false;
+      rival_of_[effect.candidate] = effect.candidate;
     }
   }
 
@@ -309,21 +358,16 @@ class Search {
     for (const WeighedGroup& group : result_.weighed.groups) {
       const std::size_t candidate = group.members.front();
       if (group.probability < even || group.has(last.effect.candidate) || !was_too_weak(candidate)) continue;
-      TestedEffect effect =
-          *std::find_if(tested.begin(), tested.end(), [&](const TestedEffect& e) { return e.candidate == candidate; });
+      TestedEffect effect = of_candidate(tested, candidate);
       if (std::isfinite(group.amplitudes.front())) effect.amplitudes(0) = group.amplitudes.front();
       std::vector<Refinement> alone;
       alone.emplace_back(effect, last.before, error_of(effect), problem_);
       Refinement& one = alone.front();
-      while (!one.done() && one.runs() < settings_.refinements && one.hope() < last.best + hopeless) run({&one});
+      race_.run(one, last.best);
       if (!one.begun() || !comes_near(one, last.best)) continue;
-      effect = one.effect();
-      effect.run = one.state().amplitudes;
-      effect.held_out = confirmation_.of(last.before.residual, one.state().residual);
-      effect.deviations *= std::sqrt(result_.dispersion);
+      effect = record_of(one, last.before, result_.dispersion);
       effect.rival = true;
-      rival_of_[candidate] = last.effect.candidate;
-      keep(std::move(effect));
+      keep(std::move(effect), last.effect.candidate);
     }
   }
 
@@ -360,14 +404,14 @@ class Search {
     });
   }
 
-  /// What is known of an effect now; `visible` stays what it was without any other.
-  void keep(TestedEffect effect) {
-    TestedEffect& kept = *std::find_if(result_.effects.begin(), result_.effects.end(),
-                                       [&](const TestedEffect& e) { return e.candidate == effect.candidate; });
-    if (kept.accepted) return;
+  /// What is known of an effect now; `visible` stays what it was without any other, and a rival what it was in the
+  /// place of what was accepted: beside that it has nothing to do.
+  void keep(TestedEffect effect, std::size_t accepted) {
+    TestedEffect& kept = of_candidate(result_.effects, effect.candidate);
+    if (kept.accepted || (kept.rival && !effect.accepted)) return;
+    if (effect.rival) rival_of_[effect.candidate] = accepted;
     effect.visible = kept.visible;
     effect.testable = kept.testable;
-    effect.rival = !effect.accepted && (effect.rival || kept.rival);
     kept = std::move(effect);
   }
 
@@ -410,15 +454,15 @@ class Search {
   EffectProblem problem_;  ///< the model is as far off as the data say
   const SetEvidence& evidence_;
   const SearchSettings& settings_;
-  std::vector<bool> refused_;
   const ResidualAt& residual_at_;
+  SearchResult result_;
+  Race race_;
   Trained plain_;
   Trained naming_;
   Confirmation confirmation_;
   AmplitudeState now_;
   std::vector<Addition> accepted_;
   double misfit_as_it_is_ = 0;
-  SearchResult result_;
   std::vector<std::size_t> rival_of_;
   std::set<std::size_t> tried_;  ///< groups
 };

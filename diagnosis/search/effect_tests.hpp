@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "diagnosis/search/held_out_gain.hpp"
@@ -31,6 +32,12 @@ struct TestedEffect {
   double visible = 0;  ///< smallest size of its first amplitude that the data would show, in 80 of 100 such sets; below
                        ///< zero where only smaller values are admissible (D.12)
 };
+
+/// That of a candidate, which must be among them.
+auto& of_candidate(auto& effects, std::size_t candidate) {
+  return *std::find_if(effects.begin(), effects.end(),
+                       [&](const TestedEffect& effect) { return effect.candidate == candidate; });
+}
 
 /// Smallest and largest of an amplitude, as factors of what was found.
 struct AmplitudeRange {

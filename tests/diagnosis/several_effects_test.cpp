@@ -291,6 +291,53 @@ TEST(EffectSearch, WhatIsTooWeakBesideAnotherMayStandInItsPlace) {
   EXPECT_LT(rivals(given.changes.col(3)), 0.1) << "acts elsewhere";
 }
 
+/// The first law's place is taken by a look-alike, which leaves a part of it that a third one explains.
+TEST(EffectSearch, TwoThatOneLawDoesTheWorkOfAreThatLaw) {
+  const auto joins = [](double more, const std::string& where) {
+    return share(
+        [&](std::mt19937_64& generator) {
+          EffectProblem problem = band();
+          add_candidate(problem, "wide", response(2, 16, beat));
+          const VectorXd both = problem.changes.col(4) + problem.changes.col(8);
+          add_candidate(problem, "law", 0.7 * both + more * problem.changes.col(5));
+          problem.candidates[8].part = where;
+          problem.residual = noise(generator) + 9 * problem.changes.col(0) + 7 * both;
+          const SearchResult result = found_with(
+              problem, {{1, 1, {4, 9}, {0.9, 0.1}, {12, 10}, {true, true}, {}, {}}, of_one(0, 9), of_one(8, 7)});
+          EXPECT_TRUE(effect_of(result, 0).accepted);
+          const bool is_law = effect_of(result, 9).accepted;
+          EXPECT_EQ(effect_of(result, 4).accepted, !is_law);
+          EXPECT_EQ(effect_of(result, 8).accepted, !is_law);
+          EXPECT_EQ(result.path.front().objection == Objection::part_of_one_law, is_law);
+          if (is_law) {
+            EXPECT_NEAR(effect_of(result, 9).amplitudes(0), 10, 2);
+            EXPECT_EQ(effect_of(result, 0).amplitudes.size(), 1);
+            EXPECT_FALSE(effect_of(result, 4).rival || effect_of(result, 8).rival);
+          }
+          return is_law;
+        },
+        10);
+  };
+  EXPECT_EQ(joins(0, ""), 1);
+  EXPECT_LT(joins(0.6, ""), 0.1) << "it does more than both, that is not there";
+  EXPECT_EQ(joins(0, "elsewhere"), 0);
+}
+
+/// Beside what it is a rival of, it has nothing to do: its size is that in the place of it.
+TEST(EffectSearch, ARivalsSizeIsThatInThePlaceOfWhatWasAccepted) {
+  std::mt19937_64 generator(31);
+  EffectProblem problem = band();
+  add_candidate(problem, "other", 1.02 * problem.changes.col(0));
+  problem.residual = noise(generator) + 9 * problem.changes.col(0) + 6 * problem.changes.col(4);
+  const SearchResult result = found_with(problem, {{1, 1, {0, 8}, {0.6, 0.4}, {9, 9}, {true, true}, {}, {}},
+                                                   {1, 1, {4, 8}, {0.9, 0.1}, {6, 1}, {true, true}, {}, {}}});
+  ASSERT_TRUE(effect_of(result, 0).accepted);
+  ASSERT_TRUE(effect_of(result, 4).accepted);
+  ASSERT_TRUE(effect_of(result, 8).rival);
+  EXPECT_NEAR(effect_of(result, 8).amplitudes(0), 9, 2);
+  EXPECT_GT(effect_of(result, 8).confirmed_gain, 100);
+}
+
 /// Beside the first effect the table asks for a second one, which is refused; what explains less is no stand-in for it.
 TEST(EffectSearch, TakesNothingInPlaceOfWhatIsRefusedUnlessItExplainsMore) {
   std::mt19937_64 generator(31);
