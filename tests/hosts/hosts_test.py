@@ -18,6 +18,8 @@ TETHER, CONFIGS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).absolu
 OURS = {"tether", "mpirun", "ssh", "orted", "identification_", "fsi_master", "fluid", "solid", "observation_man"}
 KERNELS = {"OPENBLAS_CORETYPE": "Nehalem"}  # other last digits than those of the kernels that a host would choose by itself
 NOTICED = 60  # [s]: half a minute without a word, and what programs then have to say to each other
+IN_TWO = "base: springs.yaml\nname: in_two\ncoupling: {ranks: {fluid: 2, solid: 2}}\n"  # processes of each code
+
 
 class Hosts(unittest.TestCase):
     @classmethod
@@ -28,6 +30,7 @@ class Hosts(unittest.TestCase):
         cls.addClassCleanup(cls.group.stop)
         cases.write_tube(cls.folder, CONFIGS, end=0.4)
         cases.write_twin(cls.folder, TETHER)
+        (cls.folder / "twin/in_two.yaml").write_text(IN_TWO)
         cls.tether("identify", "twin/springs.yaml", "--processes", "3", "--output", "here", "--quiet")
 
     def setUp(self):
@@ -37,8 +40,8 @@ class Hosts(unittest.TestCase):
     def tether(cls, *words):
         subprocess.run([TETHER, *words], cwd=cls.folder, env=os.environ | cases.AS_ROOT | KERNELS, check=True, capture_output=True)
 
-    def identify(self, name, *words, nodes="h0,h1,h2", **more):
-        line = [TETHER, "identify", "twin/springs.yaml", "--processes", "3", "--output", name, "--quiet", *words]
+    def identify(self, name, *words, nodes="h0,h1,h2", case="springs", **more):
+        line = [TETHER, "identify", f"twin/{case}.yaml", "--processes", "3", "--output", name, "--quiet", *words]
         return self.group.start(self.group.hosts[0], line, self.folder, cases.AS_ROOT | KERNELS | {"TETHER_NODES": nodes} | more,
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
@@ -51,22 +54,22 @@ class Hosts(unittest.TestCase):
         wait(lambda: saved.exists() or run.poll() is not None, 60, "a saved state")
         self.assertIsNone(run.poll(), run.poll() and run.stderr.read())
 
-    def assert_told(self, run, host, name):
+    def assert_told(self, run, host, name, case="springs"):
         told = host_group.told_by(run, NOTICED)
         self.assertEqual(run.returncode, 1, told)
         self.assertIn(f"tether: mpirun ended the run: no answer from {host}\n", told)
-        self.assertIn(f"To continue: tether identify twin/springs.yaml --output {name} --processes 3 --resume\n", told)
+        self.assertIn(f"To continue: tether identify twin/{case}.yaml --output {name} --processes 3 --resume\n", told)
         ours = [line for line in told.splitlines() if not line.startswith("[")]  # not what mpirun's own servers log of each other
         self.assertLessEqual(len(ours), 4, told)
 
     def assert_nothing_left(self, seconds, *hosts):
         wait(lambda: not any(map(self.ours, hosts)), seconds, "the end of all processes")
 
-    def assert_goes_on(self, name, nodes):
-        run = self.identify(name, "--resume", nodes=nodes)
+    def assert_goes_on(self, name, nodes, case="springs", undisturbed="here"):
+        run = self.identify(name, "--resume", nodes=nodes, case=case)
         self.assertEqual(host_group.told_by(run, 120), "")
         self.assertEqual(run.returncode, 0)
-        self.assertEqual(cases.estimates(self.folder / name), cases.estimates(self.folder / "here"))
+        self.assertEqual(cases.estimates(self.folder / name), cases.estimates(self.folder / undisturbed))
 
     def test_each_model_is_on_a_host_of_its_own_and_the_estimate_is_that_of_one_host(self):
         run = self.identify("over")
@@ -83,6 +86,17 @@ class Hosts(unittest.TestCase):
         self.assert_told(run, "h1", "lost")
         self.assert_nothing_left(10, first, third)
         self.assert_goes_on("lost", "h0,h2")
+
+    def test_a_host_that_is_lost_with_a_model_in_several_processes_is_named_and_the_others_go_on(self):
+        self.tether("identify", "twin/in_two.yaml", "--processes", "3", "--output", "in_two", "--quiet")
+        first, second, third = self.group.hosts
+        run = self.identify("lost_in_two", case="in_two")
+        self.wait_for_state(run, "lost_in_two")
+        self.assertEqual([len(second.processes()[code]) for code in ("fluid", "solid")], [2, 2])
+        second.lose()
+        self.assert_told(run, "h1", "lost_in_two", case="in_two")
+        self.assert_nothing_left(10, first, third)
+        self.assert_goes_on("lost_in_two", "h0,h2", case="in_two", undisturbed="in_two")
 
     def test_a_host_that_is_lost_while_it_starts_is_named(self):
         """Before its orted has called, only ssh knows of it."""
