@@ -70,6 +70,12 @@ class Search {
   }
 
  private:
+  struct Addition {
+    TestedEffect effect;
+    AmplitudeState before;  ///< without it
+    double best;            ///< of the misfit, with it
+  };
+
   double worth_of(const TestedEffect& effect) const { return worth(problem_, effect, result_.independent); }
   bool is_worth_more(const TestedEffect& a, const TestedEffect& b) const { return worth_of(a) > worth_of(b); }
 
@@ -114,10 +120,12 @@ class Search {
   }
 
   /// Finds the amplitudes of the strongest with runs.
-  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Scores& scores) {
+  /// near: a misfit that is known, which they must come near to.
+  std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Scores& scores,
+                                  double near = infinite) {
     std::vector<Refinement> all;
     for (const TestedEffect& effect : strongest) all.emplace_back(effect, now_, error_of(effect), problem_);
-    race_.run(all, scores, now_misfit());
+    race_.run(all, scores, now_misfit(), near);
     return all;
   }
   double now_misfit() const { return plain_.misfit(now_.residual); }
@@ -214,9 +222,7 @@ class Search {
   /// Goes on from there. The last step of the path is this one.
   void accept(const Refinement& chosen, const AmplitudeState& before, double spread) {
     accepted_.push_back({chosen.effect(), before, chosen.best()});
-    now_ = chosen.state();
-    plain_ = left_free(problem_, now_.errors);
-    naming_ = left_free(naming(problem_), now_.errors);
+    stand_at(chosen.state());
     result_.after = result_.path.back().left;
     result_.dispersion = spread;
   }
@@ -288,22 +294,17 @@ class Search {
   bool is_joined(std::size_t one, std::size_t other, const std::vector<TestedEffect>& laws) {
     const AmplitudeState both = now_, left = without(one, other);
     if (!left.residual.allFinite()) return false;
-    const auto go_on_from = [&](const AmplitudeState& state) {
-      now_ = state;
-      plain_ = left_free(problem_, now_.errors);
-      naming_ = left_free(naming(problem_), now_.errors);
-    };
-    go_on_from(left);
+    stand_at(left);
     const Trained trained(problem_, now_.changes, now_.errors);
     const std::vector<Refinement> all = refined(laws, trained.scores(problem_.changes, now_.residual));
     const auto law = std::min_element(all.begin(), all.end(), [](const Refinement& a, const Refinement& b) {
       return std::pair(!a.begun(), a.best()) < std::pair(!b.begun(), b.best());
     });
     if (!law->begun() || law->effect().at_limit || are_asked_for(other, both, law->state())) {
-      go_on_from(both);
+      stand_at(both);
       return false;
     }
-    withdraw(one, other);
+    withdraw({one, other}, Objection::part_of_one_law);
     const AmplitudeState with = law->state();
     const LackOfFit rest = lack_of_fit(problem_, left_free(problem_, with.errors), with.residual);
     result_.path.push_back({law->effect().candidate, {}, now_misfit(), law->best(), rest});
@@ -333,10 +334,12 @@ class Search {
   }
 
   /// Two that were accepted are so no longer, and nothing stands in their place.
-  void withdraw(std::size_t one, std::size_t other) {
-    const auto is_of_them = [&](std::size_t candidate) { return candidate == one || candidate == other; };
+  void withdraw(const std::vector<std::size_t>& candidates, Objection why) {
+    const auto is_of_them = [&](std::size_t candidate) {
+      return std::find(candidates.begin(), candidates.end(), candidate) != candidates.end();
+    };
     for (SearchStep& step : result_.path)
-      if (step.accepted() && is_of_them(step.candidate)) step.objection = Objection::part_of_one_law;
+      if (step.accepted() && is_of_them(step.candidate)) step.objection = why;
     std::erase_if(accepted_, [&](const Addition& addition) { return is_of_them(addition.effect.candidate); });
     for (TestedEffect& effect : result_.effects) {
       if (is_of_them(effect.candidate)) effect.accepted = effect.confirmed = false;
@@ -346,29 +349,42 @@ class Search {
     }
   }
 
-  /// What the table has beside an effect, and runs find nothing left for there, may do in its place: what two do is
-  /// added up in the table, so that of one law's two numbers both were probable, and the one that was run first was
-  /// named.
+  /// What the table has beside an effect, and runs find no place for there, may do in its place: what two do is added
+  /// up in the table, so that of one law's two numbers both were probable, and the one that was run first was named.
   void try_in_place() {
     if (accepted_.empty() || !problem_.candidates[accepted_.back().effect.candidate].takes_runs()) return;
     const Addition& last = accepted_.back();
-    const Trained trained(problem_, last.before.changes, last.before.errors);
-    const std::vector<TestedEffect> tested =
-        test_all(problem_, trained.scores(problem_.changes, last.before.residual), result_.independent);
+    const AmplitudeState with = now_;
+    std::vector<TestedEffect> rivals;
+    stand_at(last.before);
+    const Scores scores = Trained(problem_, now_.changes, now_.errors).scores(problem_.changes, now_.residual);
     for (const WeighedGroup& group : result_.weighed.groups) {
-      const std::size_t candidate = group.members.front();
-      if (group.probability < even || group.has(last.effect.candidate) || !was_too_weak(candidate)) continue;
-      TestedEffect effect = of_candidate(tested, candidate);
-      if (std::isfinite(group.amplitudes.front())) effect.amplitudes(0) = group.amplitudes.front();
-      std::vector<Refinement> alone;
-      alone.emplace_back(effect, last.before, error_of(effect), problem_);
-      Refinement& one = alone.front();
-      race_.run(one, last.best);
-      if (!one.begun() || !comes_near(one, last.best)) continue;
-      effect = record_of(one, last.before, result_.dispersion);
+      if (group.probability < even || group.has(last.effect.candidate) || !has_no_place(group)) continue;
+      const Trial alone{problem_, settings_, scores, result_.independent, true};
+      for (const Refinement& one : refined(contenders_of(group, alone), scores, last.best))
+        if (one.begun() && comes_near(one, last.best))
+          rivals.push_back(record_of(one, last.before, result_.dispersion));
+    }
+    stand_at(with);
+    for (TestedEffect& effect : rivals) {
       effect.rival = true;
       keep(std::move(effect), last.effect.candidate);
     }
+  }
+
+  /// Beside what was accepted it removed too little, or what it did was not confirmed.
+  bool has_no_place(const WeighedGroup& group) const {
+    return std::any_of(result_.path.begin(), result_.path.end(), [&](const SearchStep& step) {
+      return group.has(step.candidate) &&
+             (step.objection == Objection::too_weak || step.objection == Objection::not_confirmed);
+    });
+  }
+
+  /// Goes on from there.
+  void stand_at(const AmplitudeState& state) {
+    now_ = state;
+    plain_ = left_free(problem_, now_.errors);
+    naming_ = left_free(naming(problem_), now_.errors);
   }
 
   /// Whether runs do not say against the table that something else than the group is wanted.
@@ -444,12 +460,6 @@ class Search {
   static Trained left_free(const EffectProblem& problem, const MatrixXd& errors) {
     return {problem, MatrixXd(problem.residual.size(), 0), errors};
   }
-
-  struct Addition {
-    TestedEffect effect;
-    AmplitudeState before;  ///< without it
-    double best;            ///< of the misfit, with it
-  };
 
   EffectProblem problem_;  ///< the model is as far off as the data say
   const SetEvidence& evidence_;

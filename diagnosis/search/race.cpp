@@ -22,7 +22,7 @@ void learn_from_look_alikes(std::vector<Refinement>& all, const EffectProblem& p
 
 }  // namespace
 
-void Race::run(std::vector<Refinement>& all, const Scores& scores, double misfit) {
+void Race::run(std::vector<Refinement>& all, const Scores& scores, double misfit, double near) {
   while (true) {
     std::vector<Refinement*> open;
     for (Refinement& one : all)
@@ -32,12 +32,8 @@ void Race::run(std::vector<Refinement>& all, const Scores& scores, double misfit
     if (open.size() > at_once) open.resize(at_once);
     run_once(open);
     learn_from_look_alikes(all, problem_, scores, misfit);
-    give_up_hopeless(all);
+    give_up_hopeless(all, near);
   }
-}
-
-void Race::run(Refinement& one, double near) {
-  while (!one.done() && one.runs() < settings_.refinements && one.hope() < near + hopeless) run_once({&one});
 }
 
 void Race::run_once(const std::vector<Refinement*>& open) {

@@ -6,7 +6,7 @@
 namespace tether {
 
 /// Runs that find the amplitudes of candidates which compete for one place: always those of the ones that promise most,
-/// until none can come as near to the best as a rival must.
+/// until none of the others can come as near to the best as a rival must.
 class Race {
  public:
   /// shown: runs that were made, at finite size.
@@ -14,10 +14,8 @@ class Race {
        std::vector<ShownRun>& shown)
       : problem_(problem), settings_(settings), residual_at_(residual_at), shown_(shown) {}
 
-  /// scores, misfit: of the model on the way, beside which they are refined.
-  void run(std::vector<Refinement>& all, const Scores& scores, double misfit);
-  /// One by itself, as long as it may come near to a misfit.
-  void run(Refinement& one, double near);
+  /// scores, misfit: of the model on the way, beside which they are refined. near: what they must come near to as well.
+  void run(std::vector<Refinement>& all, const Scores& scores, double misfit, double near);
 
  private:
   void run_once(const std::vector<Refinement*>& open);

@@ -171,8 +171,7 @@ double smallest_misfit(const std::vector<const Refinement*>& all) {
   return best;
 }
 
-void give_up_hopeless(std::vector<Refinement>& all) {
-  double best = infinite;
+void give_up_hopeless(std::vector<Refinement>& all, double best) {
   for (const Refinement& one : all) best = std::min(best, one.best());
   for (Refinement& one : all)
     if (one.hope() > best + hopeless) one.give_up();

@@ -75,8 +75,8 @@ constexpr double hopeless = 12;  ///< of the misfit, behind the best
 
 /// That any of them came down to so far.
 double smallest_misfit(const std::vector<const Refinement*>& all);
-/// Those that cannot come as near to the best as rivals must.
-void give_up_hopeless(std::vector<Refinement>& all);
+/// Those that cannot come as near to the best as rivals must; best: that is known beside theirs.
+void give_up_hopeless(std::vector<Refinement>& all, double best);
 /// What explains less together with what was accepted, by more than rivals may, comes last.
 void put_first_what_runs_ask_for(std::vector<const Refinement*>& all);
 
