@@ -29,17 +29,22 @@ MeasuredNumber over(const MeasuredNumber& number, double stated) {
 }
 
 NoiseCheck check_of(const std::vector<NoisePosterior>& shapes, const NoiseFit& best, const Noise& stated) {
-  double with = -std::numeric_limits<double>::infinity();
-  for (const NoisePosterior& shape : shapes)
-    with = std::max(with, shape.log_likelihood_with(stated.deviation, stated.correlation_length));
+  const auto chance = [&](std::optional<double> deviation, std::optional<double> length) {
+    double with = -std::numeric_limits<double>::infinity();
+    for (const NoisePosterior& shape : shapes) with = std::max(with, shape.log_likelihood_with(deviation, length));
+    return chi_square_tail(std::max(0.0, 2 * (best.log_likelihood - with)), deviation && length ? 2 : 1);
+  };
   NoiseCheck check;
   check.deviation = stated.deviation;
   check.correlation_length = stated.correlation_length;
   check.deviation_ratio = over(best.deviation, stated.deviation);
   check.length_ratio = over(best.correlation_length, stated.correlation_length);
-  check.p = chi_square_tail(std::max(0.0, 2 * (best.log_likelihood - with)), 2);
-  check.contradicts = check.p < improbable &&
-                      (is_off(check.deviation_ratio, deviation_matters) || is_off(check.length_ratio, length_matters));
+  check.p = chance(stated.deviation, stated.correlation_length);
+  const bool is_deviation =
+                 is_off(check.deviation_ratio, deviation_matters) && chance(stated.deviation, {}) < improbable,
+             is_length =
+                 is_off(check.length_ratio, length_matters) && chance({}, stated.correlation_length) < improbable;
+  check.contradicts = check.p < improbable && (is_deviation || is_length);
   return check;
 }
 

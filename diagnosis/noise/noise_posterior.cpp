@@ -45,6 +45,8 @@ std::map<double, double> sampled(const Sampling& how, const std::function<double
   }
 }
 
+/// Of a length this many times shorter than the places are apart no two of them are alike: shorter ones look the same.
+constexpr double white = 4;
 constexpr Sampling logits{-7, 3, 0.5, 0.25, 0.03};  // nuggets of 0.001 to 0.95
 
 double nugget_of(double logit) {
@@ -104,7 +106,7 @@ NoisePosterior::NoisePosterior(const RestrictedLikelihood& likelihood, Correlati
     : likelihood_(likelihood), shape_(shape) {
   const auto [spacing, extent] = spacing_and_extent(likelihood.fields());
   longest_ = std::log(extent);
-  const Sampling lengths{std::log(spacing / 2), longest_, 0.6, 0.16, 0.02};
+  const Sampling lengths{std::log(spacing / white), longest_, 0.6, 0.16, 0.02};
   std::vector<double> log_lengths;
   for (const auto& [log_length, value] : sampled(lengths, [&](double x) { return add_slice(x); }))
     log_lengths.push_back(log_length);
@@ -189,12 +191,19 @@ double NoisePosterior::log_likelihood() const {
       ->log_likelihood;
 }
 
-double NoisePosterior::log_likelihood_with(double deviation, double length) const {
-  const auto slice = likelihood_.slice(shape_, length);
-  const auto known =
-      sampled(logits, [&](double logit) { return likelihood_.log_likelihood(slice.at(nugget_of(logit)), deviation); });
-  return std::max_element(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->second;
+double NoisePosterior::log_likelihood_with(std::optional<double> deviation, std::optional<double> length) const {
+  const auto value = [&](const RestrictedSums& sums) {
+    return deviation ? likelihood_.log_likelihood(sums, *deviation) : likelihood_.log_likelihood(sums);
+  };
+  double best = -std::numeric_limits<double>::infinity();
+  if (!length) {
+    for (const Node& node : nodes_) best = std::max(best, value(node.sums));
+    return best;
+  }
+  const auto slice = likelihood_.slice(shape_, *length);
+  for (const auto& [logit, likelihood] : sampled(logits, [&](double at) { return value(slice.at(nugget_of(at))); }))
+    best = std::max(best, likelihood);
+  return best;
 }
 
 }  // namespace tether

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/noise/restricted_likelihood.hpp"
 
 namespace tether {
@@ -17,8 +19,8 @@ class NoisePosterior {
   bool reaches_end() const;
   /// The largest.
   double log_likelihood() const;
-  /// The largest with this deviation and length, whatever the nugget.
-  double log_likelihood_with(double deviation, double length) const;
+  /// The largest with this deviation and length, or with one of them whatever the other; whatever the nugget.
+  double log_likelihood_with(std::optional<double> deviation, std::optional<double> length) const;
 
  private:
   struct Node {

@@ -30,6 +30,7 @@ struct Drawn {
   CorrelationShape shape = CorrelationShape::exponential;
   double nugget = 0, correlation_time = 0;
   int frames = 8;
+  double alike_over = length;
 };
 
 /// Errors in frames 0.1 apart, with an offset and a shift that are not small.
@@ -39,7 +40,7 @@ NoiseField noise_on(const Tube& tube, const Drawn& drawn, std::uint64_t seed) {
   for (int k = 0; k < drawn.frames; ++k) {
     const Random random(seed, static_cast<std::uint64_t>(k));
     VectorXd error =
-        std::sqrt(1 - drawn.nugget) * RandomField(length, random, drawn.shape)(tube.places) +
+        std::sqrt(1 - drawn.nugget) * RandomField(drawn.alike_over, random, drawn.shape)(tube.places) +
         std::sqrt(drawn.nugget) * RandomField(0, Random(seed, 100 + static_cast<std::uint64_t>(k)))(tube.places);
     const double kept = k > 0 && drawn.correlation_time > 0 ? std::exp(-0.1 / drawn.correlation_time) : 0;
     if (k > 0) error = VectorXd(kept * last + std::sqrt(1 - kept * kept) * error);
@@ -68,10 +69,10 @@ Seen seen_of(const Drawn& drawn, const Noise& stated, int draws) {
     const NoiseFit& fit = noise.fits[noise.fits[0].shape == drawn.shape ? 0 : 1];
     ++seen.draws;
     seen.deviations += holds(fit.deviation, deviation);
-    seen.lengths += holds(fit.correlation_length, length);
+    seen.lengths += holds(fit.correlation_length, drawn.alike_over);
     seen.nuggets += holds(fit.nugget, std::max(drawn.nugget, 0.0));
     seen.log_deviation += std::log(fit.deviation.value / deviation) / draws;
-    seen.log_length += std::log(fit.correlation_length.value / length) / draws;
+    seen.log_length += std::log(fit.correlation_length.value / drawn.alike_over) / draws;
     (noise.fits[0].shape == drawn.shape ? seen.right_shape : seen.wrong_shape) += noise.shape_is_told;
     seen.remarks += noise.stated->contradicts;
     seen.below_half += noise.stated->p < 0.5;
@@ -116,6 +117,15 @@ TEST(MeasuredNoise, OfAGaussianShapeIsWhatWasPutIn) {
   const Seen seen = seen_of({CorrelationShape::gaussian, 0.15}, {deviation, length, 0}, draws);
   expect_right(seen);
   EXPECT_GE(seen.nuggets, least) << seen;
+}
+
+/// Places are 0.36 apart and more: hardly any two are alike.
+TEST(MeasuredNoise, OfAShorterLengthThanPlacesTellIsNotContradicted) {
+  constexpr double shorter = 0.16;
+  const Seen seen = seen_of({.nugget = 0.15, .alike_over = shorter}, {deviation, shorter, 0}, draws);
+  EXPECT_GE(seen.deviations, least) << seen;
+  EXPECT_GE(seen.lengths, least) << seen;
+  EXPECT_LE(seen.remarks, 4) << seen;
 }
 
 TEST(MeasuredNoise, OfAnotherKindThanStatedIsSaid) {
