@@ -1,6 +1,5 @@
 #include "diagnosis/search/effect_search.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -57,7 +56,9 @@ class Search {
     try_in_place();
     result_.amplitudes = now_.amplitudes;
     result_.residual = now_.residual;
-    refit_accepted();
+    if (now_.accepted.size() > 1)
+      take_beside_each_other(result_.effects, now_, plain_.scores(now_.changes, now_.residual), result_.dispersion,
+                             problem_);
     judge({problem_, settings_, plain_, now_, confirmation_, misfit_as_it_is_, rival_of_}, result_);
     set_groups(result_.effects, problem_, scores, result_.independent, rival_of_);
     std::stable_sort(result_.effects.begin(), result_.effects.end(), [&](const auto& a, const auto& b) {
@@ -65,7 +66,7 @@ class Search {
       if (a.confirmed != b.confirmed) return a.confirmed;
       return is_worth_more(a, b);
     });
-    compare_strongest(scores);
+    result_.cosines = cosines_of_first(result_.effects, settings_.compared, problem_, scores);
     return std::move(result_);
   }
 
@@ -255,11 +256,15 @@ class Search {
   bool join_two() {
     for (const std::size_t one : now_.accepted)
       for (const std::size_t other : now_.accepted) {
-        if (one == other || problem_.candidates[one].part != problem_.candidates[other].part) continue;
+        if (one == other || !are_of_one_place(problem_.candidates[one], problem_.candidates[other])) continue;
         const std::vector<TestedEffect> laws = laws_for(one, other);
         if (!laws.empty() && is_joined(one, other, laws)) return true;
       }
     return false;
+  }
+
+  static bool are_of_one_place(const Candidate& one, const Candidate& other) {
+    return one.takes_runs() && other.takes_runs() && one.part == other.part;
   }
 
   /// Rivals of one that look like another beside it as well.
@@ -429,32 +434,6 @@ class Search {
     effect.visible = kept.visible;
     effect.testable = kept.testable;
     kept = std::move(effect);
-  }
-
-  /// Amplitudes and deviations of those accepted first, as they are beside the later ones.
-  void refit_accepted() {
-    if (now_.accepted.size() < 2) return;
-    const MatrixXd covariance = plain_.scores(now_.changes, now_.residual).information.inverse();
-    for (std::size_t k = 0; k < now_.accepted.size(); ++k) {
-      const auto number = static_cast<Index>(k);
-      for (TestedEffect& effect : result_.effects)
-        if (effect.candidate == now_.accepted[k]) {
-          effect.amplitudes = now_.amplitudes(problem_.candidates[effect.candidate].amplitudes);
-          effect.beside = true;
-          const VectorXd in_proportion =
-              effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * result_.dispersion);
-          effect.deviations = in_proportion.size() == 1 ? in_proportion : in_proportion.cwiseMax(effect.deviations);
-        }
-    }
-  }
-
-  void compare_strongest(const Scores& scores) {
-    const auto count = std::min<Index>(settings_.compared, static_cast<Index>(result_.effects.size()));
-    result_.cosines.resize(count, count);
-    for (Index i = 0; i < count; ++i)
-      for (Index j = 0; j < count; ++j)
-        result_.cosines(i, j) = cosine(problem_, scores, result_.effects[static_cast<std::size_t>(i)],
-                                       result_.effects[static_cast<std::size_t>(j)]);
   }
 
   static Trained left_free(const EffectProblem& problem, const MatrixXd& errors) {

@@ -172,6 +172,17 @@ std::vector<TestedEffect> test_all(const EffectProblem& problem, const Scores& s
   return all;
 }
 
+MatrixXd cosines_of_first(const std::vector<TestedEffect>& effects, int count, const EffectProblem& problem,
+                          const Scores& scores) {
+  const auto all = std::min<Index>(count, static_cast<Index>(effects.size()));
+  MatrixXd cosines(all, all);
+  for (Index i = 0; i < all; ++i)
+    for (Index j = 0; j < all; ++j)
+      cosines(i, j) =
+          cosine(problem, scores, effects[static_cast<std::size_t>(i)], effects[static_cast<std::size_t>(j)]);
+  return cosines;
+}
+
 double worth(const EffectProblem& problem, const TestedEffect& effect, double count) {
   const double gain = effect.confirmed ? effect.confirmed_gain : effect.gain;
   const auto& own = problem.candidates[effect.candidate].amplitudes;

@@ -65,6 +65,10 @@ VectorXd as_in_patients(const EffectProblem& problem, const TestedEffect& effect
 /// Of the model's changes for two effects, each at its best amplitudes. (D.9)
 double cosine(const EffectProblem& problem, const Scores& scores, const TestedEffect& a, const TestedEffect& b);
 
+/// The same of the first `count`, each with each other.
+MatrixXd cosines_of_first(const std::vector<TestedEffect>& effects, int count, const EffectProblem& problem,
+                          const Scores& scores);
+
 /// Evidence less what so many amplitudes cost with `count` independent data (BIC), and what their sizes cost if they
 /// may be of any order of magnitude beyond the scale that they may have in a patient. (D.10)
 double worth(const EffectProblem& problem, const TestedEffect& effect, double count);

@@ -165,6 +165,19 @@ AmplitudeState Refinement::state() const {
   return state;
 }
 
+void take_beside_each_other(std::vector<TestedEffect>& effects, const AmplitudeState& state, const Scores& scores,
+                            double dispersion, const EffectProblem& problem) {
+  const MatrixXd covariance = scores.information.inverse();
+  for (std::size_t k = 0; k < state.accepted.size(); ++k) {
+    const auto number = static_cast<Eigen::Index>(k);
+    TestedEffect& effect = of_candidate(effects, state.accepted[k]);
+    effect.amplitudes = state.amplitudes(problem.candidates[effect.candidate].amplitudes);
+    effect.beside = true;
+    const VectorXd in_proportion = effect.amplitudes.cwiseAbs() * std::sqrt(covariance(number, number) * dispersion);
+    effect.deviations = in_proportion.size() == 1 ? in_proportion : in_proportion.cwiseMax(effect.deviations);
+  }
+}
+
 double smallest_misfit(const std::vector<const Refinement*>& all) {
   double best = infinite;
   for (const Refinement* one : all) best = std::min(best, one->best());

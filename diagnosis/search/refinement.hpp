@@ -71,6 +71,11 @@ class Refinement {
   bool done_ = false;
 };
 
+/// Amplitudes and deviations of those accepted first, as they are beside the later ones; scores: of what all do in the
+/// state.
+void take_beside_each_other(std::vector<TestedEffect>& effects, const AmplitudeState& state, const Scores& scores,
+                            double dispersion, const EffectProblem& problem);
+
 constexpr double hopeless = 12;  ///< of the misfit, behind the best
 
 /// That any of them came down to so far.

@@ -291,6 +291,25 @@ TEST(EffectSearch, WhatIsTooWeakBesideAnotherMayStandInItsPlace) {
   EXPECT_LT(rivals(given.changes.col(3)), 0.1) << "acts elsewhere";
 }
 
+/// What a group does beside the first is there in the training moments alone: held-out ones do not confirm it. One of
+/// it does in the place of the first.
+TEST(EffectSearch, WhatIsNotConfirmedBesideAnotherMayStandInItsPlace) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    std::mt19937_64 generator(seed);
+    EffectProblem problem = band();
+    const VectorXd in_training = response(1, 8, [](int m) { return m % 3 == 2 ? 0.0 : beat(m); });
+    add_candidate(problem, "other", problem.changes.col(0) + 0.6 * in_training);
+    problem.residual = noise(generator) + 6 * problem.changes.col(0) + 3 * in_training;
+    const SearchResult result =
+        found_with(problem, {of_one(0, 6), {1, 1, {2, 8}, {0.9, 0.1}, {3, 6}, {true, true}, {}, {}}});
+    ASSERT_TRUE(effect_of(result, 0).accepted);
+    ASSERT_EQ(result.path.at(1).candidate, 2U);
+    ASSERT_EQ(result.path.at(1).objection, Objection::not_confirmed);
+    EXPECT_TRUE(effect_of(result, 8).rival);
+    EXPECT_NEAR(effect_of(result, 8).amplitudes(0), 6, 1.5);
+  }
+}
+
 /// The first law's place is taken by a look-alike, which leaves a part of it that a third one explains.
 TEST(EffectSearch, TwoThatOneLawDoesTheWorkOfAreThatLaw) {
   const auto joins = [](double more, const std::string& where) {
