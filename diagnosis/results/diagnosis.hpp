@@ -162,7 +162,7 @@ struct Diagnosis {
 };
 
 /// Whether some region, moment or form is farther off than noise and errors allowed make any of them by chance, with
-/// the probability alpha/5. (D.11)
+/// the probability alpha/5 (D.11), or a place than any noise does (D.24).
 bool leaves_patterns(const Diagnosis& diagnosis);
 /// The accepted ones that change the model, or those that are errors of data or numerics.
 std::vector<Finding> accepted_of(const Diagnosis& diagnosis, bool of_data);

@@ -110,6 +110,21 @@ bool is_same(const Alternative& member, const Finding& finding) {
 
 constexpr double told = 0.02;  ///< a probability below which it would be told from what was found
 
+bool has(const AlternativeGroup& group, const Finding& finding) {
+  return std::any_of(group.members.begin(), group.members.end(),
+                     [&](const Alternative& member) { return is_same(member, finding); });
+}
+
+/// The group of the first law that was accepted, or of the first that was; null where the table has none.
+const AlternativeGroup* named_group(const Diagnosis& diagnosis) {
+  const auto& groups = diagnosis.table.groups;
+  for (const bool of_data : {false, true})
+    for (const Finding& finding : accepted_of(diagnosis, of_data))
+      for (const AlternativeGroup& group : groups)
+        if (has(group, finding) && finding.kind != CandidateKind::numerics) return &group;
+  return groups.empty() ? nullptr : &groups.front();
+}
+
 /// Those that by their probability would be; none where what was found would be as well, and runs found it all the
 /// same.
 std::vector<std::string> improbable_rivals(const Diagnosis& diagnosis, const AlternativeGroup& group) {
@@ -123,10 +138,37 @@ std::vector<std::string> improbable_rivals(const Diagnosis& diagnosis, const Alt
   return all;
 }
 
+/// "contact stiffness at spine 69 %, visco_elastic stiffness at spine 31 %, others below 2 %"; empty where it is one.
+std::string shares_of(const AlternativeGroup& group) {
+  std::vector<std::string> all;
+  for (const Alternative& member : group.members)
+    if (member.share >= told) all.push_back(fmt::format("{} {}", name_of(member), percent_of(member.share)));
+  if (all.size() < 2) return "";
+  return fmt::format("{}{}", fmt::join(all, ", "), all.size() < group.members.size() ? ", others below 2 %" : "");
+}
+
+/// How probable each of those is that these data cannot tell apart, of what was accepted, where runs did not choose
+/// what the table has below all others.
+void add_shares(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  if (diagnosis.verdict != Verdict::ambiguous) return;
+  for (const AlternativeGroup& group : diagnosis.table.groups) {
+    const bool is_of_the_table =
+        std::any_of(group.members.begin(), group.members.end(), [&](const Alternative& member) {
+          return member.share >= told &&
+                 std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
+                             [&](const Finding& finding) { return finding.accepted && is_same(member, finding); });
+        });
+    if (const std::string shares = shares_of(group); is_of_the_table && !shares.empty())
+      all.push_back("Of these the probability is: " + shares);
+  }
+}
+
 /// Why something that is improbable is a rival. (D.21)
 void add_why_open(std::vector<std::string>& all, const Diagnosis& diagnosis) {
-  if (diagnosis.verdict != Verdict::ambiguous || diagnosis.table.groups.empty()) return;
-  const std::vector<std::string> open = improbable_rivals(diagnosis, diagnosis.table.groups.front());
+  if (diagnosis.verdict != Verdict::ambiguous) return;
+  std::vector<std::string> open;
+  for (const AlternativeGroup& group : diagnosis.table.groups)
+    for (std::string& name : improbable_rivals(diagnosis, group)) open.push_back(std::move(name));
   if (open.empty()) return;
   all.push_back(
       fmt::format("If errors are as stated it is not {} (below 2 %). That rests on a fifth of the moments: the others "
@@ -152,7 +194,7 @@ void add_what_is_not_ruled_out(std::vector<std::string>& all, const Diagnosis& d
 /// Where runs of several effects together named what the table, which adds up what each does by itself, does not have.
 void add_what_runs_changed(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const auto& groups = diagnosis.table.groups;
-  const auto has = [](const AlternativeGroup& group, const Finding& finding) {
+  const auto is_likely = [](const AlternativeGroup& group, const Finding& finding) {
     return std::any_of(group.members.begin(), group.members.end(), [&](const Alternative& member) {
       return member.share * group.probability >= told && is_same(member, finding);
     });
@@ -160,12 +202,12 @@ void add_what_runs_changed(std::vector<std::string>& all, const Diagnosis& diagn
   std::vector<std::string> named, instead;
   for (const Finding& finding : diagnosis.effects)
     if (finding.accepted &&
-        std::none_of(groups.begin(), groups.end(), [&](const auto& group) { return has(group, finding); }))
+        std::none_of(groups.begin(), groups.end(), [&](const auto& group) { return is_likely(group, finding); }))
       named.push_back(name_of(finding));
   for (const AlternativeGroup& group : groups)
     if (group.probability >= 0.95 &&
         std::none_of(diagnosis.effects.begin(), diagnosis.effects.end(), [&](const Finding& finding) {
-          return (finding.accepted || finding.rival) && has(group, finding);
+          return (finding.accepted || finding.rival) && is_likely(group, finding);
         }))
       instead.push_back(name_of(group.members.front()));
   if (named.empty() || instead.empty()) return;
@@ -208,8 +250,14 @@ void add_place(std::vector<std::string>& all, const Diagnosis& diagnosis) {
 void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const Verdict verdict = diagnosis.verdict;
   const auto& after = diagnosis.lack_of_fit.after;
-  if (verdict == Verdict::missing && leaves_patterns(diagnosis))
+  const bool names = verdict == Verdict::missing || verdict == Verdict::ambiguous;
+  if (names && leaves_patterns(diagnosis) && after)
     all.push_back(fmt::format("Something smaller is left: {}", where_left(*after)));
+  else if (names && diagnosis.doubtful && after && any_accepted(diagnosis))
+    all.push_back(
+        fmt::format("More is left than noise and the errors allowed make in one of twenty data sets; farthest "
+                    "off: {}",
+                    where_left(*after)));
   if (!diagnosis.strained_errors.empty() && !any_accepted(diagnosis)) all.push_back(strained_sentence(diagnosis));
   if (verdict == Verdict::undecided && diagnosis.doubtful && after)
     all.push_back(fmt::format("Farthest off: {}", where_left(*after)));
@@ -236,23 +284,21 @@ void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
 
 /// How the first of what was found foretells moments; whether nothing but the fit itself speaks for it.
 void add_foretold(std::vector<std::string>& all, const Diagnosis& diagnosis) {
-  const auto& groups = diagnosis.table.groups;
-  const bool is_asked = !groups.empty() && groups.front().foretold;
-  if (is_asked)
+  const AlternativeGroup* group = named_group(diagnosis);
+  if (group && group->foretold)
     all.push_back(fmt::format("Each moment foretold from the others: better with it for {} of {}",
-                              groups.front().foretold->better, groups.front().foretold->moments));
+                              group->foretold->better, group->foretold->moments));
   else if (!diagnosis.held_out)
     all.push_back("Not confirmed: no frames are held out");
 }
 
 /// What the name of what leads depends on.
 void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
-  const auto& table = diagnosis.table;
+  const AlternativeGroup* group = named_group(diagnosis);
   constexpr double even = 0.5, no_news = 0.995;
-  if (table.otherwise.empty() || table.groups.empty()) return;
-  const AlternativeGroup& first = table.groups.front();
-  if (first.probability < even || first.least_probability > no_news) return;
-  const std::string most = percent_of(first.probability), least = percent_of(first.least_probability);
+  if (diagnosis.table.otherwise.empty() || !group) return;
+  if (group->probability < even || group->least_probability > no_news) return;
+  const std::string most = percent_of(group->probability), least = percent_of(group->least_probability);
   all.push_back(fmt::format(
       "Its probability is {}, {} if effects may be half or twice as large, the noise is 30 % off, or the model's own "
       "error half or twice what was assumed",
@@ -288,7 +334,7 @@ std::vector<Finding> accepted_of(const Diagnosis& diagnosis, bool of_data) {
 
 bool leaves_patterns(const Diagnosis& diagnosis) {
   const auto& after = diagnosis.lack_of_fit.after;
-  return after && after->p < diagnosis.alpha / 5;
+  return (after && after->p < diagnosis.alpha / 5) || is_no_noise(diagnosis.located.after);
 }
 
 std::string open_question_of(const Diagnosis& diagnosis) {
@@ -339,6 +385,7 @@ std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain
     all.push_back(split_sentence(*diagnosis.split_by, "tell them apart"));
   if (diagnosis.verdict == Verdict::undecided && diagnosis.split_by)
     all.push_back(split_sentence(*diagnosis.split_by, "show whether it is there"));
+  add_shares(all, diagnosis);
   add_why_open(all, diagnosis);
   add_what_is_not_ruled_out(all, diagnosis);
   add_what_runs_changed(all, diagnosis);

@@ -53,4 +53,10 @@ struct LocatedMisfits {
   }
 };
 
+/// By so many deviations neither noise nor errors allowed lay a place off, whatever else is unsure.
+constexpr double no_noise_does = 6;
+inline bool is_no_noise(const std::optional<LocatedMisfit>& misfit) {
+  return misfit && misfit->z > no_noise_does;
+}
+
 }  // namespace tether

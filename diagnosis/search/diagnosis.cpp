@@ -7,6 +7,7 @@
 #include "diagnosis/noise/noise_of_evidence.hpp"
 #include "diagnosis/search/division.hpp"
 #include "diagnosis/search/further_measurements.hpp"
+#include "diagnosis/search/judgement.hpp"
 #include "diagnosis/search/misfit_map.hpp"
 #include "diagnosis/search/patch_search.hpp"
 #include "diagnosis/search/published_models.hpp"
@@ -295,6 +296,7 @@ class DiagnosisRun {
   /// What is told beside what was found.
   void conclude(const MisfitMap& map) {
     locate_misfit(report_, given_, map);
+    judge_place(report_.located.after, report_.problem, report_.found);
     report_.noise = noise_left(report_.found.amplitudes, evidence_, as_data_, trials_);
     report_.splits = splits_of(given_, report_, evidence_, trials_, sensitivities_.motions, model_.runs.columns());
     report_.published = published_models(given_, evidence_, report_, trials_, base_, model_.runs);

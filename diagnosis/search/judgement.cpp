@@ -129,4 +129,13 @@ void judge(const SearchEnd& end, SearchResult& result) {
   result.verdict = verdict_of(end, result);
 }
 
+void judge_place(const std::optional<LocatedMisfit>& left, const EffectProblem& problem, SearchResult& result) {
+  if (!is_no_noise(left)) return;
+  result.doubtful = true;
+  const bool is_named = std::any_of(result.effects.begin(), result.effects.end(), [&](const TestedEffect& effect) {
+    return effect.accepted && problem.candidates[effect.candidate].takes_runs();
+  });
+  if (is_named && !result.more && result.verdict != Verdict::not_in_catalogue) result.verdict = Verdict::undecided;
+}
+
 }  // namespace tether

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/results/located_misfit.hpp"
 #include "diagnosis/search/confirmation.hpp"
 #include "diagnosis/search/effect_search.hpp"
 #include "diagnosis/search/refinement.hpp"
@@ -20,5 +21,8 @@ struct SearchEnd {
 /// Judges what is left, and what that says of the model: sets `strained`, `adequacy`, `doubtful`, `held_out` and
 /// `verdict` of a result whose effects, path and lack of fit are known. (D.12, D.20)
 void judge(const SearchEnd& end, SearchResult& result);
+
+/// What is named beside a place of the wall that is farther off than any noise is not known. (D.24)
+void judge_place(const std::optional<LocatedMisfit>& left, const EffectProblem& problem, SearchResult& result);
 
 }  // namespace tether

@@ -1,5 +1,6 @@
 /// The search for a missing effect on a linear system.
 #include "diagnosis/search/effect_search.hpp"
+#include "diagnosis/search/judgement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -365,6 +366,31 @@ TEST(EffectSearch, ALawThatLeavesPatternsIsNotNamedForSure) {
   };
   EXPECT_GT(verdicts(4, Verdict::undecided), 0.8);
   EXPECT_GT(verdicts(0, Verdict::missing), 0.9) << "leaves noise";
+}
+
+/// A place that is farther off than any noise: what is named beside it is not known.
+TEST(EffectSearch, NamesNothingBesideAPlaceThatNoNoiseLaysOff) {
+  std::mt19937_64 generator(13);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 8 * problem.changes.col(0);
+  const SearchResult named = found(problem);
+  ASSERT_EQ(named.verdict, Verdict::missing);
+  ASSERT_FALSE(named.doubtful);
+  LocatedMisfit place;
+  for (const double z : {5.9, 6.1}) {
+    place.z = z;
+    SearchResult result = named;
+    judge_place(place, problem, result);
+    EXPECT_EQ(result.verdict, z > 6 ? Verdict::undecided : Verdict::missing);
+    EXPECT_EQ(result.doubtful, z > 6);
+  }
+  SearchResult more = named;
+  more.more = true;
+  judge_place(place, problem, more);
+  EXPECT_EQ(more.verdict, Verdict::missing) << "the next diagnosis may find it";
+  SearchResult unseen = named;
+  judge_place(std::nullopt, problem, unseen);
+  EXPECT_EQ(unseen.verdict, Verdict::missing);
 }
 
 }  // namespace effect_search_test

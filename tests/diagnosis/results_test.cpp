@@ -148,6 +148,57 @@ TEST(Results, AnErrorThatIsAllowedIsToldWithItsSize) {
   EXPECT_TRUE(says("see to them: error of the model's step and mesh (3.0 times"));
 }
 
+/// What is said of a law is of its own group, not of that of the mesh, which leads; and what it leaves is said though
+/// others would do as well.
+TEST(Results, WhatIsSaidOfALawIsOfItsGroup) {
+  Diagnosis d = diagnosis();
+  const auto says = [&](const std::string& words) {
+    const std::vector<std::string> all = remarks_on(d, HeldOutGain::told);
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.find(words) != std::string::npos; });
+  };
+  Finding mesh = contact();
+  mesh.name = "coarse_mesh", mesh.where = "", mesh.parameter = {}, mesh.kind = CandidateKind::numerics;
+  Finding spring = contact();
+  d.effects = {mesh, contact(), spring};
+  for (Finding& finding : d.effects) finding.accepted = true;
+  d.effects[2].name = "visco_elastic", d.effects[2].accepted = false, d.effects[2].rival = true;
+  AlternativeGroup of_mesh, of_law;
+  of_mesh.probability = of_mesh.least_probability = 1;
+  of_mesh.foretold = PhaseGain{20, 4, 10, 3, 0.999};
+  of_mesh.members = {{"coarse_mesh", {}, "", CandidateKind::numerics, 1.0, {}, "", true}};
+  of_law.probability = 0.98, of_law.least_probability = 0.74;
+  of_law.foretold = PhaseGain{20, 4, 10, 9, 0.999};
+  of_law.members = {{"contact", {}, "spine", CandidateKind::effect, 0.7, {}, "", true},
+                    {"visco_elastic", {}, "spine", CandidateKind::effect, 0.3, {}, "", true},
+                    {"fibres", {}, "spine", CandidateKind::effect, 1e-9, {}, "", true}};
+  for (Alternative& member : of_law.members) member.parameter = d.effects[1].parameter;
+  d.table.groups = {of_mesh, of_law};
+  d.table.otherwise = {{}};
+  d.verdict = Verdict::ambiguous;
+  EXPECT_TRUE(says("better with it for 9 of 10"));
+  EXPECT_TRUE(says("Its probability is 98 %, and at least 74 %"));
+  EXPECT_TRUE(says("Of these the probability is: contact"));
+  EXPECT_TRUE(says("70 %, visco_elastic")) << "the second";
+  EXPECT_TRUE(says("30 %, others below 2 %"));
+  d.table.groups[1].members[1].share = 1e-6;
+  EXPECT_TRUE(says("If errors are as stated it is not visco_elastic"));
+  EXPECT_FALSE(says("Of these the probability is")) << "one is sure";
+
+  d.lack_of_fit.after = d.lack_of_fit.before;
+  d.lack_of_fit.after->p = 0.5;
+  d.doubtful = false;
+  EXPECT_FALSE(says("Something smaller is left") || says("More is left than noise"));
+  d.doubtful = true;
+  EXPECT_TRUE(says("More is left than noise and the errors allowed make in one of twenty data sets; farthest off: "));
+  d.lack_of_fit.after->p = 1e-3;
+  EXPECT_TRUE(says("Something smaller is left: "));
+  d.lack_of_fit.after->p = 0.5;
+  d.located.after = LocatedMisfit{};
+  d.located.after->z = 6.5;
+  d.verdict = Verdict::undecided;
+  EXPECT_NE(headline_of(d).find("what that leaves is not noise"), std::string::npos);
+}
+
 /// What is more probable than nothing is told beside it, whatever the verdict rests on.
 TEST(Results, NothingMissingTellsWhatIsNotRuledOut) {
   Diagnosis d = diagnosis();
