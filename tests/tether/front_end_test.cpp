@@ -361,8 +361,10 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
   const ChildEnd end = capture({{TETHER_PROGRAM, "conform", folder_.string()}, {}});
   EXPECT_EQ(end.exit_code, 2);
   EXPECT_EQ(end.errors, "tether_conform: the program: " + folder_.string() + " cannot be executed\n");
+  EXPECT_EQ(capture({{TETHER_PROGRAM, "conform", "--ranks", "2", "--", folder_.string()}, {}}).errors, end.errors);
   const ChildEnd help = capture({{TETHER_PROGRAM, "conform", "--help"}, {}}),
                  without = capture({{TETHER_PROGRAM, "conform"}, {}});
+  EXPECT_EQ(capture({{TETHER_PROGRAM, "conform", "--"}, {}}).errors, without.errors);
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_TRUE(
       help.output.starts_with("tether conform [--dt SECONDS] [--ranks N] [--with PROGRAM] PROGRAM [ARGUMENTS]: "));

@@ -39,7 +39,8 @@ int ranks_in(const std::string& text) {
 
 Options options_from(std::vector<std::string> words) {
   Options options;
-  for (; words.size() >= 2 && words[0].starts_with("--"); words.erase(words.begin(), words.begin() + 2)) {
+  const auto is_end = [&] { return !words.empty() && words[0] == "--"; };
+  for (; !is_end() && words.size() >= 2 && words[0].starts_with("--"); words.erase(words.begin(), words.begin() + 2)) {
     if (words[0] == "--dt")
       options.dt = step_in(words[1]);
     else if (words[0] == "--ranks")
@@ -49,6 +50,7 @@ Options options_from(std::vector<std::string> words) {
     else
       throw InputError(usage);
   }
+  if (is_end()) words.erase(words.begin());
   if (words.empty()) throw InputError(usage);
   options.program = {"", words[0], {words.begin() + 1, words.end()}, options.ranks};
   return options;
