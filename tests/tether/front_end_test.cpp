@@ -364,7 +364,7 @@ TEST_F(FrontEnd, SaysWhatCannotBeMadeToConform) {
   EXPECT_EQ(capture({{TETHER_PROGRAM, "conform", "--ranks", "2", "--", folder_.string()}, {}}).errors, end.errors);
   const ChildEnd help = capture({{TETHER_PROGRAM, "conform", "--help"}, {}}),
                  without = capture({{TETHER_PROGRAM, "conform"}, {}});
-  EXPECT_EQ(capture({{TETHER_PROGRAM, "conform", "--"}, {}}).errors, without.errors);
+  EXPECT_EQ(capture({{TETHER_PROGRAM, "conform", "--"}, {}}).errors, "tether_conform: " + without.errors);
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_TRUE(
       help.output.starts_with("tether conform [--dt SECONDS] [--ranks N] [--with PROGRAM] PROGRAM [ARGUMENTS]: "));
