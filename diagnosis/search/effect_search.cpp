@@ -120,8 +120,7 @@ class Search {
     return one.best() < named + hopeless + (error.cols() > 0 ? std::expm1(plain_.cost(error.col(0))) : 0);
   }
 
-  /// Finds the amplitudes of the strongest with runs.
-  /// near: a misfit that is known, which they must come near to.
+  /// Finds the amplitudes of the strongest with runs. near: a misfit that is known, which they must come near to.
   std::vector<Refinement> refined(const std::vector<TestedEffect>& strongest, const Scores& scores,
                                   double near = infinite) {
     std::vector<Refinement> all;

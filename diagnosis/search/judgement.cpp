@@ -135,7 +135,9 @@ void judge_place(const std::optional<LocatedMisfit>& left, const EffectProblem& 
   const bool is_named = std::any_of(result.effects.begin(), result.effects.end(), [&](const TestedEffect& effect) {
     return effect.accepted && problem.candidates[effect.candidate].takes_runs();
   });
-  if (is_named && !result.more && result.verdict != Verdict::not_in_catalogue) result.verdict = Verdict::undecided;
+  const bool says_all_is_well = result.verdict == Verdict::nothing_missing;
+  if ((is_named && !result.more && result.verdict != Verdict::not_in_catalogue) || says_all_is_well)
+    result.verdict = Verdict::undecided;
 }
 
 }  // namespace tether

@@ -22,7 +22,8 @@ struct SearchEnd {
 /// `verdict` of a result whose effects, path and lack of fit are known. (D.12, D.20)
 void judge(const SearchEnd& end, SearchResult& result);
 
-/// What is named beside a place of the wall that is farther off than any noise is not known. (D.24)
+/// Beside a place of the wall that is farther off than any noise what is named is not known, and nothing is not all
+/// that is missing. (D.24)
 void judge_place(const std::optional<LocatedMisfit>& left, const EffectProblem& problem, SearchResult& result);
 
 }  // namespace tether

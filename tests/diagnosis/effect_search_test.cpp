@@ -388,6 +388,11 @@ TEST(EffectSearch, NamesNothingBesideAPlaceThatNoNoiseLaysOff) {
   more.more = true;
   judge_place(place, problem, more);
   EXPECT_EQ(more.verdict, Verdict::missing) << "the next diagnosis may find it";
+  problem.residual = noise(generator);
+  SearchResult nothing = found(problem);
+  ASSERT_EQ(nothing.verdict, Verdict::nothing_missing);
+  judge_place(place, problem, nothing);
+  EXPECT_EQ(nothing.verdict, Verdict::undecided);
   SearchResult unseen = named;
   judge_place(std::nullopt, problem, unseen);
   EXPECT_EQ(unseen.verdict, Verdict::missing);
