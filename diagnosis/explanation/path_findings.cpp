@@ -33,10 +33,6 @@ std::vector<std::string> rivals_of(const Finding& finding, const Diagnosis& diag
   return all;
 }
 
-void add_to(Statement& statement, const Finding& finding, std::string text) {
-  (finding.kind == CandidateKind::data ? statement.wrong_data : statement.effects).push_back(std::move(text));
-}
-
 /// What the data cannot tell apart, as identified where it was; then what was found beside it.
 Statement with_rivals(const ExplanationPath& path) {
   Statement statement;
@@ -49,9 +45,9 @@ Statement with_rivals(const ExplanationPath& path) {
       if (alike.size() > 1)
         statement.alike.push_back(std::move(alike));
       else
-        add_to(statement, finding, std::move(alike.front()));
+        statement.add(finding.kind, std::move(alike.front()));
     }
-  for (const Finding& finding : left) add_to(statement, finding, text_of(finding));
+  for (const Finding& finding : left) statement.add(finding.kind, text_of(finding));
   return statement;
 }
 
@@ -113,14 +109,7 @@ std::vector<Finding> all_candidates(const ExplanationPath& path) {
 Statement statement_of(const ExplanationPath& path) {
   if (verdict_of(path) == Verdict::ambiguous) return with_rivals(path);
   Statement statement;
-  const std::vector<Finding> found = found_on(path);
-  const bool numerics_alone =
-      std::all_of(found.begin(), found.end(), [](const Finding& f) { return f.kind == CandidateKind::numerics; });
-  for (const Finding& finding : found)
-    if (numerics_alone)
-      statement.coarse_numerics.push_back(text_of(finding));
-    else
-      add_to(statement, finding, text_of(finding));
+  for (const Finding& finding : found_on(path)) statement.add(finding.kind, text_of(finding));
   return statement;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/results/finding.hpp"
 #include "diagnosis/results/verdict.hpp"
 
 namespace tether {
@@ -17,13 +18,15 @@ struct Statement {
     field("alike", self.alike, "groups of what these data cannot tell apart, the one that fits best first");
     field("effects", self.effects, "what the model lacks or has wrong");
     field("wrong_data", self.wrong_data, "errors of the measurements");
-    field("coarse_numerics", self.coarse_numerics, "errors of mesh or time step, if nothing else was found");
+    field("coarse_numerics", self.coarse_numerics, "errors of mesh or time step");
   }
+  void add(CandidateKind kind, std::string text);
   bool empty() const { return alike.empty() && effects.empty() && wrong_data.empty() && coarse_numerics.empty(); }
 };
 
-/// "MISSING: ...", "AMBIGUOUS: these data cannot tell A from B, nor C from D; beside it E; THE DATA are off: F".
-/// doubtful: more than chance is left. For verdicts that name what was found: missing and ambiguous.
+/// "MISSING: ...", "AMBIGUOUS: these data cannot tell A from B, nor C from D; beside it E; THE DATA are off: F; THE
+/// NUMERICS are too coarse: G". doubtful: more than chance is left. For verdicts that name what was found: missing and
+/// ambiguous.
 std::string sentence_of(Verdict verdict, const Statement& statement, bool doubtful);
 
 }  // namespace tether

@@ -83,19 +83,15 @@ std::vector<std::string> alike_with(const Finding& accepted, const Diagnosis& di
 }
 
 Statement statement_of(const Diagnosis& diagnosis) {
-  std::vector<Finding> accepted = diagnosis.effects;
-  std::erase_if(accepted, [](const Finding& finding) { return !finding.accepted; });
-  const bool numerics_alone =
-      std::all_of(accepted.begin(), accepted.end(), [](const Finding& f) { return f.kind == CandidateKind::numerics; });
   Statement statement;
-  for (const Finding& finding : accepted)
-    if (std::vector<std::string> alike = alike_with(finding, diagnosis); alike.size() > 1)
+  for (const Finding& finding : diagnosis.effects) {
+    if (!finding.accepted) continue;
+    std::vector<std::string> alike = alike_with(finding, diagnosis);
+    if (alike.size() > 1)
       statement.alike.push_back(std::move(alike));
     else
-      (numerics_alone                        ? statement.coarse_numerics
-       : finding.kind == CandidateKind::data ? statement.wrong_data
-                                             : statement.effects)
-          .push_back(alike.front());
+      statement.add(finding.kind, std::move(alike.front()));
+  }
   return statement;
 }
 

@@ -408,11 +408,9 @@ Weighed weighed(const EffectProblem& problem, const SetEvidence& evidence, const
   for (WeighedGroup& group : all.groups) describe(group, problem, evidence, posterior);
   std::map<std::vector<int>, double> combined;
   for (const EffectSet& set : posterior.sets) {
-    if (set.members.empty()) {
-      all.others += set.with_unseen;
-      continue;
-    }
-    const double probability = set.all();
+    all.others += set.with_unseen;
+    if (set.members.empty()) continue;
+    const double probability = set.probability + set.with_more;
     const std::vector<int> found = groups_in(set, all.groups);
     all.more += set.with_more;
     (found.empty() ? all.others : combined[found]) += probability;

@@ -146,7 +146,8 @@ TEST(Explanation, TellsOnceWhatEachDiagnosisFinds) {
                  model(1, diagnosis(Verdict::missing, {mesh(0.5)}), {effect("contact", Role::accepted, 7)})};
   path.best = 1;
   EXPECT_EQ(said_of(path).front(),
-            "MISSING: coarse_mesh at spine, factor 0.5 (0.25 .. 1); and contact at spine, factor 7 (3.5 .. 14)");
+            "MISSING: contact at spine, factor 7 (3.5 .. 14); and THE NUMERICS are too coarse: coarse_mesh at spine, "
+            "factor 0.5 (0.25 .. 1)");
 }
 
 /// What a later diagnosis could not tell apart, and was not confirmed, takes nothing from what was found before.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -411,6 +412,30 @@ TEST(Posterior, CountsWhatTheDataDoNotShow) {
   const double in_catalogue = 1 - outside;
   EXPECT_NEAR(posterior.nothing / in_catalogue, std::pow(1 + odds, -many), 0.01);
   for (const std::size_t c : {0, many - 1}) EXPECT_NEAR(posterior.of(c) / in_catalogue, odds / (1 + odds), 2e-3);
+}
+
+/// A group is in the combinations that are told with it, and beside these in what is not told.
+TEST(Posterior, ItsTableAddsUp) {
+  EffectProblem p = problem(3);
+  p.residual += 3 * p.changes.col(0);
+  constexpr int faint = 40;
+  for (int k = 0; k < faint; ++k)
+    add_candidate(p, fmt::format("faint_{}", k), 1e-9 * MatrixXd::Identity(data, data).col(k), false);
+  const SetEvidence evidence(p, {});
+  const Posterior posterior = posterior_of(p, evidence, std::vector<bool>(p.candidates.size(), false));
+  const Weighed table = weighed(p, evidence, posterior);
+  double sum = table.nothing + table.outside + table.others;
+  for (const WeighedCombination& one : table.combinations) sum += one.probability;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  ASSERT_GT(table.groups.size(), 10U);
+  ASSERT_GT(table.groups[0].probability, 0.9);
+  for (std::size_t g = 0; g < table.groups.size(); ++g) {
+    double told = 0;
+    for (const WeighedCombination& one : table.combinations)
+      if (std::count(one.groups.begin(), one.groups.end(), static_cast<int>(g)) > 0) told += one.probability;
+    EXPECT_GE(table.groups[g].probability, told - 1e-12) << g;
+    EXPECT_LE(table.groups[g].probability, told + table.others + 1e-12) << g;
+  }
 }
 
 /// Twelve do much the same and each of them leads; beside one of them and a second, a third is there that by itself
