@@ -13,6 +13,7 @@
 #include "common/base/process.hpp"
 #include "common/config/case_file.hpp"
 #include "common/config/case_tree.hpp"
+#include "common/config/changed_case.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/followed_points.hpp"
 #include "common/config/input_files.hpp"
@@ -186,6 +187,7 @@ void drop_damaged_rest(const fs::path& output) {
 void identify(RunPlan& plan, const MasterCase& master, std::span<Partner> processes, const Points& interface) {
   const std::uint64_t model = fingerprint(cases_of(processes, master), plan.dt, interface);
   plan.fingerprint = of_run(model, master.file);
+  if (plan.resume) plan.changes = told_changes(plan.output, master.file.path());
   plan.origin = origin_of(master.file, interface, model);
   if (master.initial_state) plan.initial = initial_state_of(*master.initial_state, master.file, plan.origin);
 }

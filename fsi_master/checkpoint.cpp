@@ -188,7 +188,7 @@ Checkpoint read_checkpoint(const fs::path& output) {
   return checkpoint;
 }
 
-Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
+Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint, const std::string& changes) {
   Checkpoint checkpoint;
   try {
     checkpoint = newest_in(output);
@@ -197,9 +197,9 @@ Checkpoint read_checkpoint(const fs::path& output, std::uint64_t fingerprint) {
   }
   if (checkpoint.fingerprint != fingerprint)
     throw input_error(
-        "{}: is a checkpoint of another case, step, mesh or code; give the case as it was, or start anew without "
+        "{}: is a checkpoint of another case, step, mesh or code{}; give the case as it was, or start anew without "
         "--resume, or let the case begin with that state (initial_state)",
-        (output / "checkpoint").string());
+        (output / "checkpoint").string(), changes.empty() ? "" : " (" + changes + ")");
   check_has_states(checkpoint, output);
   return checkpoint;
 }

@@ -47,8 +47,10 @@ void write_checkpoint(const std::filesystem::path& output, const Checkpoint& che
 void remove_checkpoints(const std::filesystem::path& output);
 
 /// The newest whole checkpoint in OUTPUT, or the one before if that is damaged. Throws InputError: none, both damaged,
-/// of another case, step or mesh (fingerprint), or without a code's state.
-Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint);
+/// of another case, step or mesh (fingerprint), or without a code's state. changes: what makes it another, as far as
+/// that is known.
+Checkpoint read_checkpoint(const std::filesystem::path& output, std::uint64_t fingerprint,
+                           const std::string& changes = {});
 /// The newest before that one, of the same case and whole; nothing if there is none.
 std::optional<Checkpoint> checkpoint_before(const std::filesystem::path& output, const Checkpoint& later);
 /// The newest of any case. Throws InputError also if it is damaged.

@@ -82,7 +82,7 @@ Checkpoint Simulation::taken_up() {
     motion_.resume(of.step + 1, static_cast<std::uint64_t>(of.motion));
     if (velocity_) velocity_->resume(of.step + 1, static_cast<std::uint64_t>(of.velocity));
   };
-  Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint);
+  Checkpoint checkpoint = read_checkpoint(plan_.output, plan_.fingerprint, plan_.changes);
   try {
     take_up_tables(checkpoint);
     return checkpoint;

@@ -23,6 +23,7 @@ struct RunPlan {
   int write_every = 10, checkpoint_every = 50;
   std::filesystem::path output;
   std::uint64_t fingerprint = 0;
+  std::string changes;                  ///< of the case since what is there was begun, in words
   std::string coupling;                 ///< the section of the case, JSON; it may change at a continuation
   StateOrigin origin;                   ///< of its states
   std::optional<InitialState> initial;  ///< none: at rest

@@ -218,15 +218,15 @@ std::size_t groups_of_checkpoint(const fs::path& output) {
 
 /// Of which case it is comes before what lies beside it.
 IdentificationCheckpoint read_identification_checkpoint(
-    const fs::path& output, std::uint64_t fingerprint,
+    const fs::path& output, std::uint64_t fingerprint, const std::string& changes,
     const std::function<void(const IdentificationCheckpoint&)>& take_up) {
   const fs::path folder = output / "checkpoint";
   Found newest = newest_whole_in(folder, [&](const Found& found) {
     if (found.of_case == fingerprint) take_up(found.checkpoint);
   });
   if (newest.of_case != fingerprint)
-    throw input_error("{}: is a checkpoint of another case; give the case as it was, or start anew without --resume",
-                      newest.file.string());
+    throw input_error("{}: is a checkpoint of another case{}; give the case as it was, or start anew without --resume",
+                      newest.file.string(), changes.empty() ? "" : " (" + changes + ")");
   return std::move(newest.checkpoint);
 }
 

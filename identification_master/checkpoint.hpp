@@ -34,9 +34,9 @@ void remove_identification_checkpoints(const std::filesystem::path& output);
 std::size_t groups_of_checkpoint(const std::filesystem::path& output);
 
 /// The newest whole one whose step finds what it counts on beside it: `take_up` goes on there, or throws InputError.
-/// Throws InputError: none, both damaged, of another case.
+/// Throws InputError: none, both damaged, of another case. changes: what makes it another, as far as that is known.
 IdentificationCheckpoint read_identification_checkpoint(
-    const std::filesystem::path& output, std::uint64_t fingerprint,
+    const std::filesystem::path& output, std::uint64_t fingerprint, const std::string& changes,
     const std::function<void(const IdentificationCheckpoint&)>& take_up);
 
 }  // namespace tether

@@ -10,6 +10,7 @@
 #include "common/base/process.hpp"
 #include "common/base/progress_line.hpp"
 #include "common/base/way_on.hpp"
+#include "common/config/changed_case.hpp"
 #include "common/config/echo.hpp"
 #include "common/config/input_files.hpp"
 #include "common/config/output_folder.hpp"
@@ -146,7 +147,7 @@ class Job {
     fingerprint_ = fingerprint_of(given_, pool_, data_);
     if (command_.resume) {
       IdentificationCheckpoint checkpoint = read_identification_checkpoint(
-          output_, fingerprint_,
+          output_, fingerprint_, told_changes(output_, command_.case_file),
           [this](const IdentificationCheckpoint& found) { table_.resume(found.state.step, found.table); });
       if (!checkpoint.refused.empty())
         fmt::print(stderr, "{}: the identification goes on from the checkpoint before, step {}\n", checkpoint.refused,

@@ -139,7 +139,7 @@ void read_run_checkpoint(const Input& input) {
 
 void read_checkpoint_of_filter(const Input& input) {
   read_checked_file("identification.bin", input,
-                    [] { read_identification_checkpoint(folder(), 0, [](const IdentificationCheckpoint&) {}); });
+                    [] { read_identification_checkpoint(folder(), 0, {}, [](const IdentificationCheckpoint&) {}); });
 }
 
 template <class Series>

@@ -311,7 +311,7 @@ TEST(Identification, MemoryForgetsNothingBeforeTheFirstData) {
 }
 
 IdentificationCheckpoint taken_up(const std::filesystem::path& output, std::uint64_t fingerprint) {
-  return read_identification_checkpoint(output, fingerprint, [](const IdentificationCheckpoint&) {});
+  return read_identification_checkpoint(output, fingerprint, {}, [](const IdentificationCheckpoint&) {});
 }
 
 /// Before the first data too, when there is no discrepancy yet.
@@ -381,7 +381,7 @@ TEST(IdentificationCheckpoint, TheOneBeforeIsTakenIfTheNewestsTableIsDamaged) {
     ++state.step;
   }
   const auto refusing = [&](std::uint64_t last_whole) {
-    return read_identification_checkpoint(folder.path(), 7, [&](const IdentificationCheckpoint& found) {
+    return read_identification_checkpoint(folder.path(), 7, {}, [&](const IdentificationCheckpoint& found) {
       if (found.table > last_whole) throw input_error("estimate.csv: has 3 rows, the checkpoint 9");
     });
   };
