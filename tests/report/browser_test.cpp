@@ -316,6 +316,7 @@ TEST_F(ReportPage, ListsWhatCannotBeToldApart) {
   for (int i = 0; i < 3; ++i) effects[i].group = "1";
   for (int i = 1; i < 3; ++i) effects[i].rival = true;
   effects.push_back(candidate(4, CandidateKind::data, true));
+  effects.push_back(candidate(5, CandidateKind::numerics, true));
   const Json found =
       head_of("ambiguous", diagnosis(Verdict::ambiguous, "AMBIGUOUS: in words that nobody reads", effects));
   EXPECT_EQ(found["errors"], "");
@@ -323,7 +324,7 @@ TEST_F(ReportPage, ListsWhatCannotBeToldApart) {
   EXPECT_EQ(found["verdict"], "These data cannot tell 3 effects from each other");
   const std::string amount = "<i> · spine, 1 (0.9 … 1.1) × 10⁶";
   const Json expected{"Effect 0" + amount, "Effect 1" + amount, "Effect 2" + amount,
-                      "The data are off: effect 4" + amount};
+                      "The data are off: effect 4" + amount, "The numerics are too coarse: effect 5" + amount};
   EXPECT_EQ(found["list"], expected);
 }
 

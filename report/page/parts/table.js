@@ -61,9 +61,11 @@ const lineOf = (table, { core, beside, probability }) =>
     beside ? "" : shares(table, core),
   );
 
-/** How much the name of what leads depends on what is assumed; none where nothing leads. */
+/** How much the name of what leads depends on what is assumed: of what is no mesh or step, if any is there. None where
+ * nothing leads. */
 function certainty(table) {
-  const first = table.groups[0];
+  const isOfModel = (group) => group.members[0].kind !== "numerics" && group.probability >= 0.5;
+  const first = table.groups.find(isOfModel) || table.groups[0];
   if (!first || first.probability < 0.5 || !table.otherwise.length) return null;
   return element(
     "p",

@@ -58,7 +58,8 @@ function choice(report) {
 }
 
 function choiceHeadline({ alike, beside }) {
-  const of = (effect) => (effect.kind === "data" ? "The data are off: " : "Beside it: ");
+  const of = ({ kind }) =>
+    ({ data: "The data are off: ", numerics: "The numerics are too coarse: " })[kind] || "Beside it: ";
   return [
     element("p", { class: "verdict" }, `These data cannot tell ${alike.length} effects from each other`),
     list([...alike.map(amountOf), ...beside.map((effect) => of(effect) + amountOf(effect))]),
