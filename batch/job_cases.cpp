@@ -91,6 +91,17 @@ std::string value_text(const std::string& cell, const std::string& unit) {
   return cell;
 }
 
+/// A file or folder beside the case that all build on, by its whole path: the cases themselves stand elsewhere. A word
+/// without folder or extension, and a number, is itself.
+std::string of_base(const std::string& cell, const fs::path& base) {
+  const bool may_be_path = cell.find('/') != std::string::npos || fs::path(cell).has_extension();
+  const bool is_number = cell.find_first_not_of("0123456789.+-eE") == std::string::npos;
+  if (!may_be_path || is_number) return cell;
+  std::error_code none;
+  const fs::path named = named_path(fs::absolute(base).parent_path(), cell);
+  return fs::exists(named, none) ? named.string() : cell;
+}
+
 struct Column {
   std::string field, unit;
   std::vector<std::string> cells;
@@ -104,15 +115,25 @@ std::vector<Column> columns_of(const CsvTable& rows) {
   return columns;
 }
 
-std::vector<Overlay::Value> values_of(const std::vector<Column>& columns, std::size_t row) {
+std::vector<Overlay::Value> values_of(const std::vector<Column>& columns, std::size_t row, const fs::path& base) {
   std::vector<Overlay::Value> values;
   for (const Column& column : columns) try {
       const std::string& cell = column.cells[row];
-      if (!cell.empty()) values.push_back({column.field, value_text(cell, column.unit)});
+      if (cell.empty()) continue;
+      const bool is_text = column.unit.empty() && !is_bracketed(cell);
+      values.push_back({column.field, value_text(is_text ? of_base(cell, base) : cell, column.unit)});
     } catch (const InputError& error) {
       throw input_error("{}: {}", column.field, error.what());
     }
   return values;
+}
+
+/// The case's folder may be one for trying.
+std::string without_folder(std::string line, const std::string& case_file) {
+  const std::string folder = (fs::path(case_file).parent_path() / "").string();
+  for (std::size_t at = line.find(folder); at != std::string::npos; at = line.find(folder))
+    line.erase(at, folder.size());
+  return line;
 }
 
 /// Without "FILE:LINE: " at its begin.
@@ -144,7 +165,7 @@ std::vector<JobCase> job_cases_of_table(const fs::path& base, const fs::path& ta
   fs::create_directories(folder);
   const std::vector<Column> columns = columns_of(rows);
   for (std::size_t row = 0; row < cases.size(); ++row) try {
-      write_overlay(cases[row].case_file, {fs::absolute(base), cases[row].name, "", values_of(columns, row)});
+      write_overlay(cases[row].case_file, {fs::absolute(base), cases[row].name, "", values_of(columns, row, base)});
     } catch (const InputError& error) {
       throw input_error("{}: {}", cases[row].row, error.what());
     }
@@ -156,7 +177,8 @@ std::string told_by_row(const JobCase& one, const std::string& message) {
   std::string told;
   std::istringstream lines(message);
   for (std::string line; std::getline(lines, line);)
-    told += (told.empty() ? "" : "\n") + one.row + ": " + without_place(line, one.case_file + ":");
+    told += (told.empty() ? "" : "\n") + one.row + ": " +
+            without_folder(without_place(line, one.case_file + ":"), one.case_file);
   return told;
 }
 

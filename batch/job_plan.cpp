@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -101,9 +102,17 @@ void check_word(const char* option, const std::string& text) {
 }
 
 void check_memory(const std::string& memory) {
-  static const std::regex form("[0-9]{1,9}[KMGTkmgt]?");
-  if (!memory.empty() && !std::regex_match(memory, form))
+  constexpr double least_mb = 30;  // the smallest model takes 37 MB (docs/performance.md)
+  static const std::regex form("([0-9]{1,9})([KMGTkmgt]?)");
+  std::smatch part;
+  if (memory.empty()) return;
+  if (!std::regex_match(memory, part, form))
     throw input_error("--memory: {}: must be a whole number with K, M, G or T: 8G", memory);
+  const char unit = part[2].length() == 0 ? 'M' : static_cast<char>(std::toupper(part[2].str().front()));
+  const double mb = std::stod(part[1].str()) * (unit == 'K' ? 1.0 / 1024 : unit == 'M' ? 1 : 1024);
+  if (mb > 0 && mb < least_mb)
+    throw input_error("--memory: {}: is {:.2g} MB for Slurm, in which no model runs: 8G is eight gigabytes", memory,
+                      mb);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "client/tether.h"
+#include "common/protocol/fellows.hpp"
 #include "common/protocol/launch.hpp"
 #include "common/protocol/serve.hpp"
 
@@ -223,6 +224,7 @@ concept HasReply = requires {
 class Client {
  public:
   Client(const std::string& role, int communicator) : role_(role), session_(role, communicator) {
+    if (!session_.is_alone()) fellows_.emplace(role, session_.communicator());
     if (session_.is_leader()) link_ = session_.connect();
   }
 
@@ -281,6 +283,7 @@ class Client {
   }
 
   int end() {
+    if (fellows_) fellows_->part();
     if (stage_ == Stage::stopping) {
       master().send(pack(Ready{}));
       if (std::get<Stop>(message_).abrupt) {
@@ -321,6 +324,7 @@ class Client {
 
   std::string role_;
   Session session_;
+  std::optional<Fellows> fellows_;  ///< where this code has several processes
   std::optional<Session::Link> link_;
   Stage stage_ = Stage::free;
   Hello hello_;

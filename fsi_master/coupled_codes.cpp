@@ -17,13 +17,13 @@ std::string mapping_of(const CouplingCase& coupling, const InterfaceSurface& flu
 }
 
 InterfaceMap map_of(const std::string& mapping, const CouplingCase& coupling, const InterfaceSurface& fluid,
-                    const InterfaceSurface& solid) {
+                    const InterfaceSurface& solid, const UnitSystem& units) {
   const double size = diagonal(solid.points);
   if (mapping == "match")
-    return InterfaceMap::match(fluid, solid, coupling.mapping_distance.value_or(same_node * size));
+    return InterfaceMap::match(fluid, solid, coupling.mapping_distance.value_or(same_node * size), units);
   const double trust = coupling.mapping_distance.value_or(trusted_distance * size);
-  return mapping == "mortar" ? InterfaceMap::mortar(fluid, solid, trust)
-                             : InterfaceMap::nearest_triangle(fluid, solid, trust);
+  return mapping == "mortar" ? InterfaceMap::mortar(fluid, solid, trust, units)
+                             : InterfaceMap::nearest_triangle(fluid, solid, trust, units);
 }
 
 /// `field`: of coupling.programs and coupling.ranks.
@@ -87,7 +87,7 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
   const InterfaceSurface of_fluid = ask_interface(processes[0]);
   solid_.emplace(processes[1]);
   mapping_ = mapping_of(master.coupling, of_fluid, interface_);
-  fluid_.emplace(processes[0], map_of(mapping_, master.coupling, of_fluid, interface_));
+  fluid_.emplace(processes[0], map_of(mapping_, master.coupling, of_fluid, interface_, units_));
   lumen_ = protocol::is_own(master.coupling.programs.solid) ? ToldLumen{interface_.points}
                                                             : ToldLumen{of_fluid.points, &fluid_->map()};
   fit_ = interface_fit(of_fluid, interface_, master.coupling.mapping_distance.value_or(trusted_distance * size_));

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -120,14 +121,34 @@ void check_processes(const Typed& typed) {
     throw input_error("--processes: tether {} makes one run: leave it out", typed.verb);
 }
 
+/// A number in each task's name that no case of the job has.
+void check_array(const Typed& typed, std::size_t cases) {
+  const auto& more = typed.resources.more;
+  const auto array = std::find_if(more.begin(), more.end(), [](const std::string& option) {
+    return option == "array" || option.starts_with("array=");
+  });
+  if (array != more.end() && cases == 1) throw input_error("--sbatch: {}: the job has one case", *array);
+}
+
 /// What is wrong is told before it waits for its turn, of all cases at once.
 void check_cases(const std::vector<JobCase>& cases, JobVerb verb) {
+  constexpr auto tell_every =
+      std::chrono::seconds(10);  // each case is read by its programs: a tenth of a second or two
+  auto told = std::chrono::steady_clock::now();
   std::string wrong;
-  for (const JobCase& one : cases) try {
+  std::size_t checked = 0;
+  for (const JobCase& one : cases) {
+    try {
       check_case_for(verb, one.case_file);
     } catch (const InputError& error) {
       wrong += (wrong.empty() ? "" : "\n") + told_by_row(one, error.what());
     }
+    ++checked;
+    if (const auto now = std::chrono::steady_clock::now(); now - told > tell_every) {
+      std::cerr << fmt::format("{} of {} cases are read\n", checked, cases.size());
+      told = now;
+    }
+  }
   if (!wrong.empty()) throw InputError(wrong);
 }
 
@@ -205,6 +226,7 @@ int act(const Typed& typed) {
   const ScratchFolder tried("tether_cases");
   Job job{*from_word<JobVerb>(typed.verb),         "", sibling("tether").string(),
           cases_of(typed, tried.path() / "cases"), {}, typed.resources};
+  check_array(typed, job.cases.size());
   check_cases(job.cases, job.verb);
   check_keeps_read(typed, folder, job.cases);
   const std::optional<PlannedRuns> planned = plan(typed, job);

@@ -1,20 +1,14 @@
 #include "common/protocol/company.hpp"
 
-#include <array>
-#include <utility>
 #include <vector>
 
-#include "common/base/limits.hpp"
-#include "common/base/process.hpp"
 #include "common/protocol/bell.hpp"
-#include "common/protocol/guard.hpp"
+#include "common/protocol/fellows.hpp"
 #include "common/protocol/job.hpp"
 #include "common/protocol/last_words.hpp"
 #include "common/protocol/messages.hpp"
 #include "common/protocol/mpi_team.hpp"
-#include "common/protocol/signals.hpp"
 #include "common/protocol/spawn.hpp"
-#include "common/protocol/stillness.hpp"
 #include "common/protocol/watch.hpp"
 
 namespace tether::protocol {
@@ -23,8 +17,6 @@ namespace {
 /// [s] that the leader may take to hear that another has failed: it may be in the middle of what all should do
 /// together, and then waits for ever.
 constexpr double hearing_limit = 30;
-/// [s] between looks whether the others live.
-constexpr double look_after_every = 0.1;
 /// Of the messages that say how work on a packet ended; packets have the tag of their kind.
 constexpr int settled_tag = 1000;
 
@@ -35,60 +27,11 @@ MPI_Comm duplicate(MPI_Comm communicator) {
   return result;
 }
 
-/// By rank.
-std::vector<Peer> introduce(const std::string& role, MPI_Comm communicator, int size) {
-  struct Name {
-    std::array<char, 120> host{};
-    std::int64_t pid = process_id();
-  } mine;
-  host_name().copy(mine.host.data(), mine.host.size() - 1);
-  std::vector<Name> all(static_cast<std::size_t>(size));
-  check_mpi(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, all.data(), sizeof mine, MPI_BYTE, communicator),
-            "MPI_Allgather");
-  std::vector<Peer> peers;
-  for (const Name& name : all)
-    peers.push_back({fmt::format("process {} of {} of {}", peers.size() + 1, size, role), name.host.data(), name.pid,
-                     "working with the others"});
-  return peers;
-}
-
 }  // namespace
 
 struct Company::Parts {
-  Parts(std::string name, MPI_Comm all)
-      : role(std::move(name)),
-        work(duplicate(all)),
-        talk(duplicate(all)),
-        team(work),
-        peers(introduce(role, talk, team.size())) {
-    if (team.rank() == 0)
-      look_after_others();
-    else
-      delay_termination();
-  }
-
-  /// The leader may hang inside MPI when another dies or is stopped: then it ends, and leaves word why.
-  void look_after_others() {
-    guard = std::make_unique<Guard>(
-        look_after_every, [this, still = std::vector<Stillness>(peers.size()), is_told = false](double) mutable {
-          for (std::size_t rank = 1; rank < peers.size(); ++rank) {
-            const Peer& peer = peers[rank];
-            if (is_dead(peer)) end_because(died(peer));
-            still[rank].look(peer);
-            if (still[rank].stopped() > stopped_limit()) end_because(PeerStopped(peer, stopped_limit()).what());
-            if (still[rank].stopped() > tell_stopped_after && !std::exchange(is_told, true))
-              fmt::print(stderr, "{}: {}\n", role, stopped_text(peer));
-          }
-        });
-  }
-  static std::string died(const Peer& peer) {
-    const std::string words = last_words_of(peer);
-    return words.empty() ? peer.describe() + " died" : peer.failure(words);
-  }
-  [[noreturn]] void end_because(const std::string& why) const {
-    leave_last_words(why);
-    end_job(exit_run_failed, {peers.begin() + 1, peers.end()});
-  }
+  Parts(const std::string& role, MPI_Comm all)
+      : work(duplicate(all)), talk(duplicate(all)), team(work), fellows(role, MPI_Comm_c2f(talk)) {}
 
   static bool is_finished(MPI_Request& request) {
     int flag = 0;
@@ -112,22 +55,20 @@ struct Company::Parts {
     return packet;
   }
   void pass_on(const Packet& packet) {
-    std::vector<MPI_Request> under_way(peers.size(), MPI_REQUEST_NULL);
+    std::vector<MPI_Request> under_way(fellows.peers().size(), MPI_REQUEST_NULL);
     for (int rank = 1; rank < team.size(); ++rank) {
       MPI_Request& request = under_way[static_cast<std::size_t>(rank)];
       check_mpi(MPI_Isend(packet.bytes.data(), static_cast<int>(packet.bytes.size()), MPI_BYTE, rank, packet.kind, talk,
                           &request),
                 "MPI_Isend");
-      Bell::own().ring(peers[static_cast<std::size_t>(rank)]);
+      Bell::own().ring(fellows.peers()[static_cast<std::size_t>(rank)]);
     }
     for (MPI_Request& request : under_way) wait_until([&request] { return is_finished(request); }, [] {});
   }
 
-  std::string role;
   MPI_Comm work, talk;
   MpiTeam team;
-  std::vector<Peer> peers;
-  std::unique_ptr<Guard> guard;
+  Fellows fellows;
 };
 
 Company::Company(const std::string& role, const Session& session)
@@ -161,7 +102,7 @@ std::string Company::settled(const std::string& failure) {
   for (int rank = 1; rank < team().size(); ++rank) {
     const Packet packet = parts_->receive(rank, settled_tag, false);
     const std::string said(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
-    if (first.empty() && !said.empty()) first = parts_->peers[static_cast<std::size_t>(rank)].failure(said);
+    if (first.empty() && !said.empty()) first = parts_->fellows.peers()[static_cast<std::size_t>(rank)].failure(said);
   }
   return first;
 }
@@ -172,7 +113,7 @@ void Company::give_up(const std::string& why) const {
 }
 
 void Company::part() {
-  parts_->guard.reset();
+  parts_->fellows.part();
 }
 
 }  // namespace tether::protocol

@@ -305,8 +305,18 @@ void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
       most, most == least ? "also" : "and at least " + least));
 }
 
+/// Stiff supports that were told on a tube of 12 x 8 as a fifth of what they are, with an interval that ends at half.
+void add_coarseness(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  const std::vector<Finding> errors = accepted_of(diagnosis, true);
+  const auto is_of_numerics = [](const Finding& finding) { return finding.kind == CandidateKind::numerics; };
+  if (std::any_of(errors.begin(), errors.end(), is_of_numerics) && !accepted_of(diagnosis, false).empty())
+    all.push_back(
+        "Amounts are those that fit on this mesh and step: on finer ones others may, outside these intervals too");
+}
+
 void add_rest(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   add_place(all, diagnosis);
+  add_coarseness(all, diagnosis);
   add_certainty(all, diagnosis);
   if (diagnosis.verdict == Verdict::missing) add_variants(all, diagnosis);
   for (std::string& sentence : look_alike_sentences(diagnosis)) all.push_back(std::move(sentence));

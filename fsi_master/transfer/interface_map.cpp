@@ -44,7 +44,8 @@ class NodeGrid {
 };
 
 /// Nodes of `from` that have none of `to` within the tolerance, in words; empty if there are none.
-std::string lonely(const char* from_name, const Points& from, const char* to_name, const Points& to, double tolerance) {
+std::string lonely(const char* from_name, const Points& from, const char* to_name, const Points& to, double tolerance,
+                   const UnitSystem& units) {
   const NodeGrid grid(to, tolerance);
   int count = 0, worst = 0;
   double farthest = -1;
@@ -56,8 +57,10 @@ std::string lonely(const char* from_name, const Points& from, const char* to_nam
   }
   if (count == 0) return {};
   return fmt::format(
-      "{} of {} {} nodes have no {} node within {:.2g}, the farthest is {:.4g} away, at ({:.6g}, {:.6g}, {:.6g})",
-      count, from.cols(), from_name, to_name, tolerance, farthest, from(0, worst), from(1, worst), from(2, worst));
+      "{} of {} {} nodes have no {} node within {:.2g} mm, the farthest is {:.4g} mm away, at ({:.6g}, {:.6g}, {:.6g}) "
+      "{}",
+      count, from.cols(), from_name, to_name, units.to_mm(tolerance), units.to_mm(farthest), from(0, worst),
+      from(1, worst), from(2, worst), units.symbol(dimension::length));
 }
 
 /// Of each fluid node the wall's, for nodes without a mismatch. Throws InputError if two have the same.
@@ -82,9 +85,9 @@ std::set<Triangle> sorted(std::vector<Triangle> triangles) {
 }
 
 /// What is wrong with a matching of the nodes; empty if nothing is.
-std::string mismatch(const Points& fluid, const Points& solid, double tolerance) {
-  std::string problem = lonely("fluid", fluid, "wall", solid, tolerance);
-  return problem.empty() ? lonely("wall", solid, "fluid", fluid, tolerance) : problem;
+std::string mismatch(const Points& fluid, const Points& solid, double tolerance, const UnitSystem& units) {
+  std::string problem = lonely("fluid", fluid, "wall", solid, tolerance, units);
+  return problem.empty() ? lonely("wall", solid, "fluid", fluid, tolerance, units) : problem;
 }
 
 }  // namespace
@@ -99,7 +102,8 @@ InterfaceMap::InterfaceMap(Points fluid, Points solid, const Rows& rows, std::ve
 }
 
 bool InterfaceMap::matches(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance) {
-  if (fluid.points.cols() != solid.points.cols() || !mismatch(fluid.points, solid.points, tolerance).empty())
+  if (fluid.points.cols() != solid.points.cols() ||
+      !mismatch(fluid.points, solid.points, tolerance, UnitSystem::cgs()).empty())
     return false;
   if (fluid.triangles.empty() || solid.triangles.empty()) return true;
   const std::vector<int> nodes = wall_nodes(fluid.points, solid.points, tolerance);
@@ -109,8 +113,9 @@ bool InterfaceMap::matches(const InterfaceSurface& fluid, const InterfaceSurface
   return sorted(triangles) == sorted(solid.triangles);
 }
 
-InterfaceMap InterfaceMap::match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance) {
-  const std::string problem = mismatch(fluid.points, solid.points, tolerance);
+InterfaceMap InterfaceMap::match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance,
+                                 const UnitSystem& units) {
+  const std::string problem = mismatch(fluid.points, solid.points, tolerance, units);
   if (!problem.empty()) throw input_error("unmatched interface: {}", problem);
   const std::vector<int> nodes = wall_nodes(fluid.points, solid.points, tolerance);
   std::vector<Eigen::Triplet<double>> entries;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/base/units.hpp"
 #include "fsi_master/transfer/interface_balance.hpp"
 #include "fsi_master/transfer/interface_surface.hpp"
 
@@ -19,18 +20,21 @@ inline constexpr double same_node = 1e-5, trusted_distance = 0.02;
 /// that the moment is too (C.8).
 class InterfaceMap {
  public:
-  /// Node for node. Throws InputError that counts the fluid nodes without a wall node within `tolerance` (and wall
-  /// nodes without a fluid node) and locates the farthest.
-  static InterfaceMap match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance);
+  /// Node for node. `units`: of these lengths, for messages. Throws InputError that counts the fluid nodes without a
+  /// wall node within `tolerance` (and wall nodes without a fluid node) and locates the farthest.
+  static InterfaceMap match(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance,
+                            const UnitSystem& units);
   /// Whether each node has one of the other surface within `tolerance`, and the same nodes form triangles: nodal loads
   /// of one triangulation are not those of another, and a wall that takes them for its own ripples from node to node.
   static bool matches(const InterfaceSurface& fluid, const InterfaceSurface& solid, double tolerance);
   /// Each fluid node follows the closest place of the solid's triangles (C.10). Throws InputError if that is farther
   /// than `trust` for some node, or looks the other way.
-  static InterfaceMap nearest_triangle(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust);
+  static InterfaceMap nearest_triangle(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust,
+                                       const UnitSystem& units);
   /// The fluid's motion is that of the solid in the mean over each node's surroundings (C.11), and a load comes back as
   /// the traction that it stands for; nodes on the fluid's rims follow the closest place. Errors as above.
-  static InterfaceMap mortar(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust);
+  static InterfaceMap mortar(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust,
+                             const UnitSystem& units);
 
   /// Vectors node by node, v_f = H v_s and f_s = H' f_f (C.8).
   std::vector<double> to_fluid(const VectorXd& solid) const;

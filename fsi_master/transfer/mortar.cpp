@@ -1,5 +1,7 @@
 #include <Eigen/LU>
 
+#include <cmath>
+
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
 #include "fsi_master/transfer/followed_place.hpp"
@@ -27,18 +29,21 @@ TriangleLocator locator_of(const InterfaceSurface& solid) {
   return {solid.points, solid.triangles};
 }
 
-[[noreturn]] void refuse(int node, const Vec3& x, double distance, double trust) {
+[[noreturn]] void refuse(int node, const Vec3& x, double distance, double trust, const UnitSystem& units) {
+  const auto shown = [&](int i) { return std::abs(x(i)) < 1e-9 * distance ? 0 : x(i); };
   throw input_error(
-      "unmatched interface: fluid node {} at ({:.6g}, {:.6g}, {:.6g}) is {:.4g} away from the wall, more than {:.2g}",
-      node, x(0), x(1), x(2), distance, trust);
+      "unmatched interface: fluid node {} at ({:.6g}, {:.6g}, {:.6g}) {} is {:.4g} mm away from the wall, more than "
+      "{:.2g} mm (coupling.mapping_distance): is one of them in another unit, at another place, or of another size?",
+      node, shown(0), shown(1), shown(2), units.symbol(dimension::length), units.to_mm(distance), units.to_mm(trust));
 }
 
 /// The places that the fluid's nodes follow. Throws InputError if one is farther than trusted.
-std::vector<FollowedPlace> places_of(const Points& fluid, const TriangleLocator& solid, double trust) {
+std::vector<FollowedPlace> places_of(const Points& fluid, const TriangleLocator& solid, double trust,
+                                     const UnitSystem& units) {
   std::vector<FollowedPlace> places;
   for (int node = 0; node < fluid.cols(); ++node) {
     const NearestPlace nearest = nearest_place(solid, fluid.col(node));
-    if (nearest.distance > trust) refuse(node, fluid.col(node), nearest.distance, trust);
+    if (nearest.distance > trust) refuse(node, fluid.col(node), nearest.distance, trust, units);
     places.push_back(nearest.place);
   }
   return places;
@@ -85,18 +90,19 @@ void add_integrals(Entries& entries, const Triangle& nodes, const Points& points
 
 }  // namespace
 
-InterfaceMap InterfaceMap::nearest_triangle(const InterfaceSurface& fluid, const InterfaceSurface& solid,
-                                            double trust) {
-  const std::vector<FollowedPlace> places = places_of(fluid.points, locator_of(solid), trust);
+InterfaceMap InterfaceMap::nearest_triangle(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust,
+                                            const UnitSystem& units) {
+  const std::vector<FollowedPlace> places = places_of(fluid.points, locator_of(solid), trust, units);
   Entries entries;
   for (std::size_t a = 0; a < places.size(); ++a) add(entries, static_cast<int>(a), places[a], 1);
   return {fluid.points, solid.points, rows_of(entries, fluid.points.size(), solid.points.size()), {}, {}};
 }
 
-InterfaceMap InterfaceMap::mortar(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust) {
+InterfaceMap InterfaceMap::mortar(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust,
+                                  const UnitSystem& units) {
   check_triangles("fluid", fluid);
   const TriangleLocator surface = locator_of(solid);
-  const std::vector<FollowedPlace> places = places_of(fluid.points, surface, trust);
+  const std::vector<FollowedPlace> places = places_of(fluid.points, surface, trust, units);
   const MortarSpace space(fluid);
   Entries rows, rims;  // of all nodes the integral of hat function and motion, less that of what the rims do; of rims H
   for (const Triangle& t : fluid.triangles) {

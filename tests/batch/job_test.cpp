@@ -93,6 +93,23 @@ TEST_F(Jobs, TakeCellsOfATableAsTheyAre) {
   EXPECT_EQ(y.find("a")->find("c")->items.at(0).text, "1");
 }
 
+/// Beside the case that all build on, as that has them; the cases of a table stand elsewhere.
+TEST_F(Jobs, FindFilesOfATableBesideItsCase) {
+  const fs::path base = write("tube.yaml", "name: tube\n");
+  write("flow.csv", "t\n"), write("flow", "t\n"), write("1.5", "t\n");
+  const fs::path table = write("t.csv", "name, a, b\nx, flow.csv, flow\ny, ./flow.csv, 1.5\nz, none.csv,\n");
+  const auto cases = job_cases_of_table(base, table, folder_ / "cases");
+  const auto value = [&](int row, const char* field) {
+    return read_case_tree(cases[static_cast<std::size_t>(row)].case_file).find(field)->text;
+  };
+  for (const int row : {0, 1}) EXPECT_TRUE(fs::equivalent(value(row, "a"), folder_ / "flow.csv")) << value(row, "a");
+  EXPECT_EQ(value(0, "b"), "flow") << "a word";
+  EXPECT_EQ(value(1, "b"), "1.5") << "a number";
+  EXPECT_EQ(value(2, "a"), "none.csv");
+  EXPECT_EQ(told_by_row(cases[2], "a: " + (folder_ / "cases/none.csv").string() + ": no such file"),
+            (folder_ / "t.csv:4: a: none.csv: no such file").string());
+}
+
 TEST_F(Jobs, NameTheRowOfATableThatIsWrong) {
   const fs::path base = write("tube.yaml", "name: tube\n");
   const auto refused = [&](const std::string& rows) {
@@ -189,11 +206,11 @@ TEST_F(Jobs, RefuseWhatSbatchWouldTakeForSomethingElse) {
   JobResources r;
   r.memory = "1G\n#SBATCH --time=1";
   EXPECT_NE(refused(r).find("--memory"), std::string::npos);
-  for (const char* memory : {"8X", "1e99G", "-1G", "1.5G", "G", "8GB", "99999999999G"}) {
+  for (const char* memory : {"8X", "1e99G", "-1G", "1.5G", "G", "8GB", "99999999999G", "2", "900K"}) {
     r.memory = memory;
     EXPECT_NE(refused(r).find("--memory"), std::string::npos) << memory;
   }
-  for (const char* memory : {"8000", "8G", "500M", "2T", "900000K"}) {
+  for (const char* memory : {"0", "8000", "8G", "500M", "2T", "900000K"}) {
     r.memory = memory;
     EXPECT_EQ(refused(r), "no error") << memory;
   }

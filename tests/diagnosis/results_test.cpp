@@ -176,10 +176,14 @@ TEST(Results, WhatIsSaidOfALawIsOfItsGroup) {
   d.table.otherwise = {{}};
   d.verdict = Verdict::ambiguous;
   EXPECT_TRUE(says("better with it for 9 of 10"));
+  EXPECT_TRUE(says("Amounts are those that fit on this mesh and step"));
   EXPECT_TRUE(says("Its probability is 98 %, and at least 74 %"));
   EXPECT_TRUE(says("Of these the probability is: contact"));
   EXPECT_TRUE(says("70 %, visco_elastic")) << "the second";
   EXPECT_TRUE(says("30 %, others below 2 %"));
+  d.effects[1].accepted = false;
+  EXPECT_FALSE(says("Amounts are those")) << "of a mesh alone";
+  d.effects[1].accepted = true;
   d.table.groups[1].members[1].share = 1e-6;
   EXPECT_TRUE(says("If errors are as stated it is not visco_elastic"));
   EXPECT_FALSE(says("Of these the probability is")) << "one is sure";

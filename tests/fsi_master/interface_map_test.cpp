@@ -26,7 +26,7 @@ TEST(InterfaceMap, MatchFindsThePermutation) {
   InterfaceSurface fluid{Points(3, order.size()), {}};
   for (std::size_t a = 0; a < order.size(); ++a)
     fluid.points.col(static_cast<Eigen::Index>(a)) = solid.points.col(order[a]) + Vec3::Constant(1e-7);
-  const InterfaceMap map = InterfaceMap::match(fluid, solid, 1e-6);
+  const InterfaceMap map = InterfaceMap::match(fluid, solid, 1e-6, UnitSystem::cgs());
   const VectorXd values = VectorXd::Random(solid.points.size());
   const std::vector<double> there = map.to_fluid(values);
   for (std::size_t a = 0; a < order.size(); ++a) EXPECT_EQ(there[3 * a], values(3 * order[a]));
@@ -39,15 +39,15 @@ TEST(InterfaceMap, MatchSaysHowManyNodesAreAloneAndWhere) {
   fluid.points(2, 7) -= 0.1;
   fluid.points(2, 70) += 0.3;
   try {
-    InterfaceMap::match(fluid, solid, 1e-6);
+    InterfaceMap::match(fluid, solid, 1e-6, UnitSystem::cgs());
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_STREQ(
         error.what(),
-        "unmatched interface: 2 of 72 fluid nodes have no wall node within 1e-06, the farthest is 0.3 away, at "
-        "(1, -1.73205, 6.3)");
+        "unmatched interface: 2 of 72 fluid nodes have no wall node within 1e-05 mm, the farthest is 3 mm away, at "
+        "(1, -1.73205, 6.3) cm");
   }
-  EXPECT_THROW(InterfaceMap::match(tube(6, 5), solid, 1e-6),
+  EXPECT_THROW(InterfaceMap::match(tube(6, 5), solid, 1e-6, UnitSystem::cgs()),
                InputError);  // each fluid node has its partner, not each wall node
 }
 
@@ -78,8 +78,8 @@ TEST(InterfaceMap, NodesThatMatchInOtherTrianglesDoNot) {
 /// Both maps of surfaces that differ in their nodes, in their facets and by a gap.
 std::vector<InterfaceMap> maps_of(const InterfaceSurface& fluid, const InterfaceSurface& solid, double trust = 0.3) {
   std::vector<InterfaceMap> maps;
-  maps.push_back(InterfaceMap::nearest_triangle(fluid, solid, trust));
-  maps.push_back(InterfaceMap::mortar(fluid, solid, trust));
+  maps.push_back(InterfaceMap::nearest_triangle(fluid, solid, trust, UnitSystem::cgs()));
+  maps.push_back(InterfaceMap::mortar(fluid, solid, trust, UnitSystem::cgs()));
   return maps;
 }
 
@@ -133,7 +133,7 @@ TEST(InterfaceMap, ItsOwnSurfaceIsFollowedExactlyUnderLinearMotions) {
 
 TEST(InterfaceMap, OfItsOwnSurfaceTheMortarIsTheIdentity) {
   const InterfaceSurface solid = tube(16, 8);
-  const InterfaceMap map = InterfaceMap::mortar(solid, solid, 0.1);
+  const InterfaceMap map = InterfaceMap::mortar(solid, solid, 0.1, UnitSystem::cgs());
   const VectorXd motion = VectorXd::Random(solid.points.size());
   const std::vector<double> there = map.to_fluid(motion);
   EXPECT_LT((Eigen::Map<const VectorXd>(there.data(), motion.size()) - motion).norm(), 1e-11 * motion.norm());
@@ -143,8 +143,14 @@ TEST(InterfaceMap, ASurfaceElsewhereIsRefused) {
   const InterfaceSurface solid = tube(16, 8);
   InterfaceSurface fluid = solid;
   fluid.points.row(2).array() += 1.0;
-  EXPECT_THROW(InterfaceMap::nearest_triangle(fluid, solid, 0.5), InputError);
-  EXPECT_THROW(InterfaceMap::mortar(fluid, solid, 0.5), InputError);
+  EXPECT_THROW(InterfaceMap::nearest_triangle(fluid, solid, 0.5, UnitSystem::cgs()), InputError);
+  try {
+    InterfaceMap::mortar(fluid, solid, 0.5, UnitSystem::mm_g_s());
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(" mm is 1 mm away from the wall, more than 0.5 mm"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(InterfaceMap, SurfacesWithoutTrianglesOrAreaAreRefused) {
@@ -153,9 +159,9 @@ TEST(InterfaceMap, SurfacesWithoutTrianglesOrAreaAreRefused) {
   bare.triangles.clear();
   flat_triangle.triangles[3] = {4, 4, 5};
   for (const InterfaceSurface& bad : {bare, flat_triangle}) {
-    EXPECT_THROW(InterfaceMap::mortar(good, bad, 0.5), InputError);
-    EXPECT_THROW(InterfaceMap::mortar(bad, good, 0.5), InputError);
-    EXPECT_THROW(InterfaceMap::nearest_triangle(good, bad, 0.5), InputError);
+    EXPECT_THROW(InterfaceMap::mortar(good, bad, 0.5, UnitSystem::cgs()), InputError);
+    EXPECT_THROW(InterfaceMap::mortar(bad, good, 0.5, UnitSystem::cgs()), InputError);
+    EXPECT_THROW(InterfaceMap::nearest_triangle(good, bad, 0.5, UnitSystem::cgs()), InputError);
   }
 }
 

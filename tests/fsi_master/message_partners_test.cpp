@@ -26,7 +26,8 @@ fakes::FakeFluid backwards() {
 VectorXd load_of(const fakes::FakeFluid& fake, const VectorXd& V) {
   auto process = in_process_partner<protocol::ToFluid>("fluid", std::make_shared<fakes::FakeFluid>(fake));
   auto solid_process = in_process_partner<protocol::ToSolid>("solid", std::make_shared<fakes::FakeSolid>());
-  MessageFluid fluid(process, InterfaceMap::match(ask_interface(process), ask_interface(solid_process), 1e-9));
+  MessageFluid fluid(
+      process, InterfaceMap::match(ask_interface(process), ask_interface(solid_process), 1e-9, UnitSystem::cgs()));
   fluid.begin_step({1, 0, 0.1, V, V}).get();
   return fluid.load({V, V}).get();
 }
@@ -42,7 +43,7 @@ TEST(MessagePartners, AFailureIsAStepFailureAndTheNextRequestGetsItsOwnReply) {
   fake->has_tangent = false;
   auto without_tangent = in_process_partner<protocol::ToFluid>("fluid", fake);
   const InterfaceSurface surface = ask_interface(without_tangent);
-  MessageFluid black_box(without_tangent, InterfaceMap::match(surface, surface, 1e-9));
+  MessageFluid black_box(without_tangent, InterfaceMap::match(surface, surface, 1e-9, UnitSystem::cgs()));
   EXPECT_FALSE(black_box.has_tangent());
   EXPECT_THROW(black_box.load_change(VectorXd::Zero(surface.points.size())).get(), StepFailure);
   { auto dropped = black_box.state(); }
@@ -107,7 +108,7 @@ struct Unknowing : fakes::FakeFluid {
 TEST(MessageFluid, AnObservableThatIsNoNumberIsRefusedOfAStepThatWasAccepted) {
   auto process = in_process_partner<protocol::ToFluid>("fluid", std::make_shared<Unknowing>());
   const InterfaceSurface surface = ask_interface(process);
-  MessageFluid fluid(process, InterfaceMap::match(surface, surface, 1e-9));
+  MessageFluid fluid(process, InterfaceMap::match(surface, surface, 1e-9, UnitSystem::cgs()));
   EXPECT_TRUE(std::isnan(fluid.end_step(false).get().at(0)));
   try {
     fluid.end_step(true).get();

@@ -75,7 +75,7 @@ Errors orders_of(Map map, double finer) {
   const auto errors = [&](int n) {
     const int m = static_cast<int>(finer * n);
     const InterfaceSurface solid = tube(m, m / 2, 0.3), fluid = tube(n, n / 2, -0.5);
-    return errors_of(map(fluid, solid, 0.5), fluid, solid);
+    return errors_of(map(fluid, solid, 0.5, UnitSystem::cgs()), fluid, solid);
   };
   const Errors coarse = errors(32), fine = errors(64);
   const auto order = [](double before, double after) { return std::log2(before / after); };

@@ -204,6 +204,51 @@ TEST_F(ForeignPython, What_one_of_several_processes_refuses_is_told) {
   EXPECT_TRUE(job.orphans.empty());
 }
 
+/// A wall in two processes, the second of which sends itself a signal in its second step, while the first waits for it
+/// inside MPI.
+JobResult run_with_signal_in_second(const std::string& signal) {
+  const TemporaryFolder folder;
+  const auto file = [&folder](const char* name) { return (folder / name).string(); };
+  std::ofstream(file("solid.py"))
+      << "#!/usr/bin/python3\nimport os, runpy, signal, tether\nplain = tether.serve\n"
+         "def signalled(wall, own):\n"
+         "    begin = wall.begin_step\n"
+         "    def begin_step(step, time, dt, predicted):\n"
+         "        if own.rank == 1 and step == 2:\n"
+         "            os.kill(os.getpid(), signal."
+      << signal
+      << ")\n"
+         "        begin(step, time, dt, predicted)\n"
+         "    wall.begin_step = begin_step\n"
+         "    return wall\n"
+         "tether.serve = lambda role, make: plain(role, lambda own: signalled(make(), own), "
+         "together=True)\n"
+         "runpy.run_path('"
+      << TETHER_SOURCE << "/docs/examples/ring_solid.py')\n";
+  std::filesystem::permissions(file("solid.py"), std::filesystem::perms::owner_all);
+  std::ofstream(file("case.yaml")) << "base: " << TETHER_SOURCE << "/docs/examples/ring_tube.yaml\n"
+                                   << "coupling: {ranks: {solid: 2}, programs: {solid: ./solid.py}}\n";
+  Environment environment = python_path;
+  environment["TETHER_STOPPED_LIMIT"] = "4";
+  return run_job({product_program("tether"), "simulate", file("case.yaml"), "--output", file("out")}, environment);
+}
+
+TEST_F(ForeignPython, One_of_several_processes_that_dies_is_told) {
+  const auto job = run_with_signal_in_second("SIGKILL");
+  EXPECT_EQ(job.exit_code, 1) << job.output;
+  EXPECT_NE(job.errors.find("ended: process 2 of 2 of solid (pid "), std::string::npos) << job.errors;
+  EXPECT_NE(job.errors.find("died while "), std::string::npos) << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
+TEST_F(ForeignPython, One_of_several_processes_that_is_stopped_is_told) {
+  const auto job = run_with_signal_in_second("SIGSTOP");
+  EXPECT_EQ(job.exit_code, 1) << job.output;
+  EXPECT_NE(job.errors.find("solid: process 2 of 2 of solid (pid "), std::string::npos) << job.errors;
+  EXPECT_NE(job.errors.find("and still is 4 s later"), std::string::npos) << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
 TEST(Foreign, The_conformance_check_reports_a_death) {
   const auto job = run_job({product_program("tether_conform"), test_program("fake_solid")},
                            {{"TETHER_FAKE", "solid.kill=SolidTangent"}});

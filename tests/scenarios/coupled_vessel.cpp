@@ -57,7 +57,8 @@ CoupledVessel::CoupledVessel(const WholeCase& all)
       surface_(ask_interface(solid_process_)),
       solid_(solid_process_) {
   const double size = diagonal(surface_.points);
-  fluid_.emplace(fluid_process_, InterfaceMap::match(ask_interface(fluid_process_), surface_, 1e-5 * size));
+  fluid_.emplace(fluid_process_,
+                 InterfaceMap::match(ask_interface(fluid_process_), surface_, 1e-5 * size, UnitSystem::cgs()));
   options_ = {all.coupling.tolerance, all.coupling.max_iterations, all.coupling.reuse, size};
   coupling_ = make_coupling(all.coupling.method, *fluid_, solid_, options_);
   loop_.emplace(*fluid_, solid_, *coupling_, surface_.points.reshaped(), all.coupling.halvings);

@@ -70,9 +70,10 @@ std::string Examiner::fit() {
   const bool is_fluid = partner_.role() == "fluid";
   const InterfaceSurface &fluid = is_fluid ? own : others, &solid = is_fluid ? others : own;
   const double size = diagonal(solid.points), trust = trusted_distance * size;
+  const UnitSystem& units = counterpart_->units;
   const bool matches = InterfaceMap::matches(fluid, solid, same_node * size);
-  const InterfaceMap map =
-      matches ? InterfaceMap::match(fluid, solid, same_node * size) : InterfaceMap::mortar(fluid, solid, trust);
+  const InterfaceMap map = matches ? InterfaceMap::match(fluid, solid, same_node * size, units)
+                                   : InterfaceMap::mortar(fluid, solid, trust, units);
   const InterfaceFit fit = interface_fit(fluid, solid, trust);
   require(!fit.looks_away(), "its triangles look to the side opposite to those of {}",
           counterpart_->partner.hello().program);
@@ -81,8 +82,7 @@ std::string Examiner::fit() {
   const double most = std::max({lost.force, lost.moment, lost.work});
   require(most < balance_tolerance, "force, moment or work are kept to {:.1e} only", most);
   if (matches) return fmt::format("node for node, {} of them", fit.fluid_nodes);
-  return fmt::format("by mortar: {}; force, moment and work are kept to {:.0e}", in_words(fit, counterpart_->units),
-                     most);
+  return fmt::format("by mortar: {}; force, moment and work are kept to {:.0e}", in_words(fit, units), most);
 }
 
 }  // namespace tether::protocol

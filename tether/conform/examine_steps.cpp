@@ -47,6 +47,7 @@ std::string Examiner::yielding() {
   end(false);
   const Numbers changes = combined(1, pushed, -1, free);
   const Numbers moved(changes.begin(), changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2));
+  require(dot(moved, moved) > 0, "a load does not move it");
   require(dot(drive_->excitation(1), moved) > 0,
           "a load moves it the other way: a load is the force of the fluid on it");
   return "";
