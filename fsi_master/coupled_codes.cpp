@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/error.hpp"
+#include "common/base/transform.hpp"
 
 namespace tether {
 namespace {
@@ -45,6 +46,21 @@ void check_names(const Infos& infos, const char* what, const protocol::Partner& 
       throw input_error("{} announces {} \"{}\"{}", partner.role(), what, info.name, info.name.empty() ? "" : " twice");
 }
 
+/// Throws InputError for a number that an identification could not move: of no known transform, or outside its own
+/// limits.
+void check_numbers(protocol::Partner& partner) {
+  for (const protocol::ParameterInfo& info : partner.hello().parameters) {
+    try {
+      static_cast<void>(transform_named(info.transform));
+    } catch (const InputError& error) {
+      throw input_error("{} announces {}: {}", partner.role(), info.name, error.what());
+    }
+    if (info.value < info.lower || info.value > info.upper)
+      throw input_error("{} announces {} as {:g}, outside its own limits, {:g} and {:g}", partner.role(), info.name,
+                        info.value, info.lower, info.upper);
+  }
+}
+
 /// Throws InputError if the case says of a number that a code of somebody else's announces another value than the code:
 /// it does not read that place, and what is identified would be lost there.
 void check_is_read(protocol::Partner& partner, const std::string& executable, const CaseFile& file) {
@@ -81,6 +97,7 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
   for (protocol::Partner& partner : processes) {
     check_names(partner.hello().parameters, "a parameter", partner);
     check_names(partner.hello().observables, "an observable", partner);
+    check_numbers(partner);
   }
   check_is_read(processes[0], master.coupling.programs.fluid, master.file);
   check_is_read(processes[1], master.coupling.programs.solid, master.file);

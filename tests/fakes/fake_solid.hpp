@@ -9,7 +9,7 @@ namespace tether::fakes {
 ///   m (V - u0)/dt + c V + k (y0 + dt V) = load,   y1 = y0 + dt V,   u1 = V.
 struct FakeSolid {
   double mass = 1, damping = 2, stiffness = 50;
-  bool has_tangent = true, has_operators = true, has_state = true, announces_twice = false;
+  bool has_tangent = true, has_operators = true, has_state = true, announces_twice = false, is_outside = false;
   protocol::Interface surface = tube();
   std::vector<double> y0, u0, v;  ///< start of the step; velocity of the last evaluation or iterate
   double dt = 0;
@@ -44,6 +44,7 @@ struct FakeSolid {
     hello.state_size = static_cast<std::int64_t>(2 * y0.size());
     hello.unknowns = static_cast<std::int64_t>(y0.size());
     hello.parameters = {{"stiffness", "of every spring", "dyn/cm", "log2", stiffness, 0, 0, 1e9, 1}};
+    if (is_outside) hello.parameters[0].lower = 2 * hello.parameters[0].value;
     if (announces_twice) hello.parameters.push_back(hello.parameters[0]);
     return hello;
   }

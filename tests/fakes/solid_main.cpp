@@ -20,6 +20,7 @@ int main() {
     solid.has_tangent = fakes::option("solid", "tangent") != "no";
     solid.has_operators = fakes::option("solid", "operators") != "no";
     solid.has_state = fakes::option("solid", "state") != "no";
+    solid.is_outside = fakes::option("solid", "announce") == "outside";
     solid.announces_twice = fakes::option("solid", "announce") == "twice";
     return fakes::Misbehaving<fakes::FakeSolid>("solid", solid);
   });

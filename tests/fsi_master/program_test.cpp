@@ -141,6 +141,13 @@ TEST_F(Program, ANameThatIsAnnouncedTwiceIsRefused) {
   EXPECT_NE(end.errors.find("solid announces a parameter \"stiffness\" twice"), std::string::npos) << end.errors;
 }
 
+TEST_F(Program, ANumberOutsideItsOwnLimitsIsRefused) {
+  const ChildEnd end = run("out", {"--quiet"}, "solid.announce=outside");
+  EXPECT_EQ(end.exit_code, 2);
+  EXPECT_NE(end.errors.find("solid announces stiffness as 50, outside its own limits, 100 and "), std::string::npos)
+      << end.errors;
+}
+
 TEST_F(Program, WrongInputOfAPartnerIsTheUsersMessage) {
   const ChildEnd end = run("out", {"--quiet"}, "fluid.refuse=hello");
   EXPECT_EQ(end.exit_code, 2);
