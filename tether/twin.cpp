@@ -215,12 +215,9 @@ TwinData make_data(const CaseWithTwin& given, const Truth& truth) {
                [&](const std::string& field) { return given.file.where(field); });
   TwinData data{make_frames(given.twin, given.file.units(), lumen, given.file.where("twin")), {}};
   std::uint64_t seed = static_cast<std::uint64_t>(given.twin.seed) * 16 + 8;
-  for (const auto& [name, trace] : given.twin.traces) {
-    TwinTrace made =
-        make_trace(trace, truth.series.numbers("time"), truth.series.numbers(trace.observable), first, seed++);
-    given.twin.faults.spoil(name, made.times, made.values);
-    data.traces.push_back(std::move(made));
-  }
+  for (const auto& [name, trace] : given.twin.traces)
+    data.traces.push_back(
+        make_trace(trace, truth.series.numbers("time"), truth.series.numbers(trace.observable), first, seed++));
   return data;
 }
 

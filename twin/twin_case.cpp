@@ -21,8 +21,10 @@ void TwinImageCase::declare(Fields& f) {
 void TwinTraceCase::declare(Fields& f) {
   f.text("observable", observable, "column of timeseries.csv: fluid.outlet.pressure", Need::required);
   declare_quantity(f, quantity, noise.dimension);
+  faults.dimension = noise.dimension;
   f.number("interval", interval, dimension::time, range::positive, "time between two values");
   f.group("noise", noise, "errors of the values");
+  f.group("faults", faults, "what is wrong with all values");
 }
 
 void HiddenEffectCase::declare(Fields& f) {

@@ -16,10 +16,18 @@ struct TwinImageCase {
   void declare(Fields& f);
 };
 
+/// What is wrong with an instrument.
+struct InstrumentFaultsCase {
+  Faults faults{fallible::instrument};
+  Dimension dimension;  ///< of the values; set by the owner
+  void declare(Fields& f) { faults.declare(f, dimension); }
+};
+
 /// A measured trace to make.
 struct TwinTraceCase {
   std::string observable, quantity;
   double interval = undefined;
+  InstrumentFaultsCase faults;
   NoiseCase noise;
   void declare(Fields& f);
 };
@@ -46,7 +54,7 @@ struct TwinCase {
   std::vector<double> held_out;
   TwinImageCase image;
   NoiseCase noise;
-  Faults faults;
+  Faults faults{fallible::image};
   Named<TwinTraceCase> traces;
   HiddenCase hidden;
   void declare(Fields& f);

@@ -46,6 +46,7 @@ Amplitude amplitude_of(const FaultNumber& number, const UnitSystem& units) {
   amplitude.one_sided = number.lower == 0;
   amplitude.lower = number.lower;
   amplitude.upper = number.upper;
+  amplitude.scale = number.scale;
   return amplitude;
 }
 
@@ -124,6 +125,8 @@ class SourceErrors {
     data.curvatures = of_all(evidence_.curvatures())(rows);
     data.outward_velocity = velocity(rows);
     data.times = of_all(evidence_.times())(rows);
+    data.values = of_all(evidence_.shown())(rows);
+    data.dimension = evidence_.source(*parts_.front()).facts().dimension;
     return data;
   }
   /// Of all data: zero outside the source, or one frame of it.

@@ -55,6 +55,7 @@ void Evidence::add_datum(const Datum& datum, double deviation) {
   place_list_.push_back(datum.position);
   along_.push_back(along_vessel(datum));
   times_.push_back(datum.time);
+  shown_.push_back(datum.shown);
   curvature_.push_back(datum.shares.dot(Vec3(nodal_curvature_(datum.nodes))));
 }
 

@@ -42,6 +42,8 @@ class Evidence {
   const std::vector<int>& regions() const { return region_; }
   /// Of the data on the lumen, the sum of the imaged lumen's two curvatures there; else zero [1/length].
   const std::vector<double>& curvatures() const { return curvature_; }
+  /// Of what is read off an instrument, as it stands there; zero for all others.
+  const std::vector<double>& shown() const { return shown_; }
   /// Of all data, in the run.
   const std::vector<double>& times() const { return times_; }
   /// Of the data on the lumen, how far along the vessel they are: 0 at an inlet, 1 at an outlet. Else zero.
@@ -68,7 +70,7 @@ class Evidence {
   VectorXd nodal_curvature_;
   std::vector<std::string> region_names_;
   std::vector<Part> parts_;
-  std::vector<double> residual_, precision_, independent_, along_, curvature_, times_;
+  std::vector<double> residual_, precision_, independent_, along_, curvature_, times_, shown_;
   std::vector<bool> held_out_;
   std::vector<int> region_, component_, block_;
   std::vector<Vec3> normal_list_, place_list_;

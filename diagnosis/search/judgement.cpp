@@ -107,12 +107,25 @@ bool names_a_law(const SearchEnd& end) {
   });
 }
 
+/// Whether the model lacks, as probably as not, what was refused since that is not sure.
+bool leaves_open(const SearchResult& result) {
+  constexpr double even = 0.5;
+  const std::vector<WeighedGroup>& groups = result.weighed.groups;
+  return std::any_of(result.path.begin(), result.path.end(), [&](const SearchStep& step) {
+    return step.objection && is_of_probability(*step.objection) &&
+           std::any_of(groups.begin(), groups.end(), [&](const WeighedGroup& group) {
+             return group.probability > even && group.has(step.candidate);
+           });
+  });
+}
+
 Verdict verdict_of(const SearchEnd& end, const SearchResult& result) {
   const bool accepted = !end.state.accepted.empty();
   if (leaves_too_much(end, result) && !result.more)
     return !accepted && some_explain_it(end, result) ? Verdict::undecided : Verdict::not_in_catalogue;
   if (has_rivals(end, result)) return Verdict::ambiguous;
   if (names_a_law(end) && leaves_patterns(end, result) && !result.more) return Verdict::undecided;
+  if (accepted && !names_a_law(end) && leaves_open(result)) return Verdict::undecided;
   if (accepted) return Verdict::missing;
   const bool is_decided = !stands_out(result) && sees_anything(end.problem, result) && !result.doubtful;
   return is_decided ? Verdict::nothing_missing : Verdict::undecided;

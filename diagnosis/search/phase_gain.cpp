@@ -13,7 +13,7 @@ namespace {
 using Members = std::vector<std::size_t>;
 
 constexpr std::size_t fewest_moments = 4;
-constexpr double sure = 0.95;  ///< probability
+constexpr double foretold_surely = 0.95;  ///< probability
 
 /// By how much more probable the data are with one set than with the other, as a logarithm.
 double lead(const SetEvidence& evidence, const Members& with, const Members& without) {
@@ -48,7 +48,7 @@ std::vector<Eigen::Index> rows_but(const EffectProblem& problem, int moment) {
 }
 
 bool foretells(const PhaseGain& gain) {
-  return gain.positive >= sure || gain.robust >= std::log(sure / (1 - sure));
+  return gain.positive >= foretold_surely || gain.robust >= std::log(foretold_surely / (1 - foretold_surely));
 }
 
 /// Of normal numbers the lower 4/5 have 4/5 of the mean, less the density at the quantile times the deviation,

@@ -35,6 +35,7 @@ struct Datum {
   double independent = 0;  ///< how many independent data it is (K.5); 0 if it is none
   double time = 0;         ///< in the run
   bool held_out = false;
+  double shown = 0;            ///< by an instrument: the value as it stands there [unit of the source]
   int component = 0;           ///< of a vector: each errs by itself
   std::array<int, 4> patch{};  ///< data of one patch of a part err together
   Vec3 position{0, 0, 0};      ///< [length]

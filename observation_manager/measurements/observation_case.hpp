@@ -21,7 +21,8 @@ struct NoiseCase {
 struct CorrectionCase {
   explicit CorrectionCase(const Fallible& data) : faults(data) {}
   Faults faults;
-  void declare(Fields& f) { faults.declare_corrections(f); }
+  Dimension dimension = dimension::length;  ///< of the values; set by the owner
+  void declare(Fields& f) { faults.declare_corrections(f, dimension); }
 };
 
 /// What sources of lumen data have in common: where on the wall and when they count, and their errors.

@@ -9,7 +9,7 @@
 namespace tether {
 
 Trace::Trace(std::string name, std::string observable, std::vector<double> times, std::vector<double> values,
-             Curve curve, Noise noise, double period, double tolerance, bool held_out, Dimension dimension)
+             Curve curve, Noise noise, double period, double tolerance, bool held_out, Dimension dimension, double zero)
     : name(std::move(name)),
       observable(std::move(observable)),
       times(std::move(times)),
@@ -19,7 +19,8 @@ Trace::Trace(std::string name, std::string observable, std::vector<double> times
       period(period),
       tolerance(tolerance),
       held_out(held_out),
-      dimension(dimension) {}
+      dimension(dimension),
+      zero(zero) {}
 
 std::optional<double> Trace::at(double time) const {
   const double reach = tolerance * (1 + 1e-9);
@@ -61,8 +62,11 @@ std::vector<Datum> Trace::data(const FinishedMotion& run, const MeasuredPart&) c
   const double share = independent_share(apart, noise.correlation_time);
   std::vector<Datum> all;
   for (const TraceValue& value : seen)
-    all.push_back(
-        {.residual = value.measured - value.model, .independent = share, .time = value.time, .held_out = held_out});
+    all.push_back({.residual = value.measured - value.model,
+                   .independent = share,
+                   .time = value.time,
+                   .held_out = held_out,
+                   .shown = value.measured + zero});
   return all;
 }
 

@@ -19,7 +19,8 @@ class Trace : public Measurement {
  public:
   /// times, values: as measured. tolerance: how far from its ends a time still is one of the trace.
   Trace(std::string name, std::string observable, std::vector<double> times, std::vector<double> values, Curve curve,
-        Noise noise, double period = 0, double tolerance = 0, bool held_out = false, Dimension dimension = {});
+        Noise noise, double period = 0, double tolerance = 0, bool held_out = false, Dimension dimension = {},
+        double zero = 0);
 
   /// Linear between the values; nothing before the first or after the last, unless it repeats.
   std::optional<double> at(double time) const;
@@ -42,6 +43,7 @@ class Trace : public Measurement {
   double tolerance = 0;   ///< how far from its ends a time still is one of the trace [time]
   bool held_out = false;  ///< it judges the model, and is not used to make it
   Dimension dimension = {};
+  double zero = 0;  ///< of the instrument, to which the values are relative
 };
 
 /// Reads it. Throws InputError "file:line: ...".

@@ -22,7 +22,7 @@ void declare_quantity(Fields& f, std::string& quantity, Dimension& dimension) {
 void TraceCase::declare(Fields& f) {
   f.text("observable", observable, "column of timeseries.csv: fluid.outlet.pressure", Need::required);
   declare_quantity(f, quantity, noise.dimension);
-  curve.dimension = noise.dimension;
+  curve.dimension = correction.dimension = noise.dimension;
   f.group("curve", curve, "the measured values over time");
   f.check(!curve.constant, "curve", "give a file: a constant is no measurement");
   f.number("time_shift", time_shift, dimension::time, range::any, "added to the data's times");

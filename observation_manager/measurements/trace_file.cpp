@@ -40,8 +40,10 @@ Trace load_trace(const std::string& name, const TraceCase& given, const CaseFile
   CurveCase::Table table = given.curve.table(file.units());
   const bool shifted = given.quantity == "pressure" && given.absolute;
   for (double& time : table.times) time += given.time_shift;
-  for (double& value : table.values) value = given.curve.scale * value - (shifted ? file.common().image.pressure : 0);
-  given.correction.faults.correct(table.times, table.values);
+  const double zero = shifted ? file.common().image.pressure : 0;
+  for (double& value : table.values) value *= given.curve.scale;
+  given.correction.faults.correct(table.values);
+  for (double& value : table.values) value -= zero;
   const double period = given.curve.period.value_or(0);
   check_range(table.times, period, file.common().time, where);
   Curve curve(table.times, table.values, {.period = period});
@@ -54,7 +56,8 @@ Trace load_trace(const std::string& name, const TraceCase& given, const CaseFile
           period,
           0.5 * file.common().time.step,
           given.held_out,
-          given.curve.dimension};
+          given.curve.dimension,
+          zero};
 }
 
 const MeasurementKind kinds::traces{.name = "traces",

@@ -100,7 +100,7 @@ TEST_F(DataFaults, AreGoneOnceTheyAreTakenOff) {
     EXPECT_GT(all, 0) << error.name;
     EXPECT_LT(off, 0.02 * all) << error.name;
   }
-  EXPECT_GE(taken_off, 4);
+  EXPECT_GE(taken_off, 6);
 }
 
 }  // namespace data_faults_test

@@ -1,6 +1,7 @@
 /// The search for a missing effect on a linear system.
 #include "diagnosis/search/effect_search.hpp"
 #include "diagnosis/search/judgement.hpp"
+#include "diagnosis/search/shares_by_runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -366,6 +367,55 @@ TEST(EffectSearch, ALawThatLeavesPatternsIsNotNamedForSure) {
   };
   EXPECT_GT(verdicts(4, Verdict::undecided), 0.8);
   EXPECT_GT(verdicts(0, Verdict::missing), 0.9) << "leaves noise";
+}
+
+/// Beside a coarse mesh nothing is missing, unless something is as probable as not, which runs do not contradict.
+TEST(EffectSearch, AnErrorOfTheMeshIsNotAllWhereALawIsAsProbableAsNot) {
+  int open = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 generator(seed);
+    EffectProblem problem = band();
+    problem.candidates[0].kind = CandidateKind::numerics;
+    problem.residual = noise(generator) + 8 * problem.changes.col(0) + 1.3 * problem.changes.col(4);
+    const SearchResult result = found(problem);
+    const auto& groups = result.weighed.groups;
+    const bool is_probable = std::any_of(groups.begin(), groups.end(), [](const WeighedGroup& group) {
+      return group.has(4) && group.probability > 0.5 && group.probability < 0.95;
+    });
+    const bool is_refused_for_that = std::any_of(result.path.begin(), result.path.end(), [](const SearchStep& step) {
+      return step.candidate == 4 && step.objection == Objection::not_sure;
+    });
+    if (!is_probable || !is_refused_for_that || !effect_of(result, 0).accepted) continue;
+    ++open;
+    EXPECT_EQ(result.verdict, Verdict::undecided) << seed;
+  }
+  EXPECT_GE(open, 3);
+}
+
+/// What the table adds up says one, runs of what was tried say another.
+TEST(EffectSearch, SharesAreThoseOfRuns) {
+  std::vector<TestedEffect> effects(4);
+  for (std::size_t k = 0; k < 4; ++k) effects[k].candidate = k, effects[k].amplitudes = VectorXd::Constant(1, 10.0);
+  for (const std::size_t k : {0, 1, 2}) effects[k].confirmed = true;
+  effects[0].accepted = true;
+  effects[0].confirmed_gain = 71.6, effects[1].confirmed_gain = 71.4, effects[2].confirmed_gain = 40;
+  Weighed weighed;
+  WeighedGroup& group = weighed.groups.emplace_back();
+  group.members = {1, 3, 0, 2};
+  group.shares = {0.7, 0.2, 0.0, 0.1};
+  group.amplitudes = {5, 6, 7, 8};
+  group.by_runs = {false, false, false, false};
+  share_by_runs(weighed, effects);
+  EXPECT_EQ(group.members, (std::vector<std::size_t>{0, 1, 3, 2}));
+  EXPECT_NEAR(group.shares[0], 0.8 / (1 + std::exp(-0.1)), 1e-6);
+  EXPECT_NEAR(group.shares[0] + group.shares[1] + group.shares[3], 0.8, 1e-12) << "what they had together";
+  EXPECT_EQ(group.shares[2], 0.2) << "was not tried";
+  EXPECT_EQ(group.amplitudes, (std::vector<double>{10, 10, 6, 10}));
+  EXPECT_EQ(group.by_runs, (std::vector<bool>{true, true, false, true}));
+  effects[1].accepted = true;
+  const WeighedGroup before = group;
+  share_by_runs(weighed, effects);
+  EXPECT_EQ(group.shares, before.shares) << "two that are there together";
 }
 
 /// A place that is farther off than any noise: what is named beside it is not known.

@@ -24,13 +24,13 @@ class Bias : public FaultOf<Bias> {
   std::vector<Overlay::Value> take_off(const FoundFault& found) const override {
     return {{"correction.outward", number_text(outward_ - found.number("bias"))}};
   }
-  void declare_correction(Fields& f) override {
+  void declare_correction(Fields& f, Dimension) override {
     f.number("outward", outward_, dimension::length, range::any,
              "by which the measured lumen is moved out along its normal: that much was segmented too small");
   }
   double outward() const override { return outward_; }
 
-  void declare_made(Fields& f) override {
+  void declare_made(Fields& f, Dimension) override {
     f.number("bias", made_, dimension::length, range::any, "added along the outward normal, as by a wrong threshold");
   }
   double moved_outward() const override { return made_; }

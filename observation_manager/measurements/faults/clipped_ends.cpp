@@ -13,7 +13,7 @@ class ClippedEnds : public FaultOf<ClippedEnds> {
     return all;
   }
 
-  void declare_made(Fields& f) override {
+  void declare_made(Fields& f, Dimension) override {
     f.number("clipped_ends", distance_, dimension::length, range::not_negative,
              "nothing is segmented within this distance of the vessel's ends");
   }

@@ -21,7 +21,7 @@ class Cropped : public FaultOf<Cropped> {
     return all;
   }
 
-  void declare_made(Fields& f) override { f.group("cropped", made_, "a frame that shows a part only"); }
+  void declare_made(Fields& f, Dimension) override { f.group("cropped", made_, "a frame that shows a part only"); }
   void check_made(int frames, const std::string& where) const override {
     if (made_) made_->frame.check(frames, where);
   }

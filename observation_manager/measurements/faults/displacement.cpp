@@ -40,7 +40,7 @@ class Displacement : public FaultOf<Displacement> {
     const Vec3 by(found.number("x"), found.number("y"), found.number("z"));
     return {{"correction.displacement", list_text(vector_of(added_) - by)}};
   }
-  void declare_correction(Fields& f) override {
+  void declare_correction(Fields& f, Dimension) override {
     f.numbers("displacement", added_, {3, dimension::length, range::any}, "added to the data's coordinates");
   }
   Points corrected(Points points) const override { return points.colwise() + vector_of(added_); }
@@ -50,7 +50,7 @@ class Displacement : public FaultOf<Displacement> {
     return by.isZero(0) ? "" : fmt::format("displaced by ({:.3g}, {:.3g}, {:.3g}) {}", by(0), by(1), by(2), unit);
   }
 
-  void declare_made(Fields& f) override { f.group("misplaced", made_, "a frame that is moved as a whole"); }
+  void declare_made(Fields& f, Dimension) override { f.group("misplaced", made_, "a frame that is moved as a whole"); }
   void check_made(int frames, const std::string& where) const override {
     if (made_) made_->frame.check(frames, where);
   }

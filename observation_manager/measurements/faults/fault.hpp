@@ -29,6 +29,7 @@ struct FaultNumber {
   Dimension dimension;
   std::string unit = {};  ///< of what has no dimension: "rad"
   double lower = -infinite, upper = infinite;
+  double scale = undefined;  ///< how large it may be; undefined: one unit
 };
 
 /// The data of a source beside a run, n of them.
@@ -38,6 +39,8 @@ struct SourceData {
   VectorXd outward_velocity;         ///< of the run's lumen [length/time]
   VectorXd times;                    ///< in the run
   Vec3 middle{0, 0, 0};              ///< of the places [length]
+  VectorXd values = {};              ///< as an instrument shows them; zero for what is none
+  Dimension dimension = {};          ///< of the values
 };
 
 /// What a fault would do to data: by how much they lie farther out, or are larger, for each unit of each number.
@@ -74,20 +77,20 @@ class Fault {
   // How it is taken off.
   /// What the case must say of the source, on top of what it says: fields by their place within the source.
   virtual std::vector<Overlay::Value> take_off(const FoundFault&) const { return {}; }
-  /// Fields of the source's section `correction`.
-  virtual void declare_correction(Fields&) {}
+  /// Fields of the source's section `correction`, of values of this dimension.
+  virtual void declare_correction(Fields&, Dimension) {}
   virtual Points corrected(Points points) const { return points; }
   /// Where a corrected point was.
   virtual Vec3 uncorrected(const Vec3& point) const { return point; }
   /// By how much the measured lumen is moved out [length].
   virtual double outward() const { return 0; }
-  virtual double corrected_value(double value, double /*time*/) const { return value; }
+  virtual double corrected_value(double value) const { return value; }
   /// What is done to points, for people; empty: nothing.
   virtual std::string note(const std::string& /*unit_of_length*/) const { return {}; }
 
   // How a twin makes it. Frames are counted from 0, lost ones too.
-  /// Fields of `twin.faults`.
-  virtual void declare_made(Fields&) {}
+  /// Fields of `twin.faults`, or of a trace's `faults` there.
+  virtual void declare_made(Fields&, Dimension) {}
   /// Throws InputError; where: "case.yaml:9: twin.faults".
   virtual void check_made(int /*frames*/, const std::string& /*where*/) const {}
   virtual bool loses(int /*frame*/) const { return false; }
@@ -96,7 +99,7 @@ class Fault {
   /// Added along the outward normals [length].
   virtual double moved_outward() const { return 0; }
   virtual void spoil(TriangleSurface&, const TriangleSurface& /*truth*/, int /*frame*/) const {}
-  virtual double spoilt_value(const std::string& /*trace*/, double value, double /*time*/) const { return value; }
+  virtual double spoilt_value(double value) const { return value; }
 };
 
 /// A fault that is copied as a whole.

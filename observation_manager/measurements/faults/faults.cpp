@@ -24,8 +24,8 @@ Faults& Faults::operator=(const Faults& other) {
   return *this = Faults(other);
 }
 
-void Faults::declare_corrections(Fields& f) {
-  for (const auto& fault : all_) fault->declare_correction(f);
+void Faults::declare_corrections(Fields& f, Dimension of_values) {
+  for (const auto& fault : all_) fault->declare_correction(f, of_values);
 }
 
 Points Faults::corrected(Points points) const {
@@ -39,9 +39,9 @@ double Faults::outward() const {
   return sum;
 }
 
-void Faults::correct(const std::vector<double>& times, std::vector<double>& values) const {
+void Faults::correct(std::vector<double>& values) const {
   for (auto fault = all_.rbegin(); fault != all_.rend(); ++fault)
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = (*fault)->corrected_value(values[i], times[i]);
+    for (double& value : values) value = (*fault)->corrected_value(value);
 }
 
 std::vector<std::string> Faults::notes(const std::string& unit_of_length) const {
@@ -60,8 +60,8 @@ std::vector<Overlay::Value> Faults::take_off(const std::string& name, FoundFault
   return {};
 }
 
-void Faults::declare(Fields& f) {
-  for (const auto& fault : all_) fault->declare_made(f);
+void Faults::declare(Fields& f, Dimension of_values) {
+  for (const auto& fault : all_) fault->declare_made(f, of_values);
 }
 
 void Faults::check(int frames, const std::string& where) const {
@@ -88,9 +88,9 @@ void Faults::spoil(TriangleSurface& surface, const TriangleSurface& truth, int f
   for (const auto& fault : all_) fault->spoil(surface, truth, frame);
 }
 
-void Faults::spoil(const std::string& trace, const std::vector<double>& times, std::vector<double>& values) const {
+void Faults::spoil(std::vector<double>& values) const {
   for (const auto& fault : all_)
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = fault->spoilt_value(trace, values[i], times[i]);
+    for (double& value : values) value = fault->spoilt_value(value);
 }
 
 }  // namespace tether

@@ -32,7 +32,7 @@ class Lag : public FaultOf<Lag> {
     return {{"time_shift", number_text(found.time_shift + found.number("time_shift"))}};
   }
 
-  void declare_made(Fields& f) override { f.group("mistimed", made_, "a frame with a wrong time"); }
+  void declare_made(Fields& f, Dimension) override { f.group("mistimed", made_, "a frame with a wrong time"); }
   void check_made(int frames, const std::string& where) const override {
     if (made_) made_->frame.check(frames, where);
   }

@@ -14,7 +14,7 @@ class Lost : public FaultOf<Lost> {
     return all;
   }
 
-  void declare_made(Fields& f) override {
+  void declare_made(Fields& f, Dimension) override {
     f.numbers("lost", numbers_, {0, dimension::none, range::not_negative},
               "numbers of frames (from 0) that are missing");
   }

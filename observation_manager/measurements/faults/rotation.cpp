@@ -49,7 +49,7 @@ class Rotation : public FaultOf<Rotation> {
     const Vec3 by(found.number("about_x"), found.number("about_y"), found.number("about_z"));
     return {{"correction.rotation", list_text(-by)}, {"correction.about", list_text(found.middle)}};
   }
-  void declare_correction(Fields& f) override {
+  void declare_correction(Fields& f, Dimension) override {
     f.numbers("rotation", angle_, {3, dimension::none, range::any},
               "axis times angle in radians by which the data are turned, before they are displaced");
     f.numbers("about", about_, {3, dimension::length, range::any},

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "diagnosis/search/effect_tests.hpp"
+#include "diagnosis/search/posterior.hpp"
+
+namespace tether {
+
+/// Of a group with one accepted member, those that runs tried share what the table gave them by what these runs remove
+/// of the misfit: the table adds up what each does by itself, which runs of all together need not bear out. Their
+/// values are those of the runs. (D.19)
+void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects);
+
+}  // namespace tether
