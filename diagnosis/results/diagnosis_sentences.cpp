@@ -62,9 +62,12 @@ std::string split_sentence(const FurtherData& best, const char* answer) {
 }
 
 std::string held_out_sentence(const Gain& gain) {
+  const bool is_worse = gain.value < 0;
+  const double sign = is_worse ? -100 : 100;
   return fmt::format(
-      "Held-out frames: {:.0f} % less distance ({:.0f} .. {:.0f}) with it, {:.2g} times the noise instead of {:.2g}",
-      100 * gain.value, 100 * gain.lower, 100 * gain.upper, gain.after, gain.before);
+      "Held-out frames: {:.0f} % {} distance ({:.0f} .. {:.0f}) with it, {:.2g} times the noise instead of {:.2g}",
+      sign * gain.value, is_worse ? "more" : "less", sign * (is_worse ? gain.upper : gain.lower),
+      sign * (is_worse ? gain.lower : gain.upper), gain.after, gain.before);
 }
 
 std::vector<std::string> accepted_texts(const Diagnosis& diagnosis) {
@@ -272,6 +275,7 @@ void add_noise(std::vector<std::string>& all, const Diagnosis& diagnosis) {
           fmt::format("The noise of {} is taken for {:.2f} times what is stated, {:.2f} times in long waves, "
                       "as the data have it",
                       noise.source, noise.factor, noise.long_waves));
+  if (diagnosis.verdict == Verdict::not_in_catalogue) return;  // what is left is more than noise
   for (const NoiseCheck& check : diagnosis.noise)
     if (check.contradicts) all.push_back(sentence_of(check));
 }
@@ -296,7 +300,7 @@ void add_foretold(std::vector<std::string>& all, const Diagnosis& diagnosis) {
 void add_certainty(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const AlternativeGroup* group = named_group(diagnosis);
   constexpr double even = 0.5, no_news = 0.995;
-  if (diagnosis.table.otherwise.empty() || !group) return;
+  if (diagnosis.table.otherwise.empty() || !group || diagnosis.verdict == Verdict::not_in_catalogue) return;
   if (group->probability < even || group->least_probability > no_news) return;
   const std::string most = percent_of(group->probability), least = percent_of(group->least_probability);
   all.push_back(fmt::format(

@@ -203,6 +203,15 @@ TEST(Results, WhatIsSaidOfALawIsOfItsGroup) {
   EXPECT_NE(headline_of(d).find("what that leaves is not noise"), std::string::npos);
 }
 
+TEST(Results, AWorseModelIsToldAsThat) {
+  Diagnosis d = diagnosis();
+  d.held_out = Gain{.value = -0.52, .lower = -1.13, .upper = -0.02, .before = 1.4, .after = 2.1};
+  const std::vector<std::string> all = remarks_on(d, HeldOutGain::told);
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const auto& one) {
+    return one == "Held-out frames: 52 % more distance (2 .. 113) with it, 2.1 times the noise instead of 1.4";
+  })) << ::testing::PrintToString(all);
+}
+
 /// What is more probable than nothing is told beside it, whatever the verdict rests on.
 TEST(Results, NothingMissingTellsWhatIsNotRuledOut) {
   Diagnosis d = diagnosis();
