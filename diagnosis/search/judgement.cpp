@@ -114,7 +114,7 @@ bool leaves_open(const SearchResult& result) {
   return std::any_of(result.path.begin(), result.path.end(), [&](const SearchStep& step) {
     return step.objection && is_of_probability(*step.objection) &&
            std::any_of(groups.begin(), groups.end(), [&](const WeighedGroup& group) {
-             return group.probability > even && group.has(step.candidate);
+             return group.probability > even && group.members.front() == step.candidate;
            });
   });
 }

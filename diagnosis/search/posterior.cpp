@@ -265,7 +265,8 @@ class Sets {
 const std::map<Assumed, std::array<double, 2>> otherwise{
     {Assumed::sizes, {0.5, 2}}, {Assumed::noise, {1 / 1.3, 1.3}}, {Assumed::discrepancy, {0.5, 2}}};
 
-constexpr double listed = 0.01;  ///< smallest probability of a candidate that is told
+/// Smallest probability of a candidate that is told, and of one that counts where it does much the same as what is.
+constexpr double listed = 0.01, counted = 1e-3;
 
 /// Those first that the data can least do without; each is made about its most probable member.
 std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const Posterior& posterior) {
@@ -282,9 +283,17 @@ std::vector<WeighedGroup> groups_of(const SetEvidence& evidence, const Posterior
     });
     (same == groups.end() ? groups.emplace_back() : *same).members.push_back(c);
   }
-  for (WeighedGroup& group : groups) group.probability = posterior.of_any(group.members);
+  for (std::size_t c = 0; c < each.size(); ++c) {
+    if (each[c] >= listed || each[c] < counted) continue;
+    for (WeighedGroup& group : groups)
+      if (std::pow(evidence.cosine(group.members.front(), c), 2) > look_alike) {
+        group.faint.push_back(c);
+        break;
+      }
+  }
+  for (WeighedGroup& group : groups) group.probability = posterior.of_any(group.all());
   std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) {
-    return posterior.of_none(a.members) < posterior.of_none(b.members);
+    return posterior.of_none(a.all()) < posterior.of_none(b.all());
   });
   return groups;
 }
@@ -329,7 +338,7 @@ void describe(WeighedGroup& group, const EffectProblem& problem, const SetEviden
 std::vector<int> groups_in(const EffectSet& set, const std::vector<WeighedGroup>& groups) {
   std::vector<int> all;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    if (std::any_of(set.members.begin(), set.members.end(), [&](std::size_t c) { return groups[g].has(c); }))
+    if (std::any_of(set.members.begin(), set.members.end(), [&](std::size_t c) { return groups[g].counts(c); }))
       all.push_back(static_cast<int>(g));
   return all;
 }
@@ -375,6 +384,16 @@ void compare_moments(WeighedGroup& group, const Compared& of, const EffectSet& b
 
 bool WeighedGroup::has(std::size_t candidate) const {
   return std::find(members.begin(), members.end(), candidate) != members.end();
+}
+
+bool WeighedGroup::counts(std::size_t candidate) const {
+  return has(candidate) || std::find(faint.begin(), faint.end(), candidate) != faint.end();
+}
+
+std::vector<std::size_t> WeighedGroup::all() const {
+  std::vector<std::size_t> together = members;
+  together.insert(together.end(), faint.begin(), faint.end());
+  return together;
 }
 
 double Posterior::of_any(const std::vector<std::size_t>& candidates) const {
@@ -432,7 +451,7 @@ void weigh_otherwise(Weighed& weighed, const EffectProblem& problem, const std::
       const Posterior now = Sets(problem, evidence, posterior.left_out).among(posterior);
       WeighedOtherwise& told = weighed.otherwise.emplace_back(WeighedOtherwise{what, factor, now.nothing, {}});
       for (WeighedGroup& group : weighed.groups) {
-        told.groups.push_back(now.of_any(group.members));
+        told.groups.push_back(now.of_any(group.all()));
         group.least = std::min(group.least, told.groups.back());
       }
     }

@@ -14,11 +14,13 @@ class ValueOffset : public FaultOf<ValueOffset> {
 
   FaultColumns columns(const SourceData& data) const override {
     constexpr double of_range = 0.2;  // 8 mmHg of a pulse of 40: the deviation that ISO 81060-2 allows a cuff
-    const double range = data.values.maxCoeff() - data.values.minCoeff();
+    const double range = data.values.size() > 0 ? data.values.maxCoeff() - data.values.minCoeff() : 0;
     FaultNumber offset{"offset", "by how much values are too high", data.dimension};
     if (range > 0) offset.scale = of_range * range;
-    return {{offset}, VectorXd::Ones(data.values.size())};
+    return {{offset}, VectorXd::Ones(data.times.size())};
   }
+  /// However many values there are, their mean is no better known: as the bias of lumens.
+  double allowed(const AllowanceCase&, double noise) const override { return 0.5 * noise; }
 
   std::vector<Overlay::Value> take_off(const FoundFault& found) const override {
     return {{"correction.offset", number_text(offset_ - found.number("offset"))}};
