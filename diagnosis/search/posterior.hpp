@@ -44,7 +44,6 @@ struct WeighedGroup {
   double probability = 0;            ///< that it is one of them, whatever else
   double least = 0;                  ///< the smallest of these, with any one thing assumed otherwise
   std::vector<std::size_t> members;  ///< the most probable first
-  std::vector<std::size_t> faint;    ///< do much the same as the first, too improbable by themselves to be told
   std::vector<double> shares;        ///< of each, within the group
   std::vector<double> amplitudes;    ///< the most probable one of each; of several amplitudes NaN
   std::vector<bool>
@@ -53,6 +52,7 @@ struct WeighedGroup {
   std::vector<bool> as_good;
   /// Of the most probable set with its first member, over that without; of groups as probable as not.
   std::optional<PhaseGain> foretold;
+  std::vector<std::size_t> faint = {};  ///< do much the same as the first, too improbable by themselves to be told
   bool has(std::size_t candidate) const;
   bool counts(std::size_t candidate) const;  ///< a member, or a faint one
   std::vector<std::size_t> all() const;      ///< members, then the faint ones
