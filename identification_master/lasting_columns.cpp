@@ -37,6 +37,7 @@ class LastingColumns::OfSource {
     static_cast<LastingAllowance&>(allowed) = lasting;
     const SourceData still = data();
     for (const auto& fault : Faults(facts_.kind.fallible)) {
+      if (fault->declaration().on_request) continue;
       const double deviation = fault->allowed(allowed, facts_.noise.deviation);
       const FaultColumns columns = deviation > 0 ? fault->columns(still) : FaultColumns{};
       for (Index k = 0; k < columns.values.cols(); ++k)

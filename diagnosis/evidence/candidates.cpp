@@ -12,6 +12,7 @@
 #include "common/protocol/launch.hpp"
 #include "common/protocol/programs.hpp"
 #include "diagnosis/evidence/data_errors.hpp"
+#include "observation_manager/measurements/faults/faults.hpp"
 
 namespace tether {
 namespace {
@@ -125,7 +126,10 @@ void check_names(const CaseFile& file, const EffectsList& catalogue, const Diagn
   std::for_each(catalogue.possible.begin(), catalogue.possible.end(), note);
   std::for_each(catalogue.present.begin(), catalogue.present.end(), note);
   check_known(file, "diagnosis.candidates", diagnosis.candidates, {types.begin(), types.end()});
-  check_known(file, "diagnosis.also", diagnosis.also, {types.begin(), types.end()});
+  std::set<std::string> on_request = types;
+  for (const auto& fault : Faults())
+    if (fault->declaration().on_request) on_request.insert(fault->declaration().of_all.name);
+  check_known(file, "diagnosis.also", diagnosis.also, {on_request.begin(), on_request.end()});
   parts.merge(types);
   std::vector<std::string> words;
   for (const std::string& word : diagnosis.exclude)

@@ -54,11 +54,16 @@ Amplitude amplitude_of(const FaultNumber& number, const UnitSystem& units) {
 class SourceErrors {
  public:
   SourceErrors(EffectProblem& problem, const Evidence& evidence, const VectorXd& velocity, const AllowanceCase& allowed,
-               const UnitSystem& units, const std::vector<const Evidence::Part*>& parts)
+               const UnitSystem& units, const std::vector<std::string>& asked,
+               const std::vector<const Evidence::Part*>& parts)
       : problem_(problem), evidence_(evidence), allowed_(allowed), units_(units), parts_(parts) {
     const SourceData data = data_of(velocity);
     middle_ = data.middle;
-    for (const auto& fault : faults_) possible_.push_back({*fault, fault->columns(data)});
+    for (const auto& fault : faults_) {
+      const FaultDeclaration& said = fault->declaration();
+      if (!said.on_request || std::find(asked.begin(), asked.end(), said.of_all.name) != asked.end())
+        possible_.push_back({*fault, fault->columns(data)});
+    }
   }
 
   /// shows_image: whether a frame is the imaged lumen. What that rules out is no candidate.
@@ -181,10 +186,10 @@ void allow(EffectProblem& problem, const VectorXd& column, double deviation, con
 }
 
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
-                     const AllowanceCase& allowed, const UnitSystem& units) {
+                     const AllowanceCase& allowed, const UnitSystem& units, const std::vector<std::string>& asked) {
   const VectorXd velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
   for (const auto& parts : by_source(evidence)) {
-    SourceErrors errors(problem, evidence, velocity, allowed, units, parts);
+    SourceErrors errors(problem, evidence, velocity, allowed, units, asked, parts);
     errors.add_of_all(shows_the_image(evidence, parts.front()->source, base.motion.imaged));
     if (parts.size() < 2) continue;
     for (const Evidence::Part* part : parts)

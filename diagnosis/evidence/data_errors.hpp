@@ -8,9 +8,9 @@ namespace tether {
 
 /// What data may err in, none of it physics: every fault of the registry that concerns them, of a source as a whole and
 /// of single frames. To first order these follow from the base run alone (D.7). They become candidates, and as far as
-/// `allowed` says errors that are no news.
+/// `allowed` says errors that are no news. asked: names of those that are looked for on request only.
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
-                     const AllowanceCase& allowed, const UnitSystem& units);
+                     const AllowanceCase& allowed, const UnitSystem& units, const std::vector<std::string>& asked = {});
 
 /// "ct, 0.26 s".
 std::string frame_text(const Evidence& evidence, const Evidence::Part& part);

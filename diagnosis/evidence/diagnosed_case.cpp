@@ -51,7 +51,7 @@ EffectProblem problem_of(const DiagnosedCase& given, const Evidence& evidence, c
   add_model_changes(problem, {sensitivities.varied, residuals, sensitivities.is_coarse}, effects, given.diagnosis);
   problem.left_by_refinement = left_by_refinement(coarser_by(given.mesh));
   if (sensitivities.is_coarse) allow_numerics(problem, residuals.col(0));
-  add_data_errors(problem, evidence, base, allowed, units);
+  add_data_errors(problem, evidence, base, allowed, units, given.diagnosis.also);
   add_patterns(problem, evidence, allowed, base.motion.start, base.motion.end);
   return problem;
 }

@@ -359,6 +359,15 @@ std::string open_question_of(const Diagnosis& diagnosis) {
         "{} explains most, but what that leaves is not noise: another law belongs in its place, or something beside it",
         fmt::join(names, " and "));
   }
+  if (const std::vector<Finding> laws = accepted_of(diagnosis, false);
+      is_refuted(diagnosis.held_out) && !laws.empty()) {
+    std::vector<std::string> names;
+    for (const Finding& law : laws) names.push_back(text_of(law));
+    return fmt::format(
+        "{} explains most, but held-out frames are farther off with it: if a trace may be too high or too large all "
+        "over, let diagnosis.also name value_offset and value_scale",
+        fmt::join(names, " and "));
+  }
   const auto& path = diagnosis.path;
   const auto open = std::find_if(path.begin(), path.end(), [](const Attempt& attempt) {
     return attempt.objection && is_of_probability(*attempt.objection);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace tether {
 
 /// By how much a change of the model lessens the distance to data, with a 95 % interval.
@@ -18,5 +20,10 @@ struct Gain {
     field("positive", self.positive, "probability that there is any gain");
   }
 };
+
+/// Whether the change takes the model away from the data, whatever the draw.
+inline bool is_refuted(const std::optional<Gain>& gain) {
+  return gain && gain->upper < 0;
+}
 
 }  // namespace tether

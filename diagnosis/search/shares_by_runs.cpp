@@ -32,10 +32,11 @@ void put_most_probable_first(WeighedGroup& group) {
 
 }  // namespace
 
-void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects) {
+void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects, const EffectProblem& problem,
+                   double independent) {
   for (WeighedGroup& group : weighed.groups) {
     std::vector<std::size_t> tried;  // places within the group
-    double together = 0, most = 0;
+    double together = 0, most = -infinite;
     int accepted = 0;
     for (std::size_t k = 0; k < group.members.size(); ++k) {
       const TestedEffect& effect = of_candidate(effects, group.members[k]);
@@ -43,13 +44,13 @@ void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects) {
       accepted += effect.accepted ? 1 : 0;
       tried.push_back(k);
       together += group.shares[k];
-      most = std::max(most, effect.confirmed_gain);
+      most = std::max(most, worth(problem, effect, independent));
     }
     if (accepted != 1 || tried.size() < 2) continue;  // two of one group are there together
     double sum = 0;
     for (const std::size_t k : tried) {
       const TestedEffect& effect = of_candidate(effects, group.members[k]);
-      group.shares[k] = std::exp((effect.confirmed_gain - most) / 2);
+      group.shares[k] = std::exp((worth(problem, effect, independent) - most) / 2);
       sum += group.shares[k];
       if (effect.amplitudes.size() == 1) group.amplitudes[k] = effect.amplitudes(0);
       group.by_runs[k] = true;

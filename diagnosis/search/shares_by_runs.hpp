@@ -6,8 +6,9 @@
 namespace tether {
 
 /// Of a group with one accepted member, those that runs tried share what the table gave them by what these runs remove
-/// of the misfit: the table adds up what each does by itself, which runs of all together need not bear out. Their
-/// values are those of the runs. (D.19)
-void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects);
+/// of the misfit, after the price of their sizes (D.10): the table adds up what each does by itself, which runs of all
+/// together need not bear out. Their values are those of the runs. independent: number of data. (D.19)
+void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects, const EffectProblem& problem,
+                   double independent);
 
 }  // namespace tether

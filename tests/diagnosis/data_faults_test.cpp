@@ -71,7 +71,7 @@ TEST_F(DataFaults, AreGoneOnceTheyAreTakenOff) {
   const Observations data = load("case.yaml");
   const Evidence evidence(data, lumen, run);
   EffectProblem problem = evidence.problem();
-  add_data_errors(problem, evidence, run, {}, UnitSystem::cgs());
+  add_data_errors(problem, evidence, run, {}, UnitSystem::cgs(), {"value_offset", "value_scale"});
   const VectorXd deviation = (problem.independent.array() / problem.precision.array()).sqrt();
   int taken_off = 0;
   for (const Candidate& error : problem.candidates) {

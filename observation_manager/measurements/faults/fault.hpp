@@ -21,6 +21,7 @@ struct FaultDeclaration {
   FaultName of_all = {}, of_frame = {};  ///< of all frames of a source, of one
   bool (*concerns)(const Fallible& data) = nullptr;
   bool ruled_out_by_image = false;  ///< of all frames, where one is the imaged lumen that the model was made of
+  bool on_request = false;          ///< looked for only where a diagnosis is told to (diagnosis.also)
 };
 
 /// A number of a fault: how large it is.

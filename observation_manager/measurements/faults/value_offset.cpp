@@ -8,7 +8,8 @@ class ValueOffset : public FaultOf<ValueOffset> {
  public:
   const FaultDeclaration& declaration() const override {
     static const FaultDeclaration all{.of_all = {"value_offset", "All values of a trace are too high or too low"},
-                                      .concerns = [](const Fallible& data) { return data.in_value; }};
+                                      .concerns = [](const Fallible& data) { return data.in_value; },
+                                      .on_request = true};
     return all;
   }
 

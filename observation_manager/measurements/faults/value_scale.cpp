@@ -9,7 +9,8 @@ class ValueScale : public FaultOf<ValueScale> {
   const FaultDeclaration& declaration() const override {
     static const FaultDeclaration all{
         .of_all = {"value_scale", "All values of a trace are too large or too small by one factor"},
-        .concerns = [](const Fallible& data) { return data.in_value; }};
+        .concerns = [](const Fallible& data) { return data.in_value; },
+        .on_request = true};
     return all;
   }
 
