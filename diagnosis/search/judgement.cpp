@@ -123,10 +123,10 @@ Verdict verdict_of(const SearchEnd& end, const SearchResult& result) {
   const bool accepted = !end.state.accepted.empty();
   if (leaves_too_much(end, result) && !result.more)
     return !accepted && some_explain_it(end, result) ? Verdict::undecided : Verdict::not_in_catalogue;
-  if (has_rivals(end, result)) return Verdict::ambiguous;
-  if (names_a_law(end) && leaves_patterns(end, result) && !result.more) return Verdict::undecided;
   const bool mesh_may_be_it = end.state.errors.cols() > 0;  // that takes held-out frames away from the model
   if (names_a_law(end) && is_refuted(result.held_out) && !mesh_may_be_it && !result.more) return Verdict::undecided;
+  if (has_rivals(end, result)) return Verdict::ambiguous;
+  if (names_a_law(end) && leaves_patterns(end, result) && !result.more) return Verdict::undecided;
   if (accepted && !names_a_law(end) && leaves_open(result)) return Verdict::undecided;
   if (accepted) return Verdict::missing;
   const bool is_decided = !stands_out(result) && sees_anything(end.problem, result) && !result.doubtful;
