@@ -23,9 +23,9 @@ bool holds(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// A generic direction is a candidate only if it is asked for. What is excluded is in the model too, switched off and
-/// not varied: so its runs serve whatever is excluded.
+/// A generic direction is a candidate only if it is asked for.
 bool is_wanted(const PossibleEffect& effect, const DiagnosisCase& diagnosis) {
+  if (holds(diagnosis.exclude, effect.type) || holds(diagnosis.exclude, effect.part)) return false;
   if (holds(diagnosis.also, effect.type)) return true;
   return diagnosis.candidates.empty() ? !effect.generic : holds(diagnosis.candidates, effect.type);
 }

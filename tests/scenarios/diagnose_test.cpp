@@ -193,13 +193,6 @@ TEST_F(Diagnose, SharesRunsBetweenDataSetsOfOneModel) {
   EXPECT_TRUE(fs::is_symlink(folder / "second/coarse/runs/base"));
   EXPECT_EQ(with("third", "")["cost"]["runs_made"], 0) << "the same data under another name";
 
-  const Json fewer =
-      with("fewer", "diagnosis: {exclude: [vicinity_left, vicinity_right, fluid.density, opposite]}\n")["cost"];
-  EXPECT_LT(fewer["sensitivity_runs"], of_first_order) << "without those of the region that is excluded now";
-  EXPECT_LE(fewer["runs_made"], fewer["runs"].get<int>() - fewer["sensitivity_runs"].get<int>() - 1)
-      << "none of what the numbers that are left do\n"
-      << said;
-
   const Json other = with("other", "solid: {viscosity: 5e2}\n");
   EXPECT_GE(other["cost"]["runs_made"], of_first_order) << "another model: its runs are all its own";
 
