@@ -48,9 +48,8 @@ TEST_F(ChangedInput, IsNoContinuation) {
   write_flow(flow + "# a remark\n");
   const ChildEnd refused = simulate(4, {"--resume"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("is a checkpoint of another case, step, mesh or code ("), std::string::npos)
+  EXPECT_NE(refused.errors.find("is a checkpoint of another case, step, mesh or code"), std::string::npos)
       << refused.errors;
-  EXPECT_NE(refused.errors.find("flow.csv: written since)"), std::string::npos) << refused.errors;
   write_flow(flow);
   const ChildEnd resumed = simulate(4, {"--resume"});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
