@@ -70,13 +70,15 @@ Made<NoiseMeasurements> measure_noise(const CommandLine& command) {
   const RunMotion motion = motion_of(run, lumen);
   NoiseMeasurements noise;
   noise.case_name = measured.file.common().name;
+  std::vector<SeenNoise> measurable;
   std::vector<std::string> left_out;
   for (const auto& seen : {repeated_noise(data, motion), noise_at_rest(data, motion), residual_noise(data, motion)})
     for (const SeenNoise& one : seen)
       if (can_be_measured(one.fields))
-        noise.measurements.push_back(measured_noise(one, measured.file.units().symbol(dimension::length)));
+        measurable.push_back(one);
       else
         left_out.push_back(fmt::format("{}, from {}: too few data in each frame", one.source, meaning_of(one.from)));
+  noise.measurements = measured_noise(measurable, measured.file.units().symbol(dimension::length));
   if (noise.measurements.empty()) throw run_error("noise cannot be measured: {}", fmt::join(left_out, "; "));
   return written(std::move(noise), output, left_out);
 }

@@ -35,7 +35,7 @@ struct Extent {
   bool operator==(const Extent&) const = default;
 };
 
-/// "outlet half", "toward vicinity_left", "within 0.8 cm of (-1.6, 1.5, 6)".
+/// "outlet half", "middle half", "toward vicinity_left", "within 0.8 cm of (-1.6, 1.5, 6)".
 inline std::string in_words(const Extent& extent, const std::string& unit_of_length) {
   std::string words;
   const auto add = [&words](const std::string& more) { words += (words.empty() ? "" : " ") + more; };
@@ -43,6 +43,8 @@ inline std::string in_words(const Extent& extent, const std::string& unit_of_len
     add("inlet half");
   else if (extent.from == 0.5 && extent.to == 1)
     add("outlet half");
+  else if (extent.from == 0.25 && extent.to == 0.75)
+    add("middle half");
   else if (!extent.is_all_along())
     add(fmt::format("{:g} to {:g} of the way", extent.from, extent.to));
   if (!extent.toward.empty()) add("toward " + extent.toward);

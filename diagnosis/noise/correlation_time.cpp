@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/comparison/chances.hpp"
 #include "diagnosis/noise/measured_noise.hpp"
 #include "diagnosis/noise/restricted_likelihood.hpp"
 
@@ -41,18 +42,24 @@ FrameProducts products_of(const NoiseField& field, const NoiseFit& fit) {
   return products;
 }
 
-/// Errors that fade as exp(-T/tau), the variance as fits best.
+/// Errors that fade as exp(-T/tau).
+MatrixXd alike_over(const std::vector<double>& times, double tau) {
+  const auto n = static_cast<Index>(times.size());
+  MatrixXd alike = MatrixXd::Identity(n, n);
+  for (Index i = 0; i < n && tau > 0; ++i)
+    for (Index j = 0; j < n; ++j)
+      if (i != j)
+        alike(i, j) =
+            std::exp(-std::abs(times[static_cast<std::size_t>(i)] - times[static_cast<std::size_t>(j)]) / tau);
+  return alike;
+}
+
+/// The variance as fits best.
 double log_likelihood(const std::vector<FrameProducts>& all, double tau) {
   double log_determinant = 0, squares = 0, count = 0;
   for (const FrameProducts& one : all) {
     const Index n = one.sums.rows();
-    MatrixXd alike = MatrixXd::Identity(n, n);
-    for (Index i = 0; i < n && tau > 0; ++i)
-      for (Index j = 0; j < n; ++j)
-        if (i != j)
-          alike(i, j) = std::exp(
-              -std::abs(one.times[static_cast<std::size_t>(i)] - one.times[static_cast<std::size_t>(j)]) / tau);
-    const Eigen::LLT<MatrixXd> factor(alike);
+    const Eigen::LLT<MatrixXd> factor(alike_over(one.times, tau));
     log_determinant += one.numbers * 2 * factor.matrixLLT().diagonal().array().log().sum();
     squares += factor.solve(one.sums).trace();
     count += one.numbers * static_cast<double>(n);
@@ -72,11 +79,21 @@ std::pair<double, double> apart(const std::vector<FrameProducts>& all) {
   return {least, most};
 }
 
+/// Frames whose errors are independent would tell as much of what does not change.
+double independent_frames(const std::vector<FrameProducts>& all, double tau) {
+  double count = 0;
+  for (const FrameProducts& one : all) {
+    const VectorXd ones = VectorXd::Ones(one.sums.rows());
+    count += ones.dot(alike_over(one.times, tau).llt().solve(ones));
+  }
+  return count;
+}
+
 constexpr double inside = 1.92;  ///< below the largest by no more: within the 95 % interval
 
 }  // namespace
 
-std::optional<MeasuredNumber> correlation_time_of(const std::vector<NoiseField>& fields, const NoiseFit& fit) {
+std::optional<LastingErrors> lasting_errors(const std::vector<NoiseField>& fields, const NoiseFit& fit, double stated) {
   std::vector<FrameProducts> all;
   for (const NoiseField& field : fields)
     if (field.frames.size() >= 3) all.push_back(products_of(field, fit));
@@ -90,7 +107,9 @@ std::optional<MeasuredNumber> correlation_time_of(const std::vector<NoiseField>&
   MeasuredNumber time{best->first, best->first, best->first};
   for (const auto& [tau, value] : known)
     if (value > best->second - inside) time.lower = std::min(time.lower, tau), time.upper = std::max(time.upper, tau);
-  return time;
+  return LastingErrors{time,
+                       chi_square_tail(std::max(0.0, 2 * (best->second - log_likelihood(all, stated))), 1),
+                       independent_frames(all, stated) / independent_frames(all, time.value)};
 }
 
 }  // namespace tether

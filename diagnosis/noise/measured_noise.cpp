@@ -17,6 +17,8 @@ constexpr double improbable = 0.01;
 /// A deviation this much off changes a misfit by more than 40 %; a length this much off doubles the number of
 /// independent errors.
 constexpr double deviation_matters = 1.2, length_matters = 1.5;
+/// As many more independent frames as data do by such a length.
+constexpr double frames_matter = 2;
 
 /// Off by more than `factor`, and not by chance.
 bool is_off(const MeasuredNumber& ratio, double factor) {
@@ -37,6 +39,7 @@ NoiseCheck check_of(const std::vector<NoisePosterior>& shapes, const NoiseFit& b
   NoiseCheck check;
   check.deviation = stated.deviation;
   check.correlation_length = stated.correlation_length;
+  check.correlation_time = stated.correlation_time;
   check.deviation_ratio = over(best.deviation, stated.deviation);
   check.length_ratio = over(best.correlation_length, stated.correlation_length);
   check.p = chance(stated.deviation, stated.correlation_length);
@@ -46,6 +49,12 @@ NoiseCheck check_of(const std::vector<NoisePosterior>& shapes, const NoiseFit& b
                  is_off(check.length_ratio, length_matters) && chance({}, stated.correlation_length) < improbable;
   check.contradicts = check.p < improbable && (is_deviation || is_length);
   return check;
+}
+
+void check_time(NoiseCheck& check, const LastingErrors& lasting) {
+  check.measured_time = lasting.time;
+  check.time_contradicts = lasting.p_of_stated < improbable &&
+                           std::abs(std::log(lasting.frames_claimed)) > std::log(frames_matter);
 }
 
 bool has_data_to_spare(const NoiseField& field) {
@@ -82,9 +91,13 @@ MeasuredNoise measured_noise(const std::vector<NoiseField>& all, const Noise& st
   for (const NoiseField& field : likelihood.fields())
     result.points = std::max(result.points, static_cast<int>(field.places.cols()));
   result.independent = static_cast<int>(likelihood.count());
-  result.correlation_time = correlation_time_of(likelihood.fields(), result.fits[0]);
+  const auto lasting = lasting_errors(likelihood.fields(), result.fits[0], stated.correlation_time);
+  if (lasting) result.correlation_time = lasting->time;
   result.correlation = correlation_by_distance(likelihood.fields(), result.fits);
-  if (stated.deviation > 0 && stated.correlation_length > 0) result.stated = check_of(shapes, result.fits[0], stated);
+  if (stated.deviation > 0 && stated.correlation_length > 0) {
+    result.stated = check_of(shapes, result.fits[0], stated);
+    if (lasting) check_time(*result.stated, *lasting);
+  }
   return result;
 }
 

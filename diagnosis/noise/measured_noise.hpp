@@ -15,8 +15,15 @@ bool can_be_measured(const std::vector<NoiseField>& fields);
 /// there are many fields. Throws RunError if it cannot be measured. (D.23)
 MeasuredNoise measured_noise(const std::vector<NoiseField>& fields, const Noise& stated, Eigen::Index most = 600);
 
-/// What a datum's errors have in common with those of the same place at other moments, of one spatial correlation.
-std::optional<MeasuredNumber> correlation_time_of(const std::vector<NoiseField>& fields, const NoiseFit& fit);
+/// What a datum's errors have in common with those of the same place at other moments.
+struct LastingErrors {
+  MeasuredNumber time;        ///< in which they fade to a share 1/e [time]
+  double p_of_stated = 1;     ///< probability that errors of the stated time look so much like others
+  double frames_claimed = 1;  ///< independent frames by what is stated, over those by what is measured
+};
+
+/// Of one spatial correlation; none with fewer than three frames of the same places. stated: the time that is [time].
+std::optional<LastingErrors> lasting_errors(const std::vector<NoiseField>& fields, const NoiseFit& fit, double stated);
 
 /// Products of what is left of the values once the columns are fitted, by distance, and what the two fits expect there.
 std::vector<CorrelationBin> correlation_by_distance(const std::vector<NoiseField>& fields,

@@ -20,6 +20,9 @@ std::string quantity(double value, const std::string& unit) {
   return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
+/// Of the variance: a deviation from the rest is less than a fifth too small, which is no matter (measured_noise.cpp).
+constexpr double mostly_shown = 1 / (1.2 * 1.2);
+
 bool lasts(const MeasuredNoise& noise) {
   return noise.correlation_time && noise.correlation_time->lower > 0;
 }
@@ -46,10 +49,15 @@ std::string time_text(const MeasuredNoise& noise) {
   return "; lasting " + interval_text(*noise.correlation_time, "s");
 }
 
+std::string shown_text(const MeasuredNoise& noise) {
+  if (!noise.shown) return "";
+  return fmt::format(", of the {:.0f} % that does not last from one to the next", 100 * *noise.shown);
+}
+
 std::string sentence_of(const MeasuredNoise& noise) {
   const NoiseFit& fit = noise.fits.front();
-  return fmt::format("{}, from {}: deviation {}, correlation length {}{}, {} % of the variance alike nowhere{}; {}",
-                     noise.source, meaning_of(noise.from), interval_text(fit.deviation, noise.unit),
+  return fmt::format("{}, from {}{}: deviation {}, correlation length {}{}, {} % of the variance alike nowhere{}; {}",
+                     noise.source, meaning_of(noise.from), shown_text(noise), interval_text(fit.deviation, noise.unit),
                      interval_text(fit.correlation_length, noise.unit), noise.reaches_end ? ", or longer" : "",
                      interval_text(fit.nugget, "", 100), time_text(noise), shape_text(noise));
 }
@@ -74,10 +82,35 @@ std::string script_of(const MeasuredNoise& noise, const std::string& file) {
              gnuplot_text(noise.unit.empty() ? "distance" : "distance [" + noise.unit + "]"));
 }
 
+/// Share of the variance that the differences of frames so far apart show, of errors that last.
+double share_shown(const std::vector<double>& apart, double correlation_time) {
+  if (apart.empty() || correlation_time <= 0) return 1;
+  double sum = 0;
+  for (const double between : apart) sum -= std::expm1(-between / correlation_time);
+  return sum / static_cast<double>(apart.size());
+}
+
+/// What is stated, as these frames would show it.
+Noise expected_of(const SeenNoise& seen) {
+  Noise expected = seen.stated;
+  expected.deviation *= std::sqrt(share_shown(seen.apart, seen.stated.correlation_time));
+  return expected;
+}
+
+/// Differences of frames do not last as errors do.
+void forget_times(MeasuredNoise& noise, const Noise& stated) {
+  noise.correlation_time.reset();
+  if (!noise.stated) return;
+  noise.stated->deviation = stated.deviation;
+  noise.stated->measured_time.reset();
+  noise.stated->time_contradicts = false;
+}
+
 }  // namespace
 
 MeasuredNoise measured_noise(const SeenNoise& seen, const std::string& unit) {
-  MeasuredNoise noise = measured_noise(seen.fields, seen.stated);
+  MeasuredNoise noise = measured_noise(seen.fields, expected_of(seen));
+  if (seen.from == NoiseOrigin::rest) forget_times(noise, seen.stated);
   noise.from = seen.from;
   noise.source = seen.source;
   noise.frames = seen.frames;
@@ -87,11 +120,27 @@ MeasuredNoise measured_noise(const SeenNoise& seen, const std::string& unit) {
   return noise;
 }
 
+std::vector<MeasuredNoise> measured_noise(const std::vector<SeenNoise>& seen, const std::string& unit) {
+  std::vector<MeasuredNoise> all;
+  for (const SeenNoise& one : seen) all.push_back(measured_noise(one, unit));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    MeasuredNoise& rest = all[i];
+    if (rest.from != NoiseOrigin::rest) continue;
+    for (const MeasuredNoise& left : all)
+      if (left.from == NoiseOrigin::residual && left.source == rest.source && lasts(left))
+        rest.shown = share_shown(seen[i].apart, left.correlation_time->value);
+    if (!rest.shown || *rest.shown >= mostly_shown) continue;
+    rest.stated.reset();
+    rest.line.clear();
+  }
+  return all;
+}
+
 std::vector<std::string> sentences_of(const std::vector<MeasuredNoise>& measurements) {
   std::vector<std::string> all;
   for (const MeasuredNoise& noise : measurements) all.push_back(sentence_of(noise));
   for (const MeasuredNoise& noise : measurements)
-    if (noise.stated && noise.stated->contradicts) all.push_back(sentence_of(*noise.stated));
+    if (noise.stated && is_contradicted(*noise.stated)) all.push_back(sentence_of(*noise.stated));
   return all;
 }
 
@@ -100,7 +149,8 @@ std::string text_of(const NoiseMeasurements& noise) {
   for (const std::string& sentence : noise.sentences) text += sentence + "\n";
   for (const MeasuredNoise& one : noise.measurements)
     text += fmt::format("\n{}, from {}\n  frames {}\n  {}\n", one.source, meaning_of(one.from),
-                        fmt::join(one.frames, ", "), one.line);
+                        fmt::join(one.frames, ", "),
+                        one.line.empty() ? "errors last: take the noise from what the run leaves" : one.line);
   return text;
 }
 

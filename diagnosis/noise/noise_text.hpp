@@ -10,6 +10,10 @@ namespace tether {
 /// Measures what was seen. unit: of lengths, as a case file has it; empty: unknown.
 MeasuredNoise measured_noise(const SeenNoise& seen, const std::string& unit);
 
+/// Measures each. What pairs of neighbouring frames show is not held against a statement where what a run leaves of
+/// the same source says that errors last from one to the next.
+std::vector<MeasuredNoise> measured_noise(const std::vector<SeenNoise>& seen, const std::string& unit);
+
 /// Sentences for people, one for each measurement, and one for each statement that it contradicts.
 std::vector<std::string> sentences_of(const std::vector<MeasuredNoise>& measurements);
 

@@ -86,6 +86,7 @@ class RestingPairs {
       MatrixXd own = MatrixXd::Zero(mean.places.cols(), static_cast<Index>(resting.size()));
       own.col(static_cast<Index>(k)) = averaged(mean.places, motion(frames, i, samples));
       field.frames.push_back({difference(frames, i, samples) / std::sqrt(2), own, frames[i].time});
+      seen_.apart.push_back(frames[i + 1].time - frames[i].time);
       seen_.frames.push_back(
           fmt::format("{} and {}", name_of(data_, frames[i].frame), name_of(data_, frames[i + 1].frame)));
     }

@@ -15,6 +15,7 @@ struct SeenNoise {
   std::vector<std::string> frames;  ///< that were used
   Noise stated;
   std::vector<NoiseField> fields;
+  std::vector<double> apart = {};  ///< of the frames of each pair that is at rest [time]
 };
 
 /// Of two sources of one kind, frames of the same time: half of the difference's variance is the noise's, of both in

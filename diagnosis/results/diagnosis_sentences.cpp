@@ -277,7 +277,7 @@ void add_noise(std::vector<std::string>& all, const Diagnosis& diagnosis) {
                       noise.source, noise.factor, noise.long_waves));
   if (diagnosis.verdict == Verdict::not_in_catalogue) return;  // what is left is more than noise
   for (const NoiseCheck& check : diagnosis.noise)
-    if (check.contradicts) all.push_back(sentence_of(check));
+    if (is_contradicted(check)) all.push_back(sentence_of(check));
 }
 
 void add_closest(std::vector<std::string>& all, const Diagnosis& diagnosis) {

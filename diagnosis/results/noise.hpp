@@ -73,19 +73,24 @@ struct CorrelationBin {
 struct NoiseCheck {
   static constexpr const char* type_name = "noise_check";
   std::string source;
-  double deviation = 0, correlation_length = 0;
+  double deviation = 0, correlation_length = 0, correlation_time = 0;
   MeasuredNumber deviation_ratio, length_ratio;
+  std::optional<MeasuredNumber> measured_time;
   double p = 1;
-  bool contradicts = false;
+  bool contradicts = false, time_contradicts = false;
 
   static void fields(auto& self, auto&& field) {
     field("source", self.source, "in the case");
     field("deviation", self.deviation, "as stated, in the case's unit");
     field("correlation_length", self.correlation_length, "as stated, in the case's unit");
-    field("deviation_ratio", self.deviation_ratio, "measured over stated");
+    field("correlation_time", self.correlation_time, "as stated [s]; 0: errors do not last");
+    field("deviation_ratio", self.deviation_ratio, "measured over stated; of neighbouring frames: over what of it does not last from one to the next");
     field("length_ratio", self.length_ratio, "measured over stated");
+    field("measured_time", self.measured_time, "in which errors fade to a share 1/e [s]; null: not measurable");
     field("p", self.p, "probability that noise as stated looks so much like another one");
-    field("contradicts", self.contradicts, "it is too improbable, and off by so much that it matters");
+    field("contradicts", self.contradicts,
+          "deviation or length are too improbable, and off by so much that it matters");
+    field("time_contradicts", self.time_contradicts, "so is the time");
   }
 };
 
@@ -101,6 +106,7 @@ struct MeasuredNoise {
   double shape_difference = 0;
   bool shape_is_told = false, reaches_end = false;
   std::optional<MeasuredNumber> correlation_time;
+  std::optional<double> shown;
   std::vector<CorrelationBin> correlation;
   std::string line;
   std::optional<NoiseCheck> stated;
@@ -117,8 +123,11 @@ struct MeasuredNoise {
     field("shape_is_told", self.shape_is_told, "the data tell which shape it is");
     field("reaches_end", self.reaches_end, "the interval of the length ends where the vessel does");
     field("correlation_time", self.correlation_time, "[s]; null: not measurable");
+    field("shown", self.shown,
+          "share of the variance that pairs of neighbouring frames show, of errors that last as what the run leaves "
+          "says; null: all, or unknown");
     field("correlation", self.correlation, "by distance");
-    field("line", self.line, "to paste into the source's section of the case");
+    field("line", self.line, "to paste into the source's section of the case; empty: errors last, which these frames hide");
     field("stated", self.stated, "what the case states, held against it");
   }
 };
@@ -137,6 +146,7 @@ struct NoiseMeasurements {
   }
 };
 
+bool is_contradicted(const NoiseCheck& check);
 /// "observations.surfaces.mri: the stated noise contradicts the data: ..."
 std::string sentence_of(const NoiseCheck& check);
 

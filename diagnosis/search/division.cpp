@@ -12,8 +12,8 @@ constexpr std::size_t most_hopeful = 2;  ///< groups, where the catalogue has no
 constexpr double not_least = 0.1;        ///< share of a group's member
 
 /// What may change along the vessel is asked for in both halves from the start.
-bool is_of_whole_wall(const PlacedEffect& effect) {
-  return effect.part.empty();
+bool is_end_of_whole_wall(const PlacedEffect& effect) {
+  return effect.part.empty() && (effect.extent.from <= 0 || effect.extent.to >= 1);
 }
 
 std::string last_word(const std::string& name) {
@@ -44,7 +44,7 @@ Division::Division(const std::vector<PlacedEffect>& effects, const std::vector<V
     const std::string path = number.number.name.substr(0, number.number.name.rfind('.'));
     const auto effect =
         std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) { return e.path == path; });
-    if (effect == effects.end() || effect->extent.is_all() || !effect->is_new || is_of_whole_wall(*effect))
+    if (effect == effects.end() || effect->extent.is_all() || !effect->is_new || is_end_of_whole_wall(*effect))
       undivided_.push_back(number);
     else
       parts_.push_back({number, &*effect});
@@ -73,7 +73,7 @@ std::vector<VariedNumber> Division::next(const EffectProblem& problem, const Wei
     for (std::size_t k = 0; k < group.members.size(); ++k) {
       const Candidate& member = problem.candidates[group.members[k]];
       if (group.shares[k] < not_least) continue;
-      if (member.extent.is_all() && k == 0) want_parts_of(member, nullptr);
+      if (k == 0 && (member.extent.is_all() || member.part.empty())) want_parts_of(member, nullptr);
       if (member.extent.is_all()) continue;
       for (const std::size_t other : alike_as_wholes(problem, evidence, member))
         want_parts_of(problem.candidates[other], &member.extent);

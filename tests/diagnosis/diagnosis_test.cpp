@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "diagnosis/search/published_models.hpp"
 #include "tests/diagnosis/fake_runs.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -50,8 +52,8 @@ class WholeDiagnosis : public ::testing::Test {
     for (const std::string& region : regions)
       all.push_back({"solid.effects.spring_" + region, "spring", region, "holds the wall back", true, {}});
     for (const std::string& region : regions)
-      for (const Extent& extent : {Extent{0, 0.5}, Extent{0.5, 1}}) {
-        const std::string half = extent.from > 0 ? "_outlet_half" : "_inlet_half";
+      for (const auto& [half, extent] : std::map<std::string, Extent>{
+               {"_inlet_half", {0, 0.5}}, {"_outlet_half", {0.5, 1}}, {"_middle_half", {0.25, 0.75}}}) {
         all.push_back(
             {"solid.effects.spring_" + region + half, "spring", region, "holds it there", true, {}, {}, extent});
       }
@@ -81,8 +83,8 @@ TEST_F(WholeDiagnosis, FindsTheHiddenSpringAndItsStiffness) {
   EXPECT_EQ(candidate.name, "spring");
   EXPECT_EQ(candidate.where, "spine");
   EXPECT_NEAR(first.amplitudes(0), 0.8, 0.02);
-  EXPECT_EQ(found.cost.sensitivity_runs, 6) << "the model as it is, each spring, and halves of that which leads";
-  EXPECT_EQ(found.cost.runs, 6 + trials());
+  EXPECT_EQ(found.cost.sensitivity_runs, 7) << "the model as it is, each spring, and parts of that which leads";
+  EXPECT_EQ(found.cost.runs, 7 + trials());
   EXPECT_GE(trials(), 1);
   EXPECT_LE(trials(), 4) << "a linear model is known after two of each";
 }
@@ -190,12 +192,12 @@ TEST_F(WholeDiagnosis, AsksForNothingThatIsExcluded) {
     return names;
   };
   const std::string spring = "solid.effects.spring_spine.stiffness";
-  EXPECT_EQ(numbers({}).size(), 9U);
+  EXPECT_EQ(numbers({}).size(), 12U);
   for (const char* word : {"spring", "spine", spring.c_str()}) {
     const auto left = numbers({word});
     EXPECT_EQ(std::count(left.begin(), left.end(), spring), 0) << word;
   }
-  EXPECT_EQ(numbers({"left"}).size(), 6U) << "and its halves";
+  EXPECT_EQ(numbers({"left"}).size(), 8U) << "and its parts";
   runs.infos.front().value = 0.5;
   const auto left = numbers({"spine"});
   EXPECT_EQ(std::count(left.begin(), left.end(), spring), 1) << "the model has it: how much is its own number";
@@ -240,15 +242,17 @@ TEST_F(WholeDiagnosis, WithoutTheModelAsItIsThereIsNone) {
 
 /// Parts of places are run where something is probable, and only there.
 TEST(Diagnosis, SaysInWhichPartOfItsPlaceAnEffectActs) {
-  const TemporaryFolder folder;
-  const DiagnosedCase given(written_in(folder, "spine_outlet_half"));
-  FakeRuns runs(given.lumen, regions);
-  const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs});
-  EXPECT_EQ(found.found.verdict, Verdict::missing);
-  const TestedEffect& first = found.found.effects.front();
-  EXPECT_EQ(found.problem.candidates[first.candidate].where, "spine, outlet half");
-  EXPECT_NEAR(first.amplitudes(0), 0.8, 0.03);
-  for (const std::string& run : runs.made) EXPECT_EQ(run.find("left_"), std::string::npos) << run;
+  for (const std::string half : {"outlet half", "middle half"}) {
+    const TemporaryFolder folder;
+    const DiagnosedCase given(written_in(folder, "spine_" + half.substr(0, 6) + "_half"));
+    FakeRuns runs(given.lumen, regions);
+    const DiagnosisReport found = diagnose(given, WholeDiagnosis::effects(), {runs});
+    EXPECT_EQ(found.found.verdict, Verdict::missing);
+    const TestedEffect& first = found.found.effects.front();
+    EXPECT_EQ(found.problem.candidates[first.candidate].where, "spine, " + half);
+    EXPECT_NEAR(first.amplitudes(0), 0.8, 0.03);
+    for (const std::string& run : runs.made) EXPECT_EQ(run.find("left_"), std::string::npos) << run;
+  }
 }
 
 /// Across the border of two regions, where no effect of the catalogue acts.

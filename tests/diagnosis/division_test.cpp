@@ -73,5 +73,25 @@ TEST_F(PartsOfASpine, AreAskedForOfWhatLeadsInAllOfIt) {
   EXPECT_EQ(division.next(problem_, weighed, SetEvidence(problem_, {})).size(), 2U);
 }
 
+/// Of the whole wall either end is asked for from the start, what lies between them once an end leads.
+TEST_F(PartsOfASpine, AreAskedForBetweenTheEndsOfAVesselWhereOneLeads) {
+  effects_.clear(), numbers_.clear();
+  for (const Extent& extent : {inlet, outlet, Extent{0.25, 0.75}}) {
+    const std::string path = "solid.effects.stiffness_factor_" + in_words(extent, "cm").substr(0, 6);
+    effects_.push_back({path, "stiffness_factor", "", "", true, {}, {}, extent, "cm"});
+    numbers_.push_back({{path + ".factor", "", "1", ""}, 1});
+  }
+  add_candidate(problem_, "stiffness_factor", response(0, 2.5, beat));
+  Candidate& end = problem_.candidates.back();
+  end.type = "stiffness_factor", end.number = "factor", end.extent = outlet;
+  Division division(effects_, numbers_);
+  EXPECT_EQ(division.undivided().size(), 2U);
+  Weighed weighed;
+  weighed.groups.push_back({0.99, 0.99, {problem_.candidates.size() - 1}, {1.0}, {5.0}, {true}, {}, {}});
+  const std::vector<VariedNumber> next = division.next(problem_, weighed, SetEvidence(problem_, {}));
+  ASSERT_EQ(next.size(), 1U);
+  EXPECT_EQ(next.front().number.name, "solid.effects.stiffness_factor_middle.factor");
+}
+
 }  // namespace effect_search_test
 }  // namespace tether

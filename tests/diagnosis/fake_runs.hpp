@@ -11,11 +11,11 @@
 
 namespace tether::testing {
 
-/// Runs of a tube about the z axis that beats with period 0.8: springs at its regions and at the halves of these along
-/// the axis, each a number of the model, hold the wall back by half a millimetre a unit.
+/// Runs of a tube about the z axis that beats with period 0.8: springs at its regions, at the halves of these along
+/// the axis and at the half between their ends, each a number of the model, hold the wall back by half a millimetre a unit.
 struct FakeRuns : ModelRuns {
   explicit FakeRuns(const LumenSurface& of, const std::vector<std::string>& regions) : lumen(of) {
-    for (const char* half : {"", "_inlet_half", "_outlet_half"})
+    for (const char* half : {"", "_inlet_half", "_outlet_half", "_middle_half"})
       for (const std::string& region : regions)
         infos.push_back({"solid.effects.spring_" + region + half + ".stiffness", "of the spring", "1", "linear", 0, 0,
                          0, infinite, undefined, 1});
@@ -62,9 +62,10 @@ struct FakeRuns : ModelRuns {
   bool acts_at(const std::string& name, Eigen::Index node) const {
     const auto has = [&](const std::string& word) { return name.find(word) != std::string::npos; };
     const double middle = lumen.points.row(2).mean(), z = lumen.points(2, node);
+    const double quarter = (lumen.points.row(2).maxCoeff() - lumen.points.row(2).minCoeff()) / 4;
     const auto region = static_cast<std::size_t>(lumen.region[static_cast<std::size_t>(node)]);
     return has(lumen.region_names.at(region)) && !(has("inlet_half") && z > middle) &&
-           !(has("outlet_half") && z < middle);
+           !(has("outlet_half") && z < middle) && !(has("middle_half") && std::abs(z - middle) > quarter);
   }
   FinishedMotion motion(const NamedValues& values) const {
     return {{0, 0.8, lumen.points, [this, values](double time) { return at(time, values); }},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/noise/measured_noise.hpp"
+#include "diagnosis/noise/noise_text.hpp"
 #include "twin/noise.hpp"
 
 namespace tether {
@@ -148,6 +148,58 @@ TEST(MeasuredNoise, LastsAsLongAsItDoes) {
   }
   EXPECT_GE(held, 16);  // of 95 %: all but 0.3 % of cases
   EXPECT_GE(held_none, 16);
+}
+
+/// Of six frames 0.1 apart, errors of 0.4 make as many independent ones as 1.9 would.
+TEST(MeasuredNoise, OfAnotherTimeThanStatedIsSaid) {
+  const Tube tube;
+  int said_short = 0, said_long = 0, said_right = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const NoiseField lasting = noise_on(tube, {.correlation_time = 0.4, .frames = 6}, seed);
+    const auto check = [](const NoiseField& field, double time) {
+      return *measured_noise({field}, {deviation, length, time}).stated;
+    };
+    const NoiseCheck fades_at_once = check(lasting, 0);
+    said_short += fades_at_once.time_contradicts;
+    ASSERT_TRUE(fades_at_once.measured_time.has_value());
+    said_long += check(noise_on(tube, {.frames = 6}, seed), 0.4).time_contradicts;
+    said_right += check(lasting, 0.4).time_contradicts;
+  }
+  EXPECT_EQ(said_short, 20);
+  EXPECT_EQ(said_long, 20);
+  EXPECT_LE(said_right, 2);  // of 1 %: more in 0.1 % of all cases
+}
+
+/// Neighbouring frames have in common what lasts: what they differ by is not held against all that is stated.
+TEST(MeasuredNoise, OfNeighbouringFramesHidesWhatLasts) {
+  const Tube tube;
+  const NoiseField lasting = noise_on(tube, {.correlation_time = 0.4, .frames = 10}, 3);
+  const auto at_rest = [&](double stated_time) {
+    SeenNoise seen{NoiseOrigin::rest, "mri", {}, {deviation, length, stated_time}, {lasting}};
+    NoiseField& pairs = seen.fields.front();
+    pairs.frames.clear();
+    for (std::size_t k = 0; k + 1 < lasting.frames.size(); k += 2) {
+      const NoiseFrame &one = lasting.frames[k], &next = lasting.frames[k + 1];
+      pairs.frames.push_back({(next.values - one.values) / std::sqrt(2), one.shared, one.time});
+      seen.apart.push_back(next.time - one.time);
+    }
+    return seen;
+  };
+  SeenNoise left{NoiseOrigin::residual, "mri", {}, {deviation, length, 0}, {lasting}};
+  const std::vector<MeasuredNoise> both = measured_noise({at_rest(0), left}, "cm");
+  EXPECT_FALSE(both[0].stated.has_value());
+  EXPECT_TRUE(both[0].line.empty());
+  ASSERT_TRUE(both[0].shown.has_value());
+  EXPECT_NEAR(*both[0].shown, 1 - std::exp(-0.1 / 0.4), 0.08);
+  EXPECT_TRUE(both[1].stated->time_contradicts);
+  EXPECT_FALSE(both[1].stated->contradicts);
+
+  const MeasuredNoise alone = measured_noise(at_rest(0), "cm"),
+                      as_stated = measured_noise(at_rest(0.4), "cm");
+  EXPECT_LT(alone.stated->deviation_ratio.upper, 0.7) << "nothing says that errors last";
+  EXPECT_TRUE(holds(as_stated.stated->deviation_ratio, 1));
+  EXPECT_EQ(as_stated.stated->deviation, deviation);
+  EXPECT_FALSE(as_stated.correlation_time.has_value());
 }
 
 /// What is the same in all frames has an amplitude of its own, and is no noise.
