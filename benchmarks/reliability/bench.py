@@ -23,6 +23,11 @@ PHASES = {
         "step": ("fluid", "fluid+", "solid", "solid+"),
         "checkpoint": ("fluid+", "solid+"),
     },
+    "foreign": {  # simulate, with a foreign wall of two processes
+        "start": ("foreign_wall.py", "foreign_wall.py+"),
+        "step": ("foreign_wall.py", "foreign_wall.py+"),
+        "checkpoint": ("foreign_wall.py", "foreign_wall.py+"),
+    },
     "identify": {
         "start": ("identification_master", "fsi_master"),
         "step": ("tether", "mpirun", "identification_master", "fsi_master", "observation_manager"),
@@ -38,12 +43,13 @@ PHASES = {
 PAUSES = {  # where a program waits until the fault was made
     ("simulate", "checkpoint"): "fsi_master:rename:checkpoint:5:PAUSE",
     ("several", "checkpoint"): "fsi_master:rename:checkpoint:5:PAUSE",
+    ("foreign", "checkpoint"): "fsi_master:rename:checkpoint:5:PAUSE",
     ("simulate", "report"): "{}:open:plots/:1:PAUSE",
     ("identify", "checkpoint"): "identification_master:rename:identification.bin:2:PAUSE",
     ("identify", "report"): "{}:open:plots/:1:PAUSE",
     ("explain", "report"): "tether:open:explain.json:1:PAUSE",
 }
-LINES = {("several", "step"): ("timeseries.csv", 8), ("simulate", "step"): ("timeseries.csv", 8), ("simulate", "later"): ("timeseries.csv", 14), ("identify", "step"): ("estimate.csv", 8), ("identify", "later"): ("estimate.csv", 14), ("explain", "first run"): ("model_0/timeseries.csv", 8),
+LINES = {("several", "step"): ("timeseries.csv", 8), ("foreign", "step"): ("timeseries.csv", 8), ("simulate", "step"): ("timeseries.csv", 8), ("simulate", "later"): ("timeseries.csv", 14), ("identify", "step"): ("estimate.csv", 8), ("identify", "later"): ("estimate.csv", 14), ("explain", "first run"): ("model_0/timeseries.csv", 8),
          ("explain", "diagnosis"): ("diagnosis_1/coarse/runs/solid.material.young/timeseries.csv", 4)}
 WRITES = {  # program, call, part of the path, which of them
     "simulate": [("tether", "mkdir", "", 1), ("tether", "open", ".lock", 1), ("fsi_master", "open", "case_as_run.yaml", 1), ("fsi_master", "open", "timeseries.csv", 1),
@@ -74,7 +80,7 @@ class Bench:
 
     def case(self, verb):
         """What the verb is given."""
-        return self.folder / "cases" / {"simulate": "long.yaml", "several": "several.yaml"}.get(verb, "twin/case.yaml")
+        return self.folder / "cases" / {"simulate": "long.yaml", "several": "several.yaml", "foreign": "foreign.yaml"}.get(verb, "twin/case.yaml")
 
     def whole(self, verb):
         """The folder of an undisturbed job of these programs: explain.json names the commit that they were built from."""

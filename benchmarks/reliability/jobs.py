@@ -35,7 +35,24 @@ twin:
 """
 LONG = "base: model.yaml\nname: long\ntwin: ~\ntime: {step: 4e-3, end: 0.6}\n"
 SEVERAL = "base: long.yaml\nname: several\ncoupling: {ranks: {fluid: 2, solid: 2}}\n"
-VERBS = {"several": "simulate"}  # jobs that are not called as their verb
+FOREIGN = """base: {root}/docs/examples/ring_tube.yaml
+name: foreign
+time: {{step: 4e-3, end: 0.6}}
+mesh: {{swept: {{around: 12, along: 8}}}}
+output: {{write_every: 5, checkpoint_every: 5}}
+coupling: {{ranks: {{solid: 2}}, programs: {{solid: ./foreign_wall.py}}}}
+"""
+FOREIGN_WALL = """#!/usr/bin/python3
+import runpy, tether
+plain = tether.serve
+def shared(wall, own):
+    answer = wall.evaluate
+    wall.evaluate = lambda load: answer(own.allreduce(load) / 2)  # each waits for the other
+    return wall
+tether.serve = lambda role, make: plain(role, lambda own: shared(make(), own), together=True)
+runpy.run_path("{root}/docs/examples/ring_solid.py")
+"""
+VERBS = {"several": "simulate", "foreign": "simulate"}  # jobs that are not called as their verb
 TRUTH = "base: model.yaml\nname: held\ntwin: ~\nsolid: {support: {regions: {spine: {stiffness: 4e5}}}}\n"
 
 
@@ -46,6 +63,10 @@ def make_cases(folder):
     (folder / "held.yaml").write_text(TRUTH)
     (folder / "long.yaml").write_text(LONG)
     (folder / "several.yaml").write_text(SEVERAL)
+    (folder / "foreign.yaml").write_text(FOREIGN.format(root=ROOT))
+    wall = folder / "foreign_wall.py"
+    wall.write_text(FOREIGN_WALL.format(root=ROOT))
+    wall.chmod(0o755)
     if not (folder / "twin/case.yaml").exists():
         subprocess.run([TETHER, "twin", folder / "model.yaml", "--output", folder / "twin", "--quiet", "--overwrite"], env=environment(), check=True)
 
@@ -143,6 +164,7 @@ def record(file):
 LEFT = {
     "simulate": (("timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd", "vtk/fluid_000150.vtu", "vtk/solid_000150.vtu"), ()),
     "several": (("timeseries.csv", "lumen.motion", "fluid.pvd", "solid.pvd", "vtk/fluid_000150.vtu", "vtk/solid_000150.vtu"), ()),
+    "foreign": (("timeseries.csv", "lumen.motion", "fluid.pvd", "vtk/fluid_000150.vtu"), ()),
     "identify": (("estimate.csv",), ("estimate.json",)),
     "explain": ((), ("explain.json",)),
 }

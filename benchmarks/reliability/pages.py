@@ -6,7 +6,7 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/reliability.md"
-OF_VERB = {"several": "simulate, two processes of each code"}
+OF_VERB = {"several": "simulate, two processes of each code", "foreign": "simulate, a foreign wall of two processes"}
 SIGNALS = ("KILL", "TERM", "INT", "STOP")
 MOST_LINES = 4
 OF_MPIRUN = re.compile(r"^\[[\w.-]+:\d+\] .*\n?", re.MULTILINE)  # [host:process]: what Open MPI tells for itself

@@ -50,6 +50,10 @@ Amplitude amplitude_of(const FaultNumber& number, const UnitSystem& units) {
   return amplitude;
 }
 
+bool is_looked_for(const FaultDeclaration& fault, const std::vector<std::string>& asked) {
+  return !fault.on_request || std::find(asked.begin(), asked.end(), fault.of_all.name) != asked.end();
+}
+
 /// Everything that data of one source may err in.
 class SourceErrors {
  public:
@@ -61,8 +65,7 @@ class SourceErrors {
     middle_ = data.middle;
     for (const auto& fault : faults_) {
       const FaultDeclaration& said = fault->declaration();
-      if (!said.on_request || std::find(asked.begin(), asked.end(), said.of_all.name) != asked.end())
-        possible_.push_back({*fault, fault->columns(data)});
+      if (is_looked_for(said, asked)) possible_.push_back({*fault, fault->columns(data)});
     }
   }
 
@@ -167,6 +170,17 @@ std::vector<std::vector<const Evidence::Part*>> by_source(const Evidence& eviden
 }
 
 }  // namespace
+
+std::vector<std::string> faults_not_asked(const Evidence& evidence, const std::vector<std::string>& asked) {
+  std::vector<std::string> names;
+  for (const auto& parts : by_source(evidence))
+    for (const auto& fault : Faults(evidence.fallible(*parts.front()))) {
+      const FaultDeclaration& said = fault->declaration();
+      if (is_looked_for(said, asked) || std::count(names.begin(), names.end(), said.of_all.name) > 0) continue;
+      names.push_back(said.of_all.name);
+    }
+  return names;
+}
 
 std::string frame_text(const Evidence& evidence, const Evidence::Part& part) {
   return fmt::format("{}, {:.4g} s", evidence.name_of(part), part.frame.time);

@@ -12,6 +12,9 @@ namespace tether {
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
                      const AllowanceCase& allowed, const UnitSystem& units, const std::vector<std::string>& asked = {});
 
+/// Names of faults that these data can have, and that are looked for on request only, without those asked for.
+std::vector<std::string> faults_not_asked(const Evidence& evidence, const std::vector<std::string>& asked);
+
 /// "ct, 0.26 s".
 std::string frame_text(const Evidence& evidence, const Evidence::Part& part);
 

@@ -120,6 +120,7 @@ struct Diagnosis {
   std::vector<StrainedError> strained_errors;
   std::vector<NoiseCheck> noise;
   bool more = false;
+  std::vector<std::string> faults_not_asked;
   std::vector<PublishedQuantities> published;
   std::optional<FurtherData> split_by;
   std::vector<Attempt> path;
@@ -151,6 +152,8 @@ struct Diagnosis {
     field("strained_errors", self.strained_errors, "allowed errors that would have to be large, the worst first");
     field("noise", self.noise, "what the case states of it, held against what the accepted model leaves, by source");
     field("more", self.more, "another effect is wanted, but no more were to be added");
+    field("faults_not_asked", self.faults_not_asked,
+          "faults that instruments of these data can have, and that compete only where `diagnosis.also` names them");
     field("published", self.published,
           "what is published of a vessel, in the model as it is, then with what was accepted, then rivals");
     field("split_by", self.split_by, "what would tell rivals apart");

@@ -250,6 +250,20 @@ void add_place(std::vector<std::string>& all, const Diagnosis& diagnosis) {
       place.tried, place.known_to, place.unit, place.least_radius, place.largest_radius, place.unit));
 }
 
+/// What to ask where what data of the wall do not bear out may be an error of an instrument; empty where none is.
+std::string instrument_hint(const Diagnosis& diagnosis) {
+  if (diagnosis.faults_not_asked.empty()) return "";
+  return fmt::format("if an instrument may be off all over, let diagnosis.also name {}",
+                     fmt::join(diagnosis.faults_not_asked, " and "));
+}
+
+void add_held_out(std::vector<std::string>& all, const Diagnosis& diagnosis) {
+  all.push_back(held_out_sentence(*diagnosis.held_out));
+  const bool names = diagnosis.verdict == Verdict::missing || diagnosis.verdict == Verdict::ambiguous;
+  if (std::string hint = instrument_hint(diagnosis); names && diagnosis.held_out->value < 0 && !hint.empty())
+    all.back() += "; " + hint;
+}
+
 void add_what_is_left(std::vector<std::string>& all, const Diagnosis& diagnosis) {
   const Verdict verdict = diagnosis.verdict;
   const auto& after = diagnosis.lack_of_fit.after;
@@ -363,10 +377,9 @@ std::string open_question_of(const Diagnosis& diagnosis) {
       is_refuted(diagnosis.held_out) && !laws.empty()) {
     std::vector<std::string> names;
     for (const Finding& law : laws) names.push_back(text_of(law));
-    return fmt::format(
-        "{} explains most, but held-out frames are farther off with it: if a trace may be too high or too large all "
-        "over, let diagnosis.also name value_offset and value_scale",
-        fmt::join(names, " and "));
+    const std::string hint = instrument_hint(diagnosis);
+    return fmt::format("{} explains most, but held-out frames are farther off with it{}", fmt::join(names, " and "),
+                       hint.empty() ? "" : ": " + hint);
   }
   const auto& path = diagnosis.path;
   const auto open = std::find_if(path.begin(), path.end(), [](const Attempt& attempt) {
@@ -413,7 +426,7 @@ std::vector<std::string> remarks_on(const Diagnosis& diagnosis, HeldOutGain gain
   add_what_is_not_ruled_out(all, diagnosis);
   add_what_runs_changed(all, diagnosis);
   if (any_accepted(diagnosis)) add_foretold(all, diagnosis);
-  if (diagnosis.held_out && gain == HeldOutGain::told) all.push_back(held_out_sentence(*diagnosis.held_out));
+  if (diagnosis.held_out && gain == HeldOutGain::told) add_held_out(all, diagnosis);
   add_rest(all, diagnosis);
   return all;
 }

@@ -238,6 +238,7 @@ class DiagnosisRun {
     report.title = given_.file.common().title;
     report.alpha = given_.diagnosis.alpha;
     report.effects = effects_;
+    report.faults_not_asked = faults_not_asked(evidence_, given_.diagnosis.also);
     report.noise_factors = widen_noise(whitening_, evidence_, whitening_(as_data_));
     report.problem = whitening_(as_data_);
     return report;

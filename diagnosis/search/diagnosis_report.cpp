@@ -176,6 +176,7 @@ Diagnosis diagnosis_of(const DiagnosisReport& report) {
   d.strained_errors = found.strained;
   d.noise = report.noise;
   d.more = found.more;
+  d.faults_not_asked = report.faults_not_asked;
   d.published = report.published;
   d.split_by = further_data(report.splits);
   for (const SearchStep& step : found.path) d.path.push_back(attempt_of(problem, step));

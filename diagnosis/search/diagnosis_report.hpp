@@ -17,6 +17,7 @@ struct DiagnosisReport {
   std::vector<PublishedQuantities> published;  ///< what it changes
   std::vector<Split> splits;  ///< what would tell rivals apart, the best first; empty if there are none
   std::vector<NoiseCheck> noise;
+  std::vector<std::string> faults_not_asked;
   LocatedMisfits located;
   std::optional<PatchPlace> patch;  ///< that a candidate acts on; none: regions explain what is there
   VectorXd misfit_map;  ///< z of patches about the nodes of the lumen, of what is left; empty: no data lie on it

@@ -61,7 +61,7 @@ class Search {
       take_beside_each_other(result_.effects, now_, plain_.scores(now_.changes, now_.residual), result_.dispersion,
                              problem_);
     judge({problem_, settings_, plain_, now_, confirmation_, misfit_as_it_is_, rival_of_}, result_);
-    share_by_runs(result_.weighed, result_.effects, problem_, result_.independent);
+    share_by_runs(result_.weighed, result_.effects, problem_, result_.independent, rival_of_);
     set_groups(result_.effects, problem_, scores, result_.independent, rival_of_);
     std::stable_sort(result_.effects.begin(), result_.effects.end(), [&](const auto& a, const auto& b) {
       if (a.accepted != b.accepted) return a.accepted;

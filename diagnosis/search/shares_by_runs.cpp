@@ -30,11 +30,28 @@ void put_most_probable_first(WeighedGroup& group) {
   group.as_good = in_order(group.as_good, order);
 }
 
+/// Rivals of the group's accepted ones, improbable by themselves, which have no line in the table.
+void add_rivals(WeighedGroup& group, const std::vector<WeighedGroup>& groups, const std::vector<TestedEffect>& effects,
+                const std::vector<std::size_t>& rival_of) {
+  const auto is_told = [&](std::size_t candidate) {
+    return std::any_of(groups.begin(), groups.end(), [&](const WeighedGroup& one) { return one.has(candidate); });
+  };
+  for (const TestedEffect& effect : effects) {
+    const std::size_t of = rival_of[effect.candidate];
+    if (!effect.rival || is_told(effect.candidate) || !group.has(of) || !of_candidate(effects, of).accepted) continue;
+    group.members.push_back(effect.candidate);
+    group.shares.push_back(0);
+    group.amplitudes.push_back(undefined);
+    group.by_runs.push_back(false);
+  }
+}
+
 }  // namespace
 
 void share_by_runs(Weighed& weighed, const std::vector<TestedEffect>& effects, const EffectProblem& problem,
-                   double independent) {
+                   double independent, const std::vector<std::size_t>& rival_of) {
   for (WeighedGroup& group : weighed.groups) {
+    add_rivals(group, weighed.groups, effects, rival_of);
     std::vector<std::size_t> tried;  // places within the group
     double together = 0, most = -infinite;
     int accepted = 0;

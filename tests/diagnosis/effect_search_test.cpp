@@ -410,7 +410,7 @@ TEST(EffectSearch, SharesAreThoseOfRuns) {
   group.shares = {0.7, 0.2, 0.0, 0.1};
   group.amplitudes = {5, 6, 7, 8};
   group.by_runs = {false, false, false, false};
-  share_by_runs(weighed, effects, problem, 1);
+  share_by_runs(weighed, effects, problem, 1, {0, 1, 2, 3});
   EXPECT_EQ(group.members, (std::vector<std::size_t>{0, 1, 3, 2}));
   EXPECT_NEAR(group.shares[0], 0.8 / (1 + std::exp(-0.1)), 1e-6);
   EXPECT_NEAR(group.shares[0] + group.shares[1] + group.shares[3], 0.8, 1e-12) << "what they had together";
@@ -419,8 +419,32 @@ TEST(EffectSearch, SharesAreThoseOfRuns) {
   EXPECT_EQ(group.by_runs, (std::vector<bool>{true, true, false, true}));
   effects[1].accepted = true;
   const WeighedGroup before = group;
-  share_by_runs(weighed, effects, problem, 1);
+  share_by_runs(weighed, effects, problem, 1, {0, 1, 2, 3});
   EXPECT_EQ(group.shares, before.shares) << "two that are there together";
+
+  effects[1].accepted = false;
+  group.members.pop_back(), group.shares.pop_back(), group.amplitudes.pop_back(), group.by_runs.pop_back();
+  effects[2].rival = true, effects[2].confirmed_gain = 71.6;
+  share_by_runs(weighed, effects, problem, 1, {0, 1, 0, 3});
+  ASSERT_EQ(group.members.size(), 4U) << "a rival has a line";
+  EXPECT_TRUE(group.has(2));
+  EXPECT_EQ(group.shares[0], group.shares[1]) << "it removes as much";
+}
+
+/// What explains the data at hand and takes the model away from those held out is not named.
+TEST(EffectSearch, NamesNothingThatHeldOutDataRefute) {
+  std::mt19937_64 generator(17);
+  EffectProblem problem = band();
+  problem.residual = noise(generator) + 8 * problem.changes.col(0);
+  const SearchResult named = found(problem);
+  ASSERT_EQ(named.verdict, Verdict::missing);
+  ASSERT_TRUE(named.held_out && named.held_out->lower > 0);
+  for (const Index row : problem.held_out) problem.residual(row) -= 16 * problem.changes(row, 0);
+  const SearchResult refuted = found(problem);
+  EXPECT_TRUE(effect_of(refuted, 0).accepted);
+  ASSERT_TRUE(refuted.held_out.has_value());
+  EXPECT_LT(refuted.held_out->upper, 0);
+  EXPECT_EQ(refuted.verdict, Verdict::undecided);
 }
 
 /// A place that is farther off than any noise: what is named beside it is not known.
