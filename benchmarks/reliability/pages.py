@@ -9,7 +9,8 @@ PAGE = ROOT / "docs/reliability.md"
 OF_VERB = {"several": "simulate, two processes of each code", "foreign": "simulate, a foreign wall of two processes"}
 SIGNALS = ("KILL", "TERM", "INT", "STOP")
 MOST_LINES = 4
-OF_MPIRUN = re.compile(r"^\[[\w.-]+:\d+\] .*\n?", re.MULTILINE)  # [host:process]: what Open MPI tells for itself
+OF_MPIRUN = re.compile(r"^\[[\w.-]+(:\d+\] |\]\[\[).*\n?", re.MULTILINE)  # [host:process], [host][[job,of],rank]: what Open MPI tells for itself
+OF_CASE = re.compile(r"^.*: this case runs .*\n?", re.MULTILINE)  # told when it begins
 LONG_NAMES = ("identification_master", "observation_manager")  # /proc/N/comm has fifteen letters
 
 
@@ -22,7 +23,7 @@ def parts_of(key):
 def faults_of(key, result):
     """What is wrong with an outcome."""
     _, kind, program, _, fault = parts_of(key)
-    wrong, code, message = [], result["code"], OF_MPIRUN.sub("", result["message"])
+    wrong, code, message = [], result["code"], OF_CASE.sub("", OF_MPIRUN.sub("", result["message"]))
     itself = (kind == "signal" and program == "tether" and fault == "KILL") or fault == "the first host is lost"  # it can tell nothing
     if code is None:
         wrong.append("does not end")

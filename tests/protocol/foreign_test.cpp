@@ -241,6 +241,15 @@ TEST_F(ForeignPython, One_of_several_processes_that_dies_is_told) {
   EXPECT_TRUE(job.orphans.empty());
 }
 
+/// Not by Python's own account of where it was.
+TEST_F(ForeignPython, One_of_several_processes_that_is_interrupted_is_told) {
+  const auto job = run_with_signal_in_second("SIGINT");
+  EXPECT_EQ(job.exit_code, 1) << job.output;
+  EXPECT_NE(job.errors.find("ended: process 2 of 2 of solid (pid "), std::string::npos) << job.errors;
+  EXPECT_EQ(job.errors.find("Traceback"), std::string::npos) << job.errors;
+  EXPECT_TRUE(job.orphans.empty());
+}
+
 TEST_F(ForeignPython, One_of_several_processes_that_is_stopped_is_told) {
   const auto job = run_with_signal_in_second("SIGSTOP");
   EXPECT_EQ(job.exit_code, 1) << job.output;

@@ -37,7 +37,9 @@ import ctypes
 import math
 import os
 import pathlib
+import signal
 import sys
+import threading
 import time
 import traceback
 
@@ -321,6 +323,13 @@ def _handle(communicator):
     return -2 if communicator.Get_name() == "MPI_COMM_WORLD" else communicator.py2f()
 
 
+def _end_when_interrupted():
+    """An interrupt (SIGINT) ends this process as it ends a program in C, and the master tells of it: an exception in
+    the midst of MPI would leave other processes waiting. What a code handles itself stays."""
+    if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def serve(role, make, communicator=None, together=False):
     """Connects as `role` ("fluid" or "solid"), calls make() for the code and lets it answer until the job is over.
 
@@ -330,6 +339,7 @@ def serve(role, make, communicator=None, together=False):
     holds just them, and each method, at once and with the same arguments; what the leader's return is sent. One that
     raises where others wait for it in MPI leaves them waiting. Returns the exit code.
     """
+    _end_when_interrupted()
     library = _load_library()
     partner = library.tether_connect(role.encode(), -2 if together else _handle(communicator))
     if not partner:
