@@ -102,7 +102,7 @@ CoupledCodes::CoupledCodes(const MasterCase& master, std::span<protocol::Partner
   check_is_read(processes[0], master.coupling.programs.fluid, master.file);
   check_is_read(processes[1], master.coupling.programs.solid, master.file);
   const InterfaceSurface of_fluid = ask_interface(processes[0]);
-  solid_.emplace(processes[1]);
+  solid_.emplace(processes[1], size_);
   mapping_ = mapping_of(master.coupling, of_fluid, interface_);
   fluid_.emplace(processes[0], map_of(mapping_, master.coupling, of_fluid, interface_, units_));
   lumen_ = protocol::is_own(master.coupling.programs.solid) ? ToldLumen{interface_.points}

@@ -90,15 +90,7 @@ VectorXd sized(const std::vector<double>& values, Eigen::Index size, const Partn
   return vector_of(values);
 }
 
-/// A wall's displacement. Of its velocity, which the residual is made of, Convergence says whether it is finite.
-VectorXd displacement_of(const std::vector<double>& values, Eigen::Index size, const Partner& partner) {
-  VectorXd displacement = sized(values, size, partner);
-  for (Eigen::Index i = 0; i < size; ++i)
-    if (!std::isfinite(displacement[i]))
-      throw StepFailure(fmt::format("{} answered with a displacement that is not finite, at interface node {}",
-                                    partner.role(), i / 3));
-  return displacement;
-}
+constexpr double sizes_away = 10;  ///< of the interface: no wall moves so far
 
 }  // namespace
 
@@ -228,10 +220,25 @@ Later<PartnerUsage> MessageSolid::usage() {
   return ask_usage(partner_);
 }
 
+/// Of the velocity, which the residual is made of, Convergence says whether it is finite.
+VectorXd MessageSolid::displacement_of(const std::vector<double>& values, Eigen::Index size) const {
+  VectorXd displacement = sized(values, size, partner_);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (!std::isfinite(displacement[i]))
+      throw StepFailure(fmt::format("{} answered with a displacement that is not finite, at interface node {}",
+                                    partner_.role(), i / 3));
+    if (std::abs(displacement[i]) > sizes_away * interface_size_)
+      throw StepFailure(fmt::format("{} answered with a displacement of {:.3g} at interface node {}: more than {:g} "
+                                    "times the size of the interface, {:.3g}",
+                                    partner_.role(), displacement[i], i / 3, sizes_away, interface_size_));
+  }
+  return displacement;
+}
+
 Later<Motion> MessageSolid::motion(const VectorXd& load) {
   return ask_later(
       partner_, protocol::SolidEvaluate{values_of(load)}, [this, size = load.size()](const protocol::Motion& motion) {
-        return Motion{displacement_of(motion.displacement, size, partner_), sized(motion.velocity, size, partner_)};
+        return Motion{displacement_of(motion.displacement, size), sized(motion.velocity, size, partner_)};
       });
 }
 
@@ -247,7 +254,7 @@ Later<SolidPartner::Iterate> MessageSolid::residual(const VectorXd& correction, 
                    [this, size = load.size()](const protocol::SolidResidualReply& reply) {
                      return Iterate{
                          vector_of(reply.residual),
-                         {displacement_of(reply.displacement, size, partner_), sized(reply.velocity, size, partner_)}};
+                         {displacement_of(reply.displacement, size), sized(reply.velocity, size, partner_)}};
                    });
 }
 

@@ -48,7 +48,9 @@ class MessageFluid : public FluidPartner {
 /// A solid in another process; its interface nodes are the master's.
 class MessageSolid : public SolidPartner {
  public:
-  explicit MessageSolid(protocol::Partner& partner) : partner_(partner) {}
+  /// interface_size: the diagonal of the box around it; displacements that are much larger fail the step [length].
+  explicit MessageSolid(protocol::Partner& partner, double interface_size = infinite)
+      : partner_(partner), interface_size_(interface_size) {}
   std::string name() const override;
   bool has_tangent() const override;
   bool has_operators() const override;
@@ -72,7 +74,11 @@ class MessageSolid : public SolidPartner {
   Later<VectorXd> set_drift(const Innovation& data) override;
 
  private:
+  /// Throws StepFailure if it is not finite, or no wall's.
+  VectorXd displacement_of(const std::vector<double>& values, Eigen::Index size) const;
+
   protocol::Partner& partner_;
+  double interface_size_;
 };
 
 /// An observation_manager in another process; its samples are gathered at the interface's nodes (O.5).

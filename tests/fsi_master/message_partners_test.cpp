@@ -55,7 +55,7 @@ struct Careless : fakes::FakeSolid {
   using FakeSolid::operator();
   protocol::Motion operator()(const protocol::SolidEvaluate& m) {
     protocol::Motion motion = FakeSolid::operator()(m);
-    motion.displacement[7] = std::nan("");
+    motion.displacement[7] = displacement;
     return motion;
   }
   protocol::State operator()(const protocol::GetState& m) {
@@ -64,6 +64,7 @@ struct Careless : fakes::FakeSolid {
     return state;
   }
   bool short_state = false;
+  double displacement = std::nan("");
 };
 
 TEST(MessageSolid, ADisplacementThatIsNoNumberFailsTheStep) {
@@ -76,6 +77,26 @@ TEST(MessageSolid, ADisplacementThatIsNoNumberFailsTheStep) {
     FAIL() << "no error";
   } catch (const StepFailure& failure) {
     EXPECT_STREQ(failure.what(), "solid answered with a displacement that is not finite, at interface node 2");
+  }
+}
+
+/// 1e300 is a number, and would be saved.
+TEST(MessageSolid, ADisplacementThatNoWallHasFailsTheStep) {
+  auto careless = std::make_shared<Careless>();
+  auto process = in_process_partner<protocol::ToSolid>("solid", careless);
+  MessageSolid solid(process, 2);
+  const VectorXd zero = VectorXd::Zero(ask_interface(process).points.size());
+  careless->displacement = 19;
+  solid.begin_step({1, 0, 0.1, zero, zero}).get();
+  EXPECT_EQ(solid.motion(zero).get().displacement[7], 19);
+  careless->displacement = -1e300;
+  try {
+    solid.motion(zero).get();
+    FAIL() << "no error";
+  } catch (const StepFailure& failure) {
+    EXPECT_STREQ(failure.what(),
+                 "solid answered with a displacement of -1e+300 at interface node 2: more than 10 times the size of "
+                 "the interface, 2");
   }
 }
 
