@@ -228,18 +228,19 @@ VectorXd MessageSolid::displacement_of(const std::vector<double>& values, Eigen:
       throw StepFailure(fmt::format("{} answered with a displacement that is not finite, at interface node {}",
                                     partner_.role(), i / 3));
     if (std::abs(displacement[i]) > sizes_away * interface_size_)
-      throw StepFailure(fmt::format("{} answered with a displacement of {:.3g} at interface node {}: more than {:g} "
-                                    "times the size of the interface, {:.3g}",
-                                    partner_.role(), displacement[i], i / 3, sizes_away, interface_size_));
+      throw StepFailure(
+          fmt::format("{} answered with a displacement of {:.3g} at interface node {}: more than {:g} "
+                      "times the size of the interface, {:.3g}",
+                      partner_.role(), displacement[i], i / 3, sizes_away, interface_size_));
   }
   return displacement;
 }
 
 Later<Motion> MessageSolid::motion(const VectorXd& load) {
-  return ask_later(
-      partner_, protocol::SolidEvaluate{values_of(load)}, [this, size = load.size()](const protocol::Motion& motion) {
-        return Motion{displacement_of(motion.displacement, size), sized(motion.velocity, size, partner_)};
-      });
+  return ask_later(partner_, protocol::SolidEvaluate{values_of(load)},
+                   [this, size = load.size()](const protocol::Motion& motion) {
+                     return Motion{displacement_of(motion.displacement, size), sized(motion.velocity, size, partner_)};
+                   });
 }
 
 Later<VectorXd> MessageSolid::velocity_change(const VectorXd& load_change) {
@@ -252,9 +253,8 @@ Later<VectorXd> MessageSolid::velocity_change(const VectorXd& load_change) {
 Later<SolidPartner::Iterate> MessageSolid::residual(const VectorXd& correction, const VectorXd& load) {
   return ask_later(partner_, protocol::SolidResidual{values_of(correction), values_of(load)},
                    [this, size = load.size()](const protocol::SolidResidualReply& reply) {
-                     return Iterate{
-                         vector_of(reply.residual),
-                         {displacement_of(reply.displacement, size), sized(reply.velocity, size, partner_)}};
+                     return Iterate{vector_of(reply.residual),
+                                    {displacement_of(reply.displacement, size), sized(reply.velocity, size, partner_)}};
                    });
 }
 

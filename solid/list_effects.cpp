@@ -75,7 +75,8 @@ std::vector<std::string> parts_for(const EffectDeclaration& effect, const SolidC
   return parts;
 }
 
-/// The half toward the first ring, that toward the others, that between them, and what is nearer to each of a region's neighbours.
+/// The half toward the first ring, that toward the others, that between them, and what is nearer to each of a region's
+/// neighbours.
 std::vector<Extent> extents_in(const std::string& part, const WallMesh& mesh, const Neighbours& neighbours) {
   std::vector<Extent> parts;
   if (mesh.rings.size() >= 2) parts = {{0, 0.5}, {0.5, 1}, {0.25, 0.75}};

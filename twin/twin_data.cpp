@@ -170,7 +170,7 @@ TwinTrace make_trace(const TwinTraceCase& given, const std::vector<double>& time
     trace.times.push_back(first + k * given.interval);
   const VectorXd noise = noise_over_time({given.noise.deviation, 0, given.noise.correlation_time}, trace.times, seed);
   for (std::size_t k = 0; k < trace.times.size(); ++k)
-    trace.values.push_back(curve(trace.times[k]) + noise[static_cast<Eigen::Index>(k)]);
+    trace.values.push_back(curve(trace.times[k] + given.faults.faults.delay(0)) + noise[static_cast<Eigen::Index>(k)]);
   given.faults.faults.spoil(trace.values);
   return trace;
 }

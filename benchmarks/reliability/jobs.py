@@ -85,7 +85,9 @@ class Job:
         Job.count += 1
         self.output, self.mark = output, f"reliability-{os.getpid()}-{Job.count}"
         self.flag = output.parent / f"{output.name}.flag"
-        self.flag.unlink(missing_ok=True)
+        self.over = pathlib.Path(f"{self.flag}.over")
+        for file in (self.flag, self.over):
+            file.unlink(missing_ok=True)
         if fault:
             more |= {"LD_PRELOAD": str(PRELOAD), "TETHER_FAULT_ROOT": str(output), "TETHER_FAULT": fault, "TETHER_FAULT_FLAG": str(self.flag)}
         self.errors = open(output.parent / f"{name or output.name}.err", "w+")
@@ -113,6 +115,11 @@ class Job:
         if program.endswith("+"):
             return numbers[-1] if len(numbers) > 1 else None
         return numbers[0] if numbers else None
+
+    def let_go(self):
+        """A program that waits goes on, and those that come after it."""
+        self.over.touch()
+        self.flag.unlink(missing_ok=True)
 
     def is_running(self):
         return self.process.poll() is None

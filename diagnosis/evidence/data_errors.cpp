@@ -18,17 +18,24 @@ FinishedMotion shifted(const FinishedMotion& base, double by) {
   run.motion.positions = [&base, by](double time) {
     return base.motion.positions(std::clamp(time + by, base.motion.start, base.motion.end));
   };
+  run.trace = [&base, by](const std::string& column) {
+    RunTrace trace = base.trace(column);
+    for (double& time : trace.times) time -= by;
+    return trace;
+  };
   return run;
 }
 
-/// How fast the model's lumen moves outward at each datum: frames shown later than they say lie that much farther out.
-VectorXd outward_velocity(const Evidence& evidence, const FinishedMotion& base, double h) {
+/// How fast the model's lumen moves outward at each datum, or its value grows: frames shown later than they say lie
+/// that much farther out.
+VectorXd rate_of(const Evidence& evidence, const FinishedMotion& base, double h) {
   const FinishedMotion before = shifted(base, -h), after = shifted(base, h);
   const MatrixXd residuals = evidence.residuals({&before, &after});
-  VectorXd velocity = (residuals.col(0) - residuals.col(1)) / (2 * h);
+  VectorXd rate = (residuals.col(0) - residuals.col(1)) / (2 * h);
   for (const auto& part : evidence.parts())
-    if (!evidence.fallible(part).in_time) velocity.segment(part.first, part.count).setZero();
-  return velocity.array().isFinite().select(velocity, 0);
+    if (const Fallible& data = evidence.fallible(part); !data.in_time && !data.in_value)
+      rate.segment(part.first, part.count).setZero();
+  return rate.array().isFinite().select(rate, 0);
 }
 
 /// Whether some frame of a source is the imaged lumen: then the data as a whole are neither displaced nor turned nor
@@ -57,11 +64,11 @@ bool is_looked_for(const FaultDeclaration& fault, const std::vector<std::string>
 /// Everything that data of one source may err in.
 class SourceErrors {
  public:
-  SourceErrors(EffectProblem& problem, const Evidence& evidence, const VectorXd& velocity, const AllowanceCase& allowed,
+  SourceErrors(EffectProblem& problem, const Evidence& evidence, const VectorXd& rate, const AllowanceCase& allowed,
                const UnitSystem& units, const std::vector<std::string>& asked,
                const std::vector<const Evidence::Part*>& parts)
       : problem_(problem), evidence_(evidence), allowed_(allowed), units_(units), parts_(parts) {
-    const SourceData data = data_of(velocity);
+    const SourceData data = data_of(rate);
     middle_ = data.middle;
     for (const auto& fault : faults_) {
       const FaultDeclaration& said = fault->declaration();
@@ -117,7 +124,7 @@ class SourceErrors {
     problem_.candidates.push_back(added);
   }
 
-  SourceData data_of(const VectorXd& velocity) const {
+  SourceData data_of(const VectorXd& rate) const {
     SourceData data;
     std::vector<Index> rows;
     for (const Evidence::Part* part : parts_) {
@@ -131,7 +138,7 @@ class SourceErrors {
     data.places = evidence_.places()(Eigen::all, rows);
     data.normals = evidence_.normals()(Eigen::all, rows);
     data.curvatures = of_all(evidence_.curvatures())(rows);
-    data.outward_velocity = velocity(rows);
+    data.rate = rate(rows);
     data.times = of_all(evidence_.times())(rows);
     data.values = of_all(evidence_.shown())(rows);
     data.dimension = evidence_.source(*parts_.front()).facts().dimension;
@@ -201,9 +208,9 @@ void allow(EffectProblem& problem, const VectorXd& column, double deviation, con
 
 void add_data_errors(EffectProblem& problem, const Evidence& evidence, const FinishedMotion& base,
                      const AllowanceCase& allowed, const UnitSystem& units, const std::vector<std::string>& asked) {
-  const VectorXd velocity = outward_velocity(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
+  const VectorXd rate = rate_of(evidence, base, 1e-3 * (base.motion.end - base.motion.start));
   for (const auto& parts : by_source(evidence)) {
-    SourceErrors errors(problem, evidence, velocity, allowed, units, asked, parts);
+    SourceErrors errors(problem, evidence, rate, allowed, units, asked, parts);
     errors.add_of_all(shows_the_image(evidence, parts.front()->source, base.motion.imaged));
     if (parts.size() < 2) continue;
     for (const Evidence::Part* part : parts)

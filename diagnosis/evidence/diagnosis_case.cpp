@@ -4,8 +4,10 @@ namespace tether {
 
 void DiagnosisCase::declare(Fields& f) {
   f.texts("candidates", candidates, "types of effects that may be missing; absent: all of the catalogue");
-  f.texts("also", also,
-          "types that are candidates beside the catalogue: generic ones, such as moving_tissue, which it leaves out");
+  f.texts(
+      "also", also,
+      "what is a candidate beside the catalogue: generic types that it leaves out, such as moving_tissue, and faults "
+      "of instruments: value_offset, value_scale, value_lag");
   f.texts("exclude", exclude, "what is no candidate: types, parts of the wall, or numbers by their place in the case");
   f.texts("assumed", assumed,
           "numbers of the model, by their place in the case, that may be anything: effects must show beyond them");

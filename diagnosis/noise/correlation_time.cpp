@@ -107,8 +107,7 @@ std::optional<LastingErrors> lasting_errors(const std::vector<NoiseField>& field
   MeasuredNumber time{best->first, best->first, best->first};
   for (const auto& [tau, value] : known)
     if (value > best->second - inside) time.lower = std::min(time.lower, tau), time.upper = std::max(time.upper, tau);
-  return LastingErrors{time,
-                       chi_square_tail(std::max(0.0, 2 * (best->second - log_likelihood(all, stated))), 1),
+  return LastingErrors{time, chi_square_tail(std::max(0.0, 2 * (best->second - log_likelihood(all, stated))), 1),
                        independent_frames(all, stated) / independent_frames(all, time.value)};
 }
 

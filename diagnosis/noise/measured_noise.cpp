@@ -53,8 +53,8 @@ NoiseCheck check_of(const std::vector<NoisePosterior>& shapes, const NoiseFit& b
 
 void check_time(NoiseCheck& check, const LastingErrors& lasting) {
   check.measured_time = lasting.time;
-  check.time_contradicts = lasting.p_of_stated < improbable &&
-                           std::abs(std::log(lasting.frames_claimed)) > std::log(frames_matter);
+  check.time_contradicts =
+      lasting.p_of_stated < improbable && std::abs(std::log(lasting.frames_claimed)) > std::log(frames_matter);
 }
 
 bool has_data_to_spare(const NoiseField& field) {

@@ -148,9 +148,9 @@ std::string text_of(const NoiseMeasurements& noise) {
   std::string text = "\n";
   for (const std::string& sentence : noise.sentences) text += sentence + "\n";
   for (const MeasuredNoise& one : noise.measurements)
-    text += fmt::format("\n{}, from {}\n  frames {}\n  {}\n", one.source, meaning_of(one.from),
-                        fmt::join(one.frames, ", "),
-                        one.line.empty() ? "errors last: take the noise from what the run leaves" : one.line);
+    text +=
+        fmt::format("\n{}, from {}\n  frames {}\n  {}\n", one.source, meaning_of(one.from), fmt::join(one.frames, ", "),
+                    one.line.empty() ? "errors last: take the noise from what the run leaves" : one.line);
   return text;
 }
 

@@ -84,7 +84,8 @@ struct NoiseCheck {
     field("deviation", self.deviation, "as stated, in the case's unit");
     field("correlation_length", self.correlation_length, "as stated, in the case's unit");
     field("correlation_time", self.correlation_time, "as stated [s]; 0: errors do not last");
-    field("deviation_ratio", self.deviation_ratio, "measured over stated; of neighbouring frames: over what of it does not last from one to the next");
+    field("deviation_ratio", self.deviation_ratio,
+          "measured over stated; of neighbouring frames: over what of it does not last from one to the next");
     field("length_ratio", self.length_ratio, "measured over stated");
     field("measured_time", self.measured_time, "in which errors fade to a share 1/e [s]; null: not measurable");
     field("p", self.p, "probability that noise as stated looks so much like another one");
@@ -127,7 +128,8 @@ struct MeasuredNoise {
           "share of the variance that pairs of neighbouring frames show, of errors that last as what the run leaves "
           "says; null: all, or unknown");
     field("correlation", self.correlation, "by distance");
-    field("line", self.line, "to paste into the source's section of the case; empty: errors last, which these frames hide");
+    field("line", self.line,
+          "to paste into the source's section of the case; empty: errors last, which these frames hide");
     field("stated", self.stated, "what the case states, held against it");
   }
 };

@@ -26,8 +26,8 @@ std::string sentence_of(const NoiseCheck& check) {
     what = fmt::format("its deviation is {}, its correlation length {}", times_text(check.deviation_ratio),
                        times_text(check.length_ratio));
   if (check.time_contradicts)
-    what += fmt::format("{}errors last {}, stated is {:g} s", what.empty() ? "" : ", ",
-                        time_text(*check.measured_time), check.correlation_time);
+    what += fmt::format("{}errors last {}, stated is {:g} s", what.empty() ? "" : ", ", time_text(*check.measured_time),
+                        check.correlation_time);
   return fmt::format("The noise that is stated of {} contradicts the data: {}; tether measure-noise tells more",
                      check.source, what);
 }

@@ -71,7 +71,7 @@ TEST_F(DataFaults, AreGoneOnceTheyAreTakenOff) {
   const Observations data = load("case.yaml");
   const Evidence evidence(data, lumen, run);
   EffectProblem problem = evidence.problem();
-  add_data_errors(problem, evidence, run, {}, UnitSystem::cgs(), {"value_offset", "value_scale"});
+  add_data_errors(problem, evidence, run, {}, UnitSystem::cgs(), {"value_offset", "value_scale", "value_lag"});
   const VectorXd deviation = (problem.independent.array() / problem.precision.array()).sqrt();
   int taken_off = 0;
   for (const Candidate& error : problem.candidates) {
@@ -100,7 +100,7 @@ TEST_F(DataFaults, AreGoneOnceTheyAreTakenOff) {
     EXPECT_GT(all, 0) << error.name;
     EXPECT_LT(off, 0.02 * all) << error.name;
   }
-  EXPECT_GE(taken_off, 6);
+  EXPECT_EQ(taken_off, 7);
 }
 
 }  // namespace data_faults_test

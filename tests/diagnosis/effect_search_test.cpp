@@ -439,7 +439,12 @@ TEST(EffectSearch, NamesNothingThatHeldOutDataRefute) {
   const SearchResult named = found(problem);
   ASSERT_EQ(named.verdict, Verdict::missing);
   ASSERT_TRUE(named.held_out && named.held_out->lower > 0);
-  for (const Index row : problem.held_out) problem.residual(row) -= 16 * problem.changes(row, 0);
+  problem.training.clear(), problem.held_out.clear();
+  for (Index row = 0; row < problem.residual.size(); ++row) {
+    const Index moment = row / places;
+    (moment == 2 || moment == 10 ? problem.held_out : problem.training).push_back(row);
+  }
+  for (const Index row : problem.held_out) problem.residual(row) -= 12 * problem.changes(row, 0);
   const SearchResult refuted = found(problem);
   EXPECT_TRUE(effect_of(refuted, 0).accepted);
   ASSERT_TRUE(refuted.held_out.has_value());

@@ -12,7 +12,8 @@
 namespace tether::testing {
 
 /// Runs of a tube about the z axis that beats with period 0.8: springs at its regions, at the halves of these along
-/// the axis and at the half between their ends, each a number of the model, hold the wall back by half a millimetre a unit.
+/// the axis and at the half between their ends, each a number of the model, hold the wall back by half a millimetre a
+/// unit.
 struct FakeRuns : ModelRuns {
   explicit FakeRuns(const LumenSurface& of, const std::vector<std::string>& regions) : lumen(of) {
     for (const char* half : {"", "_inlet_half", "_outlet_half", "_middle_half"})

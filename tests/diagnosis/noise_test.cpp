@@ -194,8 +194,7 @@ TEST(MeasuredNoise, OfNeighbouringFramesHidesWhatLasts) {
   EXPECT_TRUE(both[1].stated->time_contradicts);
   EXPECT_FALSE(both[1].stated->contradicts);
 
-  const MeasuredNoise alone = measured_noise(at_rest(0), "cm"),
-                      as_stated = measured_noise(at_rest(0.4), "cm");
+  const MeasuredNoise alone = measured_noise(at_rest(0), "cm"), as_stated = measured_noise(at_rest(0.4), "cm");
   EXPECT_LT(alone.stated->deviation_ratio.upper, 0.7) << "nothing says that errors last";
   EXPECT_TRUE(holds(as_stated.stated->deviation_ratio, 1));
   EXPECT_EQ(as_stated.stated->deviation, deviation);

@@ -5,7 +5,8 @@
      N        the first matching call that is meant, from 1
      ACTION   ENOSPC, EDQUOT, EIO, EACCES, EROFS: this call fails, and all matching ones after it;
               KILL, TERM, INT, STOP: the program gets this signal;
-              PAUSE: it makes the file TETHER_FAULT_FLAG and waits until that is gone, two minutes at most
+              PAUSE: it makes the file TETHER_FAULT_FLAG and waits until that is gone, two minutes at most;
+              none waits where FLAG.over is
    TETHER_FAULT_ROOT: the folder whose files are meant.
    TETHER_FAULT_LOG: a file that gets a line "PROGRAM CALL PATH" for each of these calls.
    TETHER_FAULT_CLOCK: by so many seconds the time of day jumps, in each process two seconds after its start. */
@@ -59,7 +60,11 @@ static void append_line(const char* file, const char* call, const char* path) {
   syscall(SYS_close, descriptor);
 }
 
+/* Until the flag is gone; FLAG.over: programs that come later do not wait any more. */
 static void wait_while(const char* flag) {
+  char over[PATH_MAX];
+  snprintf(over, sizeof over, "%s.over", flag);
+  if (access(over, F_OK) == 0) return;
   const int descriptor = (int)syscall(SYS_openat, AT_FDCWD, flag, O_WRONLY | O_CREAT, 0644);
   if (descriptor >= 0) syscall(SYS_close, descriptor);
   for (int i = 0; i < 12000 && access(flag, F_OK) == 0; ++i) usleep(10000);

@@ -326,7 +326,8 @@ TEST(EffectsOfACase, PartsOfARegionAreOfferedTowardEachNeighbour) {
   std::vector<std::string> parts;
   for (const PossibleEffect& e : list_effects(solid, divided_tube(), file.units()).possible)
     if (e.type == "contact" && e.part == "spine") parts.push_back(in_words(e.extent, "cm"));
-  EXPECT_EQ(parts, (std::vector<std::string>{"", "inlet half", "outlet half", "middle half", "toward left", "toward right"}));
+  EXPECT_EQ(parts,
+            (std::vector<std::string>{"", "inlet half", "outlet half", "middle half", "toward left", "toward right"}));
 }
 
 TEST(EffectsOfACase, ANeighbourThatIsNoneIsRefused) {

@@ -36,17 +36,21 @@ TwinCase with_voxels() {
   return given;
 }
 
-/// As a case says them.
-Faults faults_of(const std::string& text) {
+/// As a case says it.
+TwinCase twin_of(const std::string& text) {
   const TemporaryFolder folder;
   CaseFile file(folder.file("case.yaml",
                             "name: tube\nunits: mm-g-s\ntime: {step: 1e-2, end: 2}\ntwin: {truth: case.yaml, hidden: "
-                            "{verdict: nothing_missing}, faults: {" +
-                                text + "}}\n"));
+                            "{verdict: nothing_missing}, " +
+                                text + "}\n"));
   TwinCase given;
   file.read("twin", given);
   file.finish();
-  return given.faults;
+  return given;
+}
+
+Faults faults_of(const std::string& text) {
+  return twin_of("faults: {" + text + "}").faults;
 }
 
 TwinFrames made(const TwinCase& given) {
@@ -203,6 +207,20 @@ TEST(TwinTrace, IsTheRunsValuesWithNoise) {
   double squares = 0;
   for (std::size_t i = 0; i < noisy.times.size(); ++i) squares += std::pow(noisy.values[i] - 500 * noisy.times[i], 2);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(noisy.times.size())), 2, 0.05);
+}
+
+TEST(TwinTrace, IsOffAllOverAsItsFaultsSay) {
+  std::vector<double> times, values;
+  for (int i = 0; i <= 200; ++i) times.push_back(0.01 * i), values.push_back(5.0 * i);
+  const TwinCase given = twin_of(
+      "traces: {p: {observable: fluid.outlet.pressure, quantity: pressure, interval: 25 ms, faults: {factor: 2, "
+      "offset: 7, delay: 40 ms}}}");
+  const TwinTrace late = make_trace(given.traces.front().second, times, values, 1, 3);
+  ASSERT_EQ(late.times.size(), 41U);
+  const double by_factor_first = 2 * 500 * (1 - 0.04) + 7;
+  EXPECT_NEAR(late.values.front(), by_factor_first, 1e-9);
+  for (std::size_t i = 0; i < late.times.size(); ++i)
+    EXPECT_NEAR(late.values[i] - late.values.front(), 1000 * (late.times[i] - late.times.front()), 1e-9);
 }
 
 /// What check_scales says of a twin; "accepted" if nothing.

@@ -23,8 +23,7 @@ class Lag : public FaultOf<Lag> {
   }
 
   FaultColumns columns(const SourceData& data) const override {
-    return {{{"time_shift", "the frames show the vessel that much later than they say", dimension::time}},
-            data.outward_velocity};
+    return {{{"time_shift", "the frames show the vessel that much later than they say", dimension::time}}, data.rate};
   }
   double allowed(const AllowanceCase& allowed, double) const override { return allowed.time_shift.value_or(0); }
 
