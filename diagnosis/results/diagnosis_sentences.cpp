@@ -254,7 +254,7 @@ void add_place(std::vector<std::string>& all, const Diagnosis& diagnosis) {
 std::string instrument_hint(const Diagnosis& diagnosis) {
   if (diagnosis.faults_not_asked.empty()) return "";
   return fmt::format("if an instrument may be off all over, let diagnosis.also name {}",
-                     fmt::join(diagnosis.faults_not_asked, " and "));
+                     fmt::join(diagnosis.faults_not_asked, ", "));
 }
 
 void add_held_out(std::vector<std::string>& all, const Diagnosis& diagnosis) {

@@ -37,7 +37,7 @@ struct FaultNumber {
 struct SourceData {
   Eigen::Matrix3Xd places, normals;  ///< zero for values that are nowhere [length], out of the lumen
   VectorXd curvatures;               ///< sum of the lumen's two [1/length]
-  VectorXd rate;                     ///< at which the run's lumen moves outward, or its value grows [1/time]
+  VectorXd rate;                     ///< at which the run's lumen moves outward, or its value grows [their unit/time]
   VectorXd times;                    ///< in the run
   Vec3 middle{0, 0, 0};              ///< of the places [length]
   VectorXd values = {};              ///< as an instrument shows them; zero for what is none
