@@ -51,13 +51,15 @@ void expect_exit_code(const JobResult& job, int expected, Start start) {
   EXPECT_EQ(job.exit_code, expected) << job.errors;
 }
 
-/// Open MPI's own lines, which it writes where its server is gone before a process that ends slowly.
+/// Open MPI's own lines: where its server is gone before a process that ends slowly (under the thread sanitizer), and,
+/// rarely on a busy machine, where mpirun's libevent is told to forget a socket that is closed.
 std::string without_lines_of_open_mpi(const std::string& text) {
-  if (!with_thread_sanitizer) return text;
   std::istringstream lines(text);
   std::string rest;
-  for (std::string line; std::getline(lines, line);)
-    if (line.find("ORTE_ERROR_LOG") == std::string::npos) rest += line + "\n";
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_late = with_thread_sanitizer && line.find("ORTE_ERROR_LOG") != std::string::npos;
+    if (!is_late && !line.starts_with("[warn] Epoll ")) rest += line + "\n";
+  }
   return rest;
 }
 
@@ -128,7 +130,7 @@ class Stopped : public ::testing::TestWithParam<Start> {};
 TEST_P(Stopped, APartnerIsToldOfAndEndsTheRunAfterAWhile) {
   const auto job =
       run_job(command_for(GetParam()), {{"TETHER_FAKE", "solid.stop=SolidEvaluate"}, {"TETHER_STOPPED_LIMIT", "4"}});
-  const std::string errors = without_details(job.errors);
+  const std::string errors = without_lines_of_open_mpi(without_details(job.errors));
   EXPECT_NE(errors.find("fake_master: solid is stopped while computing step 0 (SolidEvaluate): kill -CONT "),
             std::string::npos)
       << errors;
@@ -147,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Fault, Stopped, ::testing::Values(Start::alone, Start::
 TEST(Death, APartnerThatIsStoppedWhileItStartsIsToldOf) {
   for (const Start start : {Start::alone, Start::mpirun}) {
     const auto job = run_job(command_for(start), {{"TETHER_FAKE", "solid.stop=start"}, {"TETHER_STOPPED_LIMIT", "4"}});
-    const std::string errors = without_details(job.errors);
+    const std::string errors = without_lines_of_open_mpi(without_details(job.errors));
     EXPECT_NE(errors.find("fake_master: solid is stopped while starting: kill -CONT "), std::string::npos) << errors;
     EXPECT_NE(errors.find("fake_master: solid was stopped while starting, and still is 4 s later"), std::string::npos)
         << errors;
@@ -161,7 +163,7 @@ TEST(Death, APartnerThatIsStoppedWhileItStartsIsToldOf) {
 TEST(Death, AStoppedMasterIsEndedByItsPartners) {
   const auto job =
       run_job(command_for(Start::mpirun), {{"TETHER_FAKE", "master.stop=step1"}, {"TETHER_STOPPED_LIMIT", "4"}});
-  const std::string errors = without_details(job.errors);
+  const std::string errors = without_lines_of_open_mpi(without_details(job.errors));
   EXPECT_NE(errors.find(": the master was stopped while at work, and still is 4 s later"), std::string::npos) << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
   EXPECT_NE(job.exit_code, 0);
