@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
+#include "common/linalg/rounded_factor.hpp"
 #include "common/linalg/supernodal.hpp"
 
 namespace tether {
@@ -14,8 +15,8 @@ struct Cholesky::Data {
   cholmod_factor* factor = nullptr;
   mutable cholmod_dense* work_y = nullptr;
   mutable cholmod_dense* work_e = nullptr;
-  RoundedValues rounded{common};
-  mutable std::vector<float> solution, below;
+  RoundedFactor rounded{common};
+  mutable std::vector<float> solution;
 
   Data() { prepare_cholmod(common); }
   ~Data() {
@@ -36,11 +37,9 @@ void Cholesky::Data::solve_rounded(Eigen::Ref<VectorXd> rhs) const {
   if (scale == 0) return;
   const int* order = static_cast<const int*>(factor->Perm);
   solution.resize(factor->n);
-  below.resize(factor->maxesize);
   for (std::size_t i = 0; i < factor->n; ++i) solution[i] = static_cast<float>(rhs[order[i]] / scale);
-  const int all = static_cast<int>(factor->n);
-  solve_forward(*factor, rounded.data(), all, solution.data(), below.data());
-  solve_backward(*factor, rounded.data(), all, solution.data(), below.data());
+  rounded.solve_forward(solution.data());
+  rounded.solve_backward(solution.data());
   for (std::size_t i = 0; i < factor->n; ++i) rhs[order[i]] = scale * static_cast<double>(solution[i]);
 }
 
@@ -76,7 +75,7 @@ bool Cholesky::factor_if_definite(const SparseMatrix& matrix) {
 bool Cholesky::factor_roughly(const SparseMatrix& matrix, double tolerance) {
   if (!factor_if_definite(matrix)) return false;
   if (!data_->factor->is_super) return true;
-  data_->rounded.take(*data_->factor);
+  data_->rounded.take(*data_->factor, static_cast<int>(data_->factor->n));
   return solves_within(tolerance, matrix) || factor_if_definite(matrix);
 }
 
@@ -107,8 +106,8 @@ bool Cholesky::has_factor() const {
 
 double Cholesky::factor_megabytes() const {
   if (data_->factor == nullptr) return 0;
-  const double bytes = data_->rounded.is_empty() ? 8 : 4;
-  return 1e-6 * bytes * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
+  if (!data_->rounded.is_empty()) return data_->rounded.megabytes();
+  return 8e-6 * static_cast<double>(data_->factor->is_super ? data_->factor->xsize : data_->factor->nzmax);
 }
 
 }  // namespace tether

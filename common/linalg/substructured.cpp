@@ -8,6 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/linalg/cholesky.hpp"
+#include "common/linalg/rounded_factor.hpp"
 #include "common/linalg/supernodal.hpp"
 
 namespace tether {
@@ -106,7 +107,6 @@ struct SubstructuredSolver::Parts {
   template <class Scalar, class Solve>
   void in_order(VectorXd& part, const Solve& solve) const;
 
-  const double* values() const { return static_cast<const double*>(factor->x); }
   int inside() const { return static_cast<int>(inner.size()) * components; }
   int edge() const { return static_cast<int>(edge_nodes.size()) * components; }
 
@@ -126,7 +126,7 @@ struct SubstructuredSolver::Parts {
   Cholesky of_sum;
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  RoundedValues rounded{common};
+  RoundedFactor rounded{common};
   bool has_factor = false;
 };
 
@@ -283,7 +283,7 @@ Eigen::MatrixXd SubstructuredSolver::Parts::complement() const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n), triangle = result;
   if (inner.empty() || n == 0) return result;
   for (std::size_t k = 0; k < factor->nsuper; ++k) {
-    const Supernode node(*factor, values(), k);
+    const Supernode node(*factor, k);
     for (int c = std::max(0, first - node.first); c < node.columns; ++c) {
       const double* column = node.triangle + static_cast<std::size_t>(c) * static_cast<std::size_t>(node.height);
       const int j = node.first + c - first;
@@ -338,21 +338,16 @@ void SubstructuredSolver::Parts::solve(VectorXd& rhs) const {
       for (int c = 0; c < components; ++c)
         visit(static_cast<Eigen::Index>(i) * components + c, static_cast<Eigen::Index>(nodes[i]) * components + c);
   };
-  const auto forward = [&](const auto* values, auto* ordered, auto* other) {
-    solve_forward(*factor, values, inside(), ordered, other);
-  };
-  const auto backward = [&](const auto* values, auto* ordered, auto* other) {
-    solve_backward(*factor, values, inside(), ordered, other);
-  };
-  const auto inside_alone = [&](const auto& way) {
+  const auto inside_alone = [&](const auto& exact, const auto& rough) {
     if (inner.empty()) return;
     if (rounded.is_empty())
-      in_order<double>(x, [&](double* ordered, double* other) { way(values(), ordered, other); });
+      in_order<double>(x, exact);
     else
-      in_order<float>(x, [&](float* ordered, float* other) { way(rounded.data(), ordered, other); });
+      in_order<float>(x, rough);
   };
   each(inner, [&](auto here, auto there) { x[here] = rhs[there]; });
-  inside_alone(forward);
+  inside_alone([&](double* ordered, double* other) { solve_forward(*factor, inside(), ordered, other); },
+               [&](float* ordered, float* /*other*/) { rounded.solve_forward(ordered); });
   each(between, [&](auto here, auto there) {
     if (share.is_own(static_cast<int>(there) / components)) outer[here] = rhs[there];
   });
@@ -360,7 +355,8 @@ void SubstructuredSolver::Parts::solve(VectorXd& rhs) const {
   share.team().sum({outer.data(), static_cast<std::size_t>(outer.size())});
   if (!between.empty()) outer = of_sum.solve(outer);
   each(edge_places, [&](auto here, auto there) { x[inside() + here] = outer[there]; });
-  inside_alone(backward);
+  inside_alone([&](double* ordered, double* other) { solve_backward(*factor, inside(), ordered, other); },
+               [&](float* ordered, float* /*other*/) { rounded.solve_backward(ordered); });
   each(inner, [&](auto here, auto there) { rhs[there] = x[here]; });
   each(between, [&](auto here, auto there) { rhs[there] = outer[here]; });
   share.complete({rhs.data(), static_cast<std::size_t>(rhs.size())}, components);
@@ -392,7 +388,7 @@ bool SubstructuredSolver::factor_if_definite(const SparseMatrix& matrix) {
 bool SubstructuredSolver::factor_roughly(const SparseMatrix& matrix, double tolerance) {
   if (!factor_if_definite(matrix)) return false;
   Parts& p = *parts_;
-  if (p.factor != nullptr) p.rounded.take(*p.factor);
+  if (p.factor != nullptr) p.rounded.take(*p.factor, p.inside());
   return solves_within(tolerance, matrix) || factor_if_definite(matrix);
 }
 
@@ -410,9 +406,9 @@ bool SubstructuredSolver::has_factor() const {
 
 double SubstructuredSolver::factor_megabytes() const {
   const Parts& p = *parts_;
-  const double of_inside =
-      p.factor == nullptr ? 0.0 : 1e-6 * (p.rounded.is_empty() ? 8 : 4) * static_cast<double>(p.factor->xsize);
-  return of_inside + p.of_sum.factor_megabytes();
+  if (p.factor == nullptr) return p.of_sum.factor_megabytes();
+  const double exact = 8e-6 * static_cast<double>(p.factor->xsize);
+  return (p.rounded.is_empty() ? exact : p.rounded.megabytes()) + p.of_sum.factor_megabytes();
 }
 
 Eigen::Index SubstructuredSolver::between() const {

@@ -2,31 +2,27 @@
 
 #include <cblas.h>
 #include <cholmod.h>
-#include <omp.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "common/base/error.hpp"
 #include "common/linalg/blas_kernels.hpp"
 
+/// What GCC makes of `#pragma omp parallel`, here for the libraries that the program is linked with: one thread, and
+/// nothing else. CHOLMOD has such a loop for each pair of supernodes, and asks for four threads whatever the environment
+/// says; they would spin, and OpenMP's own team of one thread costs a system call each time: a sixth of the blood's time.
+extern "C" void GOMP_parallel(void (*body)(void*), void* data, unsigned /*threads*/, unsigned /*flags*/) {
+  body(data);
+}
+
 namespace tether {
 namespace {
 
-void triangle(CBLAS_TRANSPOSE transposed, const Supernode<float>& node, float* x) {
-  cblas_strsv(CblasColMajor, CblasLower, transposed, CblasNonUnit, node.columns, node.triangle, node.height, x, 1);
-}
-void triangle(CBLAS_TRANSPOSE transposed, const Supernode<double>& node, double* x) {
+void triangle(CBLAS_TRANSPOSE transposed, const Supernode& node, double* x) {
   cblas_dtrsv(CblasColMajor, CblasLower, transposed, CblasNonUnit, node.columns, node.triangle, node.height, x, 1);
 }
 /// y <- scale A x + keep y, A what is below the triangle.
-void below(CBLAS_TRANSPOSE transposed, const Supernode<float>& node, float scale, const float* x, float keep,
-           float* y) {
-  cblas_sgemv(CblasColMajor, transposed, node.below(), node.columns, scale, node.rectangle, node.height, x, 1, keep, y,
-              1);
-}
-void below(CBLAS_TRANSPOSE transposed, const Supernode<double>& node, double scale, const double* x, double keep,
-           double* y) {
+void below(CBLAS_TRANSPOSE transposed, const Supernode& node, double scale, const double* x, double keep, double* y) {
   cblas_dgemv(CblasColMajor, transposed, node.below(), node.columns, scale, node.rectangle, node.height, x, 1, keep, y,
               1);
 }
@@ -35,8 +31,6 @@ void below(CBLAS_TRANSPOSE transposed, const Supernode<double>& node, double sca
 
 void prepare_cholmod(cholmod_common& common) {
   prepare_blas();
-  omp_set_max_active_levels(
-      0);  // CHOLMOD asks for four threads whatever the environment says; they spin, and cost 40 % CPU
   cholmod_start(&common);
   common.supernodal = CHOLMOD_SUPERNODAL;
   common.final_ll = 1;
@@ -57,27 +51,6 @@ cholmod_sparse view_of(const SparseMatrix& matrix) {
   result.sorted = 1;
   result.packed = 1;
   return result;
-}
-
-void RoundedValues::take(cholmod_factor& factor) {
-  drop();
-  const std::size_t size = factor.xsize;
-  values_ = static_cast<float*>(factor.x);
-  for (std::size_t i = 0; i < size; ++i) {
-    double value = 0;
-    std::memcpy(&value, static_cast<const double*>(factor.x) + i, sizeof value);
-    const auto single = static_cast<float>(value);
-    std::memcpy(values_ + i, &single, sizeof single);
-  }
-  room_ = size;
-  values_ = static_cast<float*>(cholmod_realloc(size / 2 + 1, 8, factor.x, &room_, &common_));
-  factor.x = nullptr;  // as cholmod_change_factor leaves it, which would have freed the values
-  factor.xtype = CHOLMOD_PATTERN;
-}
-
-void RoundedValues::drop() {
-  values_ = static_cast<float*>(cholmod_free(room_, 8, values_, &common_));
-  room_ = 0;
 }
 
 std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, cholmod_common& common) {
@@ -113,22 +86,20 @@ std::vector<int> order_by_nodes(const SparseMatrix& matrix, int components, chol
   return order;
 }
 
-template <class Scalar>
-Supernode<Scalar>::Supernode(const cholmod_factor& factor, const Scalar* values, std::size_t s) {
+Supernode::Supernode(const cholmod_factor& factor, std::size_t s) {
   const int* super = static_cast<const int*>(factor.super) + s;
   const int* place = static_cast<const int*>(factor.pi) + s;
   first = super[0];
   columns = super[1] - super[0];
   height = place[1] - place[0];
   rows = static_cast<const int*>(factor.s) + place[0] + columns;
-  triangle = values + static_cast<const int*>(factor.px)[s];
+  triangle = static_cast<const double*>(factor.x) + static_cast<const int*>(factor.px)[s];
   rectangle = triangle + columns;
 }
 
-template <class Scalar>
-void solve_forward(const cholmod_factor& factor, const Scalar* values, int end, Scalar* x, Scalar* other) {
+void solve_forward(const cholmod_factor& factor, int end, double* x, double* other) {
   for (std::size_t k = 0; k < factor.nsuper && static_cast<const int*>(factor.super)[k] < end; ++k) {
-    const Supernode node = Supernode<Scalar>(factor, values, k).before(end);
+    const Supernode node = Supernode(factor, k).before(end);
     triangle(CblasNoTrans, node, x + node.first);
     if (node.below() == 0) continue;
     below(CblasNoTrans, node, 1, x + node.first, 0, other);
@@ -136,22 +107,14 @@ void solve_forward(const cholmod_factor& factor, const Scalar* values, int end, 
   }
 }
 
-template <class Scalar>
-void solve_backward(const cholmod_factor& factor, const Scalar* values, int end, Scalar* x, Scalar* other) {
+void solve_backward(const cholmod_factor& factor, int end, double* x, double* other) {
   for (std::size_t k = factor.nsuper; k-- > 0;) {
     if (static_cast<const int*>(factor.super)[k] >= end) continue;
-    const Supernode node = Supernode<Scalar>(factor, values, k).before(end);
+    const Supernode node = Supernode(factor, k).before(end);
     for (int i = 0; i < node.below(); ++i) other[i] = x[node.rows[i]];
     if (node.below() > 0) below(CblasTrans, node, -1, other, 1, x + node.first);
     triangle(CblasTrans, node, x + node.first);
   }
 }
-
-template struct Supernode<float>;
-template struct Supernode<double>;
-template void solve_forward(const cholmod_factor&, const float*, int, float*, float*);
-template void solve_forward(const cholmod_factor&, const double*, int, double*, double*);
-template void solve_backward(const cholmod_factor&, const float*, int, float*, float*);
-template void solve_backward(const cholmod_factor&, const double*, int, double*, double*);
 
 }  // namespace tether
