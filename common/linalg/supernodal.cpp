@@ -9,8 +9,9 @@
 #include "common/linalg/blas_kernels.hpp"
 
 /// What GCC makes of `#pragma omp parallel`, here for the libraries that the program is linked with: one thread, and
-/// nothing else. CHOLMOD has such a loop for each pair of supernodes, and asks for four threads whatever the environment
-/// says; they would spin, and OpenMP's own team of one thread costs a system call each time: a sixth of the blood's time.
+/// nothing else. CHOLMOD has such a loop for each pair of supernodes, and asks for four threads whatever the
+/// environment says; they would spin, and OpenMP's own team of one thread costs a system call each time: a sixth of the
+/// blood's time.
 extern "C" void GOMP_parallel(void (*body)(void*), void* data, unsigned /*threads*/, unsigned /*flags*/) {
   body(data);
 }
