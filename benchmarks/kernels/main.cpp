@@ -2,18 +2,21 @@
 #include <cholmod.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "common/base/process.hpp"
 #include "common/linalg/blas_kernels.hpp"
 #include "common/linalg/cholesky.hpp"
 #include "common/linalg/supernodal.hpp"
-#include "solid/supports/registry.hpp"
 #include "solid/wall_model.hpp"
 
 /// What the largest kernels of a step do to memory and arithmetic, beside what one core of the machine can: for `run`.
