@@ -32,7 +32,8 @@ void DataPrecision::add(const Measurement& source, const Points& imaged, const S
   const MeasurementFacts facts = source.facts();
   for (const std::size_t number : rows.series_of) of_row_.push_back(series_.size() + number);
   for (CountedSeries& series : rows.series)
-    series_.push_back({FrameSharing(std::move(series.times), series.period, series.tolerance, ends),
+    series_.push_back({FrameSharing(std::move(series.times), series.period, series.tolerance, ends,
+                                    series.correlation_time, series.curve),
                        series.correlation_time, series.precision});
   const Eigen::Index before = deviations_.size(), count = std::ssize(rows.series_of);
   deviations_.conservativeResize(before + count);
@@ -42,9 +43,8 @@ void DataPrecision::add(const Measurement& source, const Points& imaged, const S
 DataPrecision::Weight DataPrecision::weight_of(const Series& series, double end_of_step) const {
   const SeenFrame seen = series.frames.at(end_of_step);
   const double share = whole_frames_ ? (seen.is_own ? 1.0 : 0.0) : seen.share;
-  const double s = seen.place, alike = series.correlation_time > 0 ? std::exp(-seen.gap / series.correlation_time) : 0;
-  return {series.precision * share * independent_share(seen.apart, series.correlation_time),
-          (1 - s) * (1 - s) + s * s + 2 * s * (1 - s) * alike, seen.is_own};  // (K.5)
+  return {series.precision * share * independent_share(seen.apart, series.correlation_time), seen.error_square,
+          seen.is_own};  // (K.5)
 }
 
 DatumWeights DataPrecision::at(const VectorXd& weights, double end_of_step) const {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "observation_manager/measurements/frame_sequence.hpp"
+
 namespace tether {
 
 /// The steps of a run: their ends are start + i dt, i = 1, 2, ...
@@ -19,8 +21,7 @@ struct SeenFrame {
   double share = 0;     ///< of a frame's weight, that falls to this step: all steps nearest to a frame share it alike
   bool is_own = false;  ///< of all steps' ends this is the one nearest to a frame
   double apart = std::numeric_limits<double>::infinity();  ///< from its neighbours, as steps can tell [time]
-  double gap = 0;                                          ///< between the two frames around [time]
-  double place = 0;                                        ///< between them: s of (O.3)
+  double error_square = 1;  ///< of a datum's error there, expected, in squares of that of a frame (K.5)
 };
 
 /// What an interpolated datum has of a frame.
@@ -35,27 +36,25 @@ class FrameSharing {
  public:
   /// times: ascending, of what is used; none: nothing is seen; one NaN: a frame that holds always. period: 0: the
   /// series does not repeat. tolerance: how far from a frame that has no neighbour a time still is that frame's (O.3).
-  FrameSharing(std::vector<double> times, double period, double tolerance, const StepEnds& ends);
+  /// correlation_time: of errors [time].
+  FrameSharing(std::vector<double> times, double period, double tolerance, const StepEnds& ends,
+               double correlation_time = 0, FrameCurve curve = FrameCurve::cubic);
 
   /// At the end of a step; a share of 0 if nothing is seen there.
   SeenFrame at(double end_of_step) const;
-  /// Of which two successive frames data at a time are made (O.3), the one with an even number first. Not of a frame
-  /// that holds always.
-  std::array<FramePart, 2> parts_at(double time) const;
+  /// Of which successive frames data at a time are made (O.3), at k those with a number that leaves k if divided by
+  /// four. Not of a frame that holds always.
+  std::array<FramePart, 4> parts_at(double time) const;
 
  private:
-  /// Frames are numbered through all repetitions of a series that repeats.
-  bool exists(std::int64_t frame) const;
-  double time_of(std::int64_t frame) const;
-  std::int64_t last_before(double time) const;
-  double place_between(std::int64_t before, double time) const;
   std::int64_t step_before(double time) const;
   std::pair<std::int64_t, std::int64_t> steps_nearest_to(std::int64_t frame) const;
   std::int64_t own_step_of(std::int64_t frame) const;
   double spacing_at(std::int64_t frame) const;
 
-  std::vector<double> times_;
-  double period_, tolerance_;
+  bool always_;  ///< its only frame
+  FrameSequence frames_;
+  double tolerance_, correlation_time_;
   StepEnds ends_;
 };
 

@@ -9,6 +9,9 @@ namespace {
 
 using Index = Eigen::Index;
 
+/// Slots of FrameSharing::parts_at.
+constexpr Index frames_at_once = std::tuple_size_v<decltype(std::declval<FrameSharing>().parts_at(0))>;
+
 /// Series of which the values of the one and the other are seen at the same times.
 bool are_together(const CountedSeries& a, const CountedSeries& b) {
   return a.times == b.times && a.period == b.period && a.tolerance == b.tolerance;
@@ -123,7 +126,7 @@ LastingColumns::LastingColumns(const Observations& data, const LumenSurface& lum
 
 Index LastingColumns::count() const {
   Index all = values_.cols();
-  for (const FrameColumns& of : of_frames_) all += 2 * of.values.cols();
+  for (const FrameColumns& of : of_frames_) all += frames_at_once * of.values.cols();
   return all;
 }
 

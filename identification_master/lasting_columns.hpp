@@ -14,7 +14,8 @@ struct LastingError {
 
 /// What data may be off by beside their noise, and what each of these errors does to them: some are the same at all
 /// times, others as long as a frame is seen. Errors are numbered: first those of all times, then, of each series of
-/// frames, those of the frame with an even number and those of the one with an odd number, between which a time lies.
+/// frames, those of four successive frames, of which data at a time are made, in the places that their numbers give
+/// them.
 class LastingColumns {
  public:
   /// Of no data.

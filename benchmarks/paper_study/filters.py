@@ -1,4 +1,4 @@
-"""Figures of identifications: 11, 12 and 15, the joint estimator, the time between frames, and what a diagnosis says."""
+"""Figures of identifications: 11, 12 and 15, the joint estimator, the time between frames, and what an explanation finds."""
 import csv
 import math
 
@@ -39,7 +39,7 @@ def values_by_region(folder):
 
 
 def four_parameters(study, figure):
-    """Figure 11: the paper's two priors with its weights, the same with the noise as it is, and a wide prior of our own."""
+    """Figure 11: the paper's two priors with its weights, the same with the noise as it is, and two wide priors of our own."""
     fields = {**{prior: four(prior) for prior in PRIORS}, **{f"{prior}_weighed": four(prior, **PAPER_WEIGHTS) for prior in ("light", "by_hand")}}
     folders = study.shop.those_made({prior: lambda prior=prior: study.identified(f"four_{prior}", fields[prior]) for prior in fields})
     thetas = {name: theta(value) for name, value in TRUE_OF_FOUR.items()}
@@ -103,7 +103,7 @@ def joint(study):
 
 
 def between_frames(study):
-    """Corrected by chords between frames, or at the frames only: with the study's data, and with hardly an error but the voxels'."""
+    """Corrected between frames too, or at the frames only: with the study's data, and with hardly an error but the voxels'."""
     at_frames = four("wide", 0, **{"identification.observe": "frames"})
     quiet = lambda name, fields: study.shop.make("identify", study.shop.case(name, study.twin("data_quiet", study.size.seeds[0], deviation="0.01 mm"), fields), after=["data_quiet"])
     runs = {("the study's data", "every_step"): lambda: study.identified("joint_0_right", four("wide", 0)), ("the study's data", "frames"): lambda: study.identified("frames", at_frames),
@@ -111,7 +111,7 @@ def between_frames(study):
     return {key: found(folder, TRUE_OF_FOUR) for key, folder in study.shop.those_made(runs).items()}
 
 
-def diagnosed(study):
-    """What tether diagnose says to the same data, from the model without support: springs and contacts in each region, loose rings, a stiffer wall."""
-    case = study.shop.case("diagnosed", study.data[study.size.seeds[0]], {"diagnosis": {"candidates": ["visco_elastic", "contact", "stiffness_factor"], "most": 2}, "observations.surfaces.twin.held_out": HELD_OUT})
-    return read(study.shop.make("diagnose", case, after=[f"data_{study.size.seeds[0]}"]) / "diagnosis.json")
+def explained(study):
+    """What tether explain says to the same data, from the model without support: springs and contacts in each region, loose rings, a stiffer wall."""
+    case = study.shop.case("explained", study.data[study.size.seeds[0]], {"diagnosis": {"candidates": ["visco_elastic", "contact", "stiffness_factor"], "most": 3}, "observations.surfaces.twin.held_out": HELD_OUT})
+    return read(study.shop.make("explain", case, after=[f"data_{study.size.seeds[0]}"]) / "explain.json")

@@ -31,19 +31,24 @@ def normals(points, triangles):
     return sums / numpy.linalg.norm(sums, axis=1)[:, None]
 
 
-def off_the_chord(folder, regions):
-    """How far a run's lumen is from the middle of where it was at two frames, half way between them, along its normal:
-    root mean square over the beat and the largest [mm], by region. regions: {name: names in the run}."""
+CURVES = {"the chord": (0, 8, 8, 0), "the curve": (-1, 9, 9, -1)}  # sixteenths of four frames alike far apart, half way between the middle two (O.3)
+
+
+def off_the_curves(folder, regions):
+    """How far a run's lumen is from where its frames put it, half way between two of them, along its normal: root mean
+    square over the beat and the largest [mm], by curve and region. regions: {name: names in the run}."""
     wall = read(folder / "wall.json")
     triangles = numpy.array(wall["triangles"]).reshape(-1, 3)
     at = {s["name"]: [positions(m) for m in s["moments"]] for s in wall["sources"]}
-    off = []
-    for k, points in enumerate(at["between"][:-1]):
-        chord = (at["twin"][k] + at["twin"][k + 1]) / 2
-        off.append(10 * numpy.sum((points - chord) * normals(points, triangles), axis=1))
     names = numpy.array(wall["regions"])[numpy.array(wall["region"])]
-    of = lambda parts: numpy.array(off)[:, numpy.isin(names, parts)]
-    return {name: (float(numpy.sqrt(numpy.mean(of(parts) ** 2))), float(numpy.abs(of(parts)).max())) for name, parts in regions.items()}
+    def off(shares):
+        made = lambda k: sum(share / 16 * frame for share, frame in zip(shares, at["twin"][k - 1:k + 3]))
+        middles = [(k, at["between"][k]) for k in range(1, len(at["twin"]) - 2)]
+        return 10 * numpy.array([numpy.sum((x - made(k)) * normals(x, triangles), axis=1) for k, x in middles])
+    def by_region(values):
+        of = lambda parts: values[:, numpy.isin(names, parts)]
+        return {name: (float(numpy.sqrt(numpy.mean(of(parts) ** 2))), float(numpy.abs(of(parts)).max())) for name, parts in regions.items()}
+    return {curve: by_region(off(shares)) for curve, shares in CURVES.items()}
 
 
 def measured(folder, frame):

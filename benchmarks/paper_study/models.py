@@ -17,6 +17,7 @@ PRIORS = {  # name: (mean of each, variance of theta of each)
     "light": (dict.fromkeys(FOUR, LIGHT), PAPER_VARIANCES),
     "by_hand": ({"spine": 3e6, "vicinity": 2e5, "light": LIGHT, "outlet": 3e6}, dict.fromkeys(FOUR, 0.125)),
     "wide": (dict.fromkeys(FOUR, 1e5), dict.fromkeys(FOUR, 9.0)),
+    "wide_stiff": (dict.fromkeys(FOUR, 1e6), dict.fromkeys(FOUR, 9.0)),
 }
 # The paper weighs a frame's squared distances by 180/(0.1 cm)2 per area: errors of 1 mm, each over 1/180 cm2 (K.5), whose correlation length would be 0.3 mm.
 PAPER_WEIGHTS = {"observations.surfaces.twin.noise.deviation": 0.1, "observations.surfaces.twin.noise.correlation_length": round(math.sqrt(1 / (180 * 2 * math.pi)), 5)}

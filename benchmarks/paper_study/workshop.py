@@ -9,9 +9,10 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAMS = pathlib.Path(os.environ.get("TETHER_PROGRAMS", ROOT / "build/bin"))
-RESULTS = {"build-model": "model/case.yaml", "fit-outlets": "case.yaml", "simulate": "summary.json", "compare": "comparison.json", "twin": "case.yaml", "identify": "estimate.json", "diagnose": "diagnosis.json"}
+RESULTS = {"build-model": "model/case.yaml", "fit-outlets": "case.yaml", "simulate": "summary.json", "compare": "comparison.json", "twin": "case.yaml", "identify": "estimate.json", "diagnose": "diagnosis.json", "explain": "explain.json"}
 RESUMED = ("simulate", "identify")
-OF_CASES = (*RESUMED, "compare", "twin", "diagnose")
+GOES_ON_BY_ITSELF = ("explain",)  # and begins anew with --overwrite
+OF_CASES = (*RESUMED, "compare", "twin", "diagnose", "explain")
 
 
 def nested(fields):
@@ -79,7 +80,7 @@ class Workshop:
         goes_on = verb in RESUMED and before.get("key") == key and any((folder / "checkpoint").glob("*"))
         self._note(name, key=key)
         cpu, begun = children_cpu(), time.time()
-        options = [*(["--resume"] if goes_on else []), *(["--quiet", "--overwrite"] if verb in OF_CASES else [])]
+        options = [*(["--resume"] if goes_on else []), *(["--quiet"] if verb in OF_CASES else []), *(["--overwrite"] if verb in OF_CASES and verb not in GOES_ON_BY_ITSELF else [])]
         done = subprocess.run([PROGRAMS / "tether", verb, case, "--output", folder, *options], capture_output=True, text=True, env={**os.environ, "TETHER_PICTURES": "0"})
         if done.returncode != 0:
             self._note(name, key=key, failed=f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")

@@ -115,15 +115,18 @@ Sample ContourSeries::sample(const CutStation& station, std::size_t t, std::size
 std::vector<Sample> ContourSeries::observe(const Points& x, double time) const {
   std::vector<Sample> samples;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    const std::optional<Between> place = times_[t].at(time);
-    const std::vector<CutStation> places = place ? stations(x, t) : std::vector<CutStation>{};
+    const std::vector<FrameShare> shares = times_[t].at(time);
+    const std::vector<CutStation> places = shares.empty() ? std::vector<CutStation>{} : stations(x, t);
     if (places.empty()) {
-      const Sample none = unobserved(t, place ? Exclusion::missed : Exclusion::no_frame);
+      const Sample none = unobserved(t, shares.empty() ? Exclusion::no_frame : Exclusion::missed);
       samples.insert(samples.end(), static_cast<std::size_t>(samples_), none);
       continue;
     }
-    for (const CutStation& station : places)
-      samples.push_back(between(sample(station, t, place->before), sample(station, t, place->after), place->share));
+    std::vector<Sample> of_frames(shares.size());
+    for (const CutStation& station : places) {
+      for (std::size_t i = 0; i < shares.size(); ++i) of_frames[i] = sample(station, t, shares[i].frame);
+      samples.push_back(between(of_frames, shares));
+    }
   }
   return samples;
 }

@@ -2,37 +2,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "common/base/error.hpp"
 
 namespace tether {
+namespace {
 
-FrameTimes::FrameTimes(std::vector<double> times, double period, double tolerance, const std::vector<bool>& held_out)
-    : times_(std::move(times)), period_(period), tolerance_(tolerance), held_out_(held_out) {
-  TETHER_ASSERT(std::is_sorted(times_.begin(), times_.end(), std::less_equal{}), "times do not ascend");
-  held_out_.resize(times_.size(), false);
-  for (std::size_t frame = 0; frame < times_.size(); ++frame)
-    if (!held_out_[frame]) used_.push_back(frame);
+constexpr double slack = 1e-6;  ///< of the tolerance, which is that of a step
+
+std::vector<std::size_t> used_of(std::size_t count, const std::vector<bool>& held_out) {
+  std::vector<std::size_t> used;
+  for (std::size_t frame = 0; frame < count; ++frame)
+    if (!held_out[frame]) used.push_back(frame);
+  return used;
 }
 
-std::optional<Between> FrameTimes::at(double time) const {
-  if (used_.empty()) return std::nullopt;
-  const std::size_t first = used_.front(), last = used_.back();
-  if (std::isnan(times_[first])) return Between{first, first, 0.0};
-  if (period_ > 0) time -= period_ * std::floor((time - times_[first]) / period_);
-  const auto above = std::upper_bound(used_.begin(), used_.end(), time,
-                                      [this](double t, std::size_t frame) { return t < times_[frame]; });
-  const bool is_before = above == used_.begin(), is_behind = above == used_.end();
-  if (period_ > 0 && used_.size() > 1 && is_behind)
-    return Between{last, first, (time - times_[last]) / (times_[first] + period_ - times_[last])};
-  if (!is_before && !is_behind) {
-    const std::size_t before = *(above - 1), after = *above;
-    return Between{before, after, (time - times_[before]) / (times_[after] - times_[before])};
-  }
-  for (const std::size_t end : {first, last})
-    for (const double away : {std::abs(time - times_[end]), period_ - std::abs(time - times_[end])})
-      if (std::abs(away) <= tolerance_ * (1 + 1e-9)) return Between{end, end, 0.0};
-  return std::nullopt;
+std::vector<double> chosen(const std::vector<double>& times, const std::vector<std::size_t>& frames) {
+  std::vector<double> of;
+  for (const std::size_t frame : frames) of.push_back(times[frame]);
+  return of;
+}
+
+std::vector<bool> filled(std::vector<bool> held_out, std::size_t count) {
+  held_out.resize(count, false);
+  return held_out;
+}
+
+}  // namespace
+
+FrameTimes::FrameTimes(std::vector<double> times, double period, double tolerance, const std::vector<bool>& held_out)
+    : times_(std::move(times)),
+      tolerance_(tolerance),
+      held_out_(filled(held_out, times_.size())),
+      used_(used_of(times_.size(), held_out_)),
+      sequence_(chosen(times_, used_), period, slack * tolerance) {
+  TETHER_ASSERT(std::is_sorted(times_.begin(), times_.end(), std::less_equal{}), "times do not ascend");
+}
+
+bool FrameTimes::reaches(double time) const {
+  const double first = times_[used_.front()], last = times_[used_.back()], period = sequence_.period();
+  const double reach = tolerance_ * (1 + 1e-9);
+  if (period <= 0) return time >= first - reach && time <= last + reach;
+  return used_.size() > 1 || std::abs(std::remainder(time - first, period)) <= reach;
+}
+
+std::vector<FrameShare> FrameTimes::at(double time) const {
+  if (used_.empty()) return {};
+  if (std::isnan(times_[used_.front()])) return {{used_.front(), 1, 1}};
+  if (!reaches(time)) return {};
+  const Between around = sequence_.around(time);
+  const std::array<double, 4> chord{0, 1 - around.place, around.place, 0};
+  std::vector<FrameShare> shares;
+  for (std::size_t part = 0; part < chord.size(); ++part)
+    if (around.parts[part] != 0)
+      shares.push_back({used_[sequence_.number_of(around.frame(part))], around.parts[part], chord[part]});
+  return shares;
 }
 
 }  // namespace tether

@@ -1,14 +1,16 @@
 #pragma once
 
-#include <optional>
 #include <vector>
+
+#include "observation_manager/measurements/frame_sequence.hpp"
 
 namespace tether {
 
-/// A time between two frames; before == after on a frame.
-struct Between {
-  std::size_t before = 0, after = 0;
-  double share = 0;  ///< of `after`, s in (O.3)
+/// What data at a time have of a frame.
+struct FrameShare {
+  std::size_t frame = 0;
+  double of_curve = 0;  ///< its part of the curve through the frames around (O.3)
+  double of_chord = 0;  ///< its part of the straight line between the two frames around; 0: none of them
 };
 
 /// The times of a series of frames, some of them held out: those are never used for a time in between.
@@ -18,16 +20,20 @@ class FrameTimes {
   /// far from a frame that has no neighbour a time still is that frame's.
   FrameTimes(std::vector<double> times, double period, double tolerance, const std::vector<bool>& held_out = {});
 
-  /// Nothing outside the range of a series that is not periodic.
-  std::optional<Between> at(double time) const;
+  /// Frames of which data at a time are made, those that have no part left out; none outside the range of a series that
+  /// is not periodic.
+  std::vector<FrameShare> at(double time) const;
   const std::vector<double>& times() const { return times_; }
   bool held_out(std::size_t frame) const { return held_out_[frame]; }
 
  private:
+  bool reaches(double time) const;
+
   std::vector<double> times_;
-  double period_, tolerance_;
+  double tolerance_;
   std::vector<bool> held_out_;
-  std::vector<std::size_t> used_;
+  std::vector<std::size_t> used_;  ///< those of sequence_
+  FrameSequence sequence_;
 };
 
 }  // namespace tether

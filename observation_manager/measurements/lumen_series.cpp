@@ -50,10 +50,22 @@ std::vector<std::string> told(const std::vector<Note>& notes) {
   return all;
 }
 
-Sample between(const Sample& before, const Sample& after, double share) {
-  Sample sample = before.excluded != Exclusion::none ? before : after;
-  sample.distance = (1 - share) * before.distance + share * after.distance;  // (O.3)
-  sample.normal = (1 - share) * before.normal + share * after.normal;
+Sample between(const std::vector<Sample>& of_frames, const std::vector<FrameShare>& shares) {
+  const auto is_seen = [](const Sample& sample) { return sample.excluded == Exclusion::none; };
+  const bool whole = std::all_of(of_frames.begin(), of_frames.end(), is_seen);
+  Sample sample;
+  double distance = 0;
+  Vec3 normal = Vec3::Zero();
+  bool is_first = true;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const Sample& here = of_frames[i];
+    if (shares[i].of_chord != 0 && (is_first || (is_seen(sample) && !is_seen(here)))) sample = here, is_first = false;
+    const double part = whole ? shares[i].of_curve : shares[i].of_chord;
+    distance += part * here.distance;
+    normal += part * here.normal;
+  }
+  sample.distance = distance;
+  sample.normal = normal;
   return sample;
 }
 

@@ -59,7 +59,8 @@ class LumenSeries : public Measurement {
   std::vector<SeenRow> see(const ModelMoment& model, double time) const override;
 };
 
-/// The distance at a place between two frames (O.3): excluded if it is in either.
-Sample between(const Sample& before, const Sample& after, double share);
+/// What is seen of a place between frames, of what each of them shows of it (O.3): excluded if it is in one of the two
+/// around the time; by the chord of these two if it is in another.
+Sample between(const std::vector<Sample>& of_frames, const std::vector<FrameShare>& shares);
 
 }  // namespace tether

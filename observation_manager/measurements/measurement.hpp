@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/base/units.hpp"
+#include "observation_manager/measurements/frame_sequence.hpp"
 #include "observation_manager/measurements/kind.hpp"
 #include "observation_manager/measurements/measured_run.hpp"
 #include "observation_manager/measurements/noise.hpp"
@@ -50,7 +51,8 @@ struct Datum {
 struct CountedSeries {
   std::vector<double> times;  ///< ascending, of what is not held out; one NaN: a frame that always holds
   double period = 0, tolerance = 0, correlation_time = 0;
-  double precision = 0;  ///< of a row of weight 1 in one frame
+  double precision = 0;                  ///< of a row of weight 1 in one frame
+  FrameCurve curve = FrameCurve::cubic;  ///< that rows between frames are made by
 };
 
 /// The rows of a source as a filter sees them at every step, always as many.

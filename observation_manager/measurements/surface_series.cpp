@@ -1,5 +1,7 @@
 #include "observation_manager/measurements/surface_series.hpp"
 
+#include <algorithm>
+
 #include "common/base/checked_file.hpp"
 #include "common/base/error.hpp"
 #include "common/mesh/surface.hpp"
@@ -63,18 +65,23 @@ std::vector<Sample> SurfaceSeries::against(const Points& x, std::size_t frame) c
 }
 
 std::vector<Sample> SurfaceSeries::observe(const Points& x, double time) const {
-  const std::optional<Between> place = times_.at(time);
+  const std::vector<FrameShare> shares = times_.at(time);
   std::vector<Sample> samples;
-  if (!place) {
+  if (shares.empty()) {
     for (Eigen::Index node = 0; node < x.cols(); ++node)
       exclude(samples.emplace_back(sample_of_node(node, x.col(node))), Exclusion::no_frame);
     return samples;
   }
-  std::erase_if(trees_, [&](const auto& kept) { return kept.first != place->before && kept.first != place->after; });
-  samples = against(x, place->before);
-  if (place->after == place->before) return samples;
-  const std::vector<Sample> after = against(x, place->after);
-  for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = between(samples[i], after[i], place->share);
+  std::erase_if(trees_, [&](const auto& kept) {
+    return std::none_of(shares.begin(), shares.end(), [&](const FrameShare& s) { return s.frame == kept.first; });
+  });
+  std::vector<std::vector<Sample>> of_frames;
+  for (const FrameShare& share : shares) of_frames.push_back(against(x, share.frame));
+  std::vector<Sample> of_node(shares.size());
+  for (std::size_t node = 0; node < of_frames.front().size(); ++node) {
+    for (std::size_t i = 0; i < shares.size(); ++i) of_node[i] = of_frames[i][node];
+    samples.push_back(between(of_node, shares));
+  }
   return samples;
 }
 

@@ -50,7 +50,7 @@ class SurfaceSeries : public LumenSeries {
   std::vector<SurfaceFrame> frames_;
   VectorXd areas_;
   std::vector<Note> notes_;
-  mutable std::map<std::size_t, FrameTree> trees_;  ///< of the two frames in use
+  mutable std::map<std::size_t, FrameTree> trees_;  ///< of the frames in use
 };
 
 }  // namespace tether

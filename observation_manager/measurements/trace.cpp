@@ -73,7 +73,7 @@ std::vector<Datum> Trace::data(const FinishedMotion& run, const MeasuredPart&) c
 CountedRows Trace::rows(const Points&, double) const {
   const std::vector<double> used = held_out ? std::vector<double>{} : times;
   const double precision = held_out ? 0 : 1 / std::pow(noise.deviation, 2);
-  return {.series = {{used, period, tolerance, noise.correlation_time, precision}},
+  return {.series = {{used, period, tolerance, noise.correlation_time, precision, FrameCurve::chord}},
           .series_of = {0},
           .groups = {name},
           .region = {-1},

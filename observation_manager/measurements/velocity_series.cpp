@@ -33,13 +33,14 @@ VelocitySeries::VelocitySeries(Settings settings, Points points, std::vector<Vel
 }
 
 std::optional<Components> VelocitySeries::measured(double time) const {
-  const auto between = times_.at(time);
-  if (!between) return std::nullopt;
-  constexpr double round_off = 1e-9;  // of the way: a point that the other frame lacks is no loss
-  const Components &before = frames_[between->before].values, &after = frames_[between->after].values;
-  if (between->share < round_off) return before;
-  if (between->share > 1 - round_off) return after;
-  return (1 - between->share) * before + between->share * after;
+  const std::vector<FrameShare> shares = times_.at(time);
+  if (shares.empty()) return std::nullopt;
+  Components by_curve = Components::Zero(settings_.axes.rows(), points_.cols()), by_chord = by_curve;
+  for (const FrameShare& share : shares) {
+    by_curve += share.of_curve * frames_[share.frame].values;
+    if (share.of_chord != 0) by_chord += share.of_chord * frames_[share.frame].values;
+  }
+  return by_curve.array().isNaN().select(by_chord, by_curve);  // a neighbour lacks the point: (O.3)
 }
 
 /// How many independent errors those of all points amount to (D.6).

@@ -34,7 +34,7 @@ class VelocitySeries : public Measurement {
   const std::vector<VelocityFrame>& frames() const { return frames_; }
   /// What of a velocity (3 x n) is measured.
   Components components(const Points& velocity) const { return settings_.axes * velocity; }
-  /// Linear between frames (O.3) that are not held out; nothing at a time without frames.
+  /// Made of the frames around (O.3) that are not held out; nothing at a time without frames.
   std::optional<Components> measured(double time) const;
 
   MeasurementFacts facts() const override;

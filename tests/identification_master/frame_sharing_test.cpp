@@ -87,8 +87,37 @@ TEST(FrameSharing, NothingIsSeenOutsideAndOfNothing) {
     EXPECT_FALSE(frames.at(time).is_own);
   }
   EXPECT_EQ(counted({{}, 0.8, 0.1, ends}).shared, 0);
-  EXPECT_NEAR(frames.at(0.25).place, 0.25, 1e-12);
-  EXPECT_NEAR(frames.at(0.25).gap, 0.2, 1e-12);
+}
+
+/// Between two frames their errors are averaged, unless they last: by the parabola and by chords.
+TEST(FrameSharing, ErrorsOfWhatIsMadeBetweenFramesAreSmaller) {
+  const std::vector<double> times{0.2, 0.4};
+  EXPECT_NEAR(FrameSharing(times, 0, 0, ends).at(0.25).error_square, 0.75 * 0.75 + 0.25 * 0.25, 1e-12);
+  EXPECT_NEAR(FrameSharing(times, 0, 0, ends, 1e9).at(0.25).error_square, 1, 1e-6);
+  const FrameSharing cubic({0.1, 0.2, 0.4, 0.5}, 0, 0, ends),
+      chord({0.1, 0.2, 0.4, 0.5}, 0, 0, ends, 0, FrameCurve::chord);
+  EXPECT_NEAR(cubic.at(0.3).error_square, 2 * (16.0 / 36 + 1.0 / 36), 1e-12);
+  EXPECT_NEAR(chord.at(0.3).error_square, 0.5, 1e-12);
+}
+
+/// Each frame keeps its place among four as long as data have a part of it.
+TEST(FrameSharing, PartsStayInTheirPlaces) {
+  const FrameSharing frames({0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, 0, 0, ends);
+  for (double time = 0.105; time < 0.6; time += 0.01) {
+    double sum = 0;
+    const auto parts = frames.parts_at(time);
+    for (std::int64_t place = 0; place < 4; ++place) {
+      const FramePart& part = parts[static_cast<std::size_t>(place)];
+      EXPECT_EQ(((part.frame - place) % 4 + 4) % 4, 0) << time;
+      sum += part.part;
+    }
+    EXPECT_NEAR(sum, 1, 1e-12) << time;
+  }
+  const auto middle = frames.parts_at(0.35);  // of 0.2, 0.3, 0.4, 0.5: numbers 1, 2, 3, 4
+  EXPECT_NEAR(middle[1].part, -1.0 / 16, 1e-12);
+  EXPECT_NEAR(middle[2].part, 9.0 / 16, 1e-12);
+  EXPECT_NEAR(middle[3].part, 9.0 / 16, 1e-12);
+  EXPECT_NEAR(middle[0].part, -1.0 / 16, 1e-12);
 }
 
 }  // namespace frame_sharing_test

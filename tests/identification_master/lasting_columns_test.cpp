@@ -34,21 +34,22 @@ TEST(LastingColumns, AreABiasADisplacementAndADistanceOfEachRegion) {
     EXPECT_NEAR(column("x")(i), 0.5 * deviation * x(0, i) / x.col(i).head<2>().norm(), facet);
 }
 
-/// Of two successive frames, as much of each as an interpolated datum has; then the later one stays and another comes.
+/// Of four successive frames, as much of each as a datum between them has; then three stay and another comes.
 TEST(LastingColumns, AreADistanceOfEachRegionInEachFrame) {
   const LastingColumns found = columns_of({});
   const auto all_times = std::ssize(found.errors());
-  ASSERT_EQ(found.count(), all_times + 2);
+  ASSERT_EQ(found.count(), all_times + 4);
   const double gap = BreathingTube::beat / frames, a = 0.25 * deviation;
-  const auto of_frames = [&](double time) { return Eigen::Vector2d(found.at(time).topRightCorner(1, 2).transpose()); };
-  EXPECT_LT((of_frames(0.25 * gap) - Eigen::Vector2d(0.75 * a, 0.25 * a)).norm(), 1e-12);
-  EXPECT_LT((of_frames(1.25 * gap) - Eigen::Vector2d(0.25 * a, 0.75 * a)).norm(), 1e-12);
-  const MatrixXd columns = found.at(0.25 * gap).rightCols(2);
+  const auto of_frames = [&](double time) { return Eigen::Vector4d(found.at(time).topRightCorner(1, 4).transpose()); };
+  const Eigen::Vector4d half = a / 16 * Eigen::Vector4d(-1, 9, 9, -1);
+  EXPECT_LT((of_frames(1.5 * gap) - half).norm(), 1e-12);
+  EXPECT_LT((of_frames(2.5 * gap) - Eigen::Vector4d(half(3), half(0), half(1), half(2))).norm(), 1e-12);
+  const MatrixXd columns = found.at(0.25 * gap).rightCols(4);
   EXPECT_LT((columns.rowwise() - columns.row(0)).norm(), 1e-12);
   EXPECT_TRUE(found.renewed(0.25 * gap, 0.75 * gap).empty());
-  EXPECT_EQ(found.renewed(0.75 * gap, 1.25 * gap), std::vector<Eigen::Index>{all_times});
-  EXPECT_EQ(found.renewed(1.75 * gap, 2.25 * gap), std::vector<Eigen::Index>{all_times + 1});
-  EXPECT_EQ(found.renewed(0.25 * gap, 2.25 * gap), (std::vector<Eigen::Index>{all_times, all_times + 1}));
+  EXPECT_EQ(found.renewed(1.75 * gap, 2.25 * gap), std::vector<Eigen::Index>{all_times});  // 0 goes, 4 comes
+  EXPECT_EQ(found.renewed(2.75 * gap, 3.25 * gap), std::vector<Eigen::Index>{all_times + 1});
+  EXPECT_EQ(found.renewed(1.25 * gap, 3.25 * gap), (std::vector<Eigen::Index>{all_times, all_times + 1}));
 }
 
 TEST(LastingColumns, AreNoneIfNothingIsAllowed) {

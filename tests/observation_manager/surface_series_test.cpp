@@ -30,8 +30,8 @@ TEST(SurfaceSeries, InterpolatesDistancesAndNormalsInTime) {
   EXPECT_GT(out, 0.2 * std::cos(0.2));
   EXPECT_NEAR(in, -0.1, 1e-14);
   EXPECT_NEAR(distance_at(series, 0.1), 0, 1e-14);
-  EXPECT_NEAR(distance_at(series, 0.2), 0.5 * out, 1e-14);
-  EXPECT_NEAR(distance_at(series, 0.375), 0.25 * out + 0.75 * in, 1e-14);
+  EXPECT_NEAR(distance_at(series, 0.2), out - in / 3, 1e-14);  // on the parabola through the three
+  EXPECT_NEAR(distance_at(series, 0.375), 0.34375 * out + 0.6875 * in, 1e-14);
   const Points x = sphere(6).points;
   const std::vector<Sample> samples = series.observe(x, 0.35);
   for (Eigen::Index i = 0; i < x.cols(); ++i)
@@ -71,6 +71,20 @@ TEST(SurfaceSeries, NeverUsesHeldOutFramesForTimesInBetween) {
   const std::vector<Frame> frames = series.frames();
   EXPECT_TRUE(frames[1].held_out);
   EXPECT_NEAR(series.observe(sphere(6).points, frames[1])[0].distance, -0.5, 1e-14);
+}
+
+/// Where a neighbour of the two frames around shows nothing, these two still do.
+TEST(SurfaceSeries, GoesByTheChordWhereANeighbourShowsNothing) {
+  SourceSettings settings = settings_for(lumen(sphere(6)));
+  settings.trust_distance = 0.4;
+  const std::vector<double> times{0, 0.1, 0.2, 0.3}, radii{1.5, 1.0, 1.2, 1.1};
+  const SurfaceSeries far = spheres(times, radii, settings);
+  EXPECT_NEAR(distance_at(far, 0.15), 0.5 * distance_at(far, 0.2), 1e-14);
+  EXPECT_EQ(far.observe(sphere(6).points, 0.05)[0].excluded, Exclusion::too_far);
+  settings.trust_distance = 1;
+  const SurfaceSeries near = spheres(times, radii, settings);
+  EXPECT_NEAR(distance_at(near, 0.15),
+              (9 * distance_at(near, 0.2) - distance_at(near, 0) - distance_at(near, 0.3)) / 16, 1e-14);
 }
 
 TEST(SurfaceSeries, CountsWhyItDoesNotObserve) {
