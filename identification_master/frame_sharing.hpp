@@ -24,7 +24,7 @@ struct SeenFrame {
   double error_square = 1;  ///< of a datum's error there, expected, in squares of that of a frame (K.5)
 };
 
-/// What an interpolated datum has of a frame.
+/// What a datum between frames has of a frame.
 struct FramePart {
   std::int64_t frame = 0;  ///< numbered through all repetitions
   double part = 0;         ///< 0: nothing

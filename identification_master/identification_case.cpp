@@ -75,7 +75,7 @@ void IdentificationCase::declare(Fields& f) {
           "standard deviations of what the data may be off by in all frames alike, a region (model) once more in each "
           "frame, which is found beside the parameters (K.8); 0: nothing");
   f.choice("observe", observe,
-           {{"every_step", "data are interpolated between frames, each frame counting once in all"},
+           {{"every_step", "between frames too, by a curve through those around; each frame counts once in all"},
             {"frames", "each series, and each value of a trace, counts only in the step that ends nearest to it"},
             {"never", "nothing is corrected: only what the data would tell is written, with all sensitivities"}},
            "when the model is corrected");

@@ -82,36 +82,36 @@ Points with_axis(const Points& points, const Vec3& centre) {
 
 /// The section moved straight along `direction` (away from the vessel) into the plane across it, `distance` from the
 /// section's centre.
-Points extended(const Points& section, const Vec3& direction, double distance, const char* end) {
+Points extended(const Points& section, const Vec3& direction, double distance, const std::string& field) {
   const Vec3 centre = section.rightCols<1>();
   const Eigen::RowVectorXd remaining = distance - (direction.transpose() * (section.colwise() - centre)).array();
   if (const double reach = distance - remaining.minCoeff(); remaining.minCoeff() < 0.05 * distance)
     throw input_error(
-        "mesh.extend.{}: {:.4g} is too short: the section's plane is oblique and its edge reaches {:.4g} along the "
-        "axis",
-        end, distance, reach);
+        "{}: {:.4g} is too short: the section's plane is oblique and its edge reaches {:.4g} along the axis", field,
+        distance, reach);
   return section + direction * remaining;
 }
 
 /// All sections at the same angles, with their centres, and the extensions.
 Lines lines_through(const SweepSettings& settings) {
   const std::size_t count = settings.sections.size();
-  if (count < 2) throw input_error("mesh: {} cross-sections: at least two are needed", count);
+  if (count < 2) throw input_error("{}: {} cross-sections: at least two are needed", settings.field, count);
   std::vector<Points> stations;
   for (std::size_t k = 0; k < count; ++k) {
     const Points& before = settings.sections[k == 0 ? 0 : k - 1];
     const Points& after = settings.sections[std::min(k + 1, count - 1)];
     const Vec3 along = after.rowwise().mean() - before.rowwise().mean();
     const PolarCurve curve(settings.sections[k], along, settings.angle_origin,
-                           fmt::format("mesh: cross-section {}", k));
+                           fmt::format("{}: cross-section {}", settings.field, k));
     stations.push_back(with_axis(curve.sample(4 * settings.disc.around), curve.frame().centre));
   }
   const Vec3 to_inlet = (stations[0] - stations[1]).rightCols<1>().normalized();
   const Vec3 to_outlet = (stations[count - 1] - stations[count - 2]).rightCols<1>().normalized();
   if (settings.extend_inlet > 0)
-    stations.insert(stations.begin(), extended(stations.front(), to_inlet, settings.extend_inlet, "inlet"));
+    stations.insert(stations.begin(),
+                    extended(stations.front(), to_inlet, settings.extend_inlet, settings.field + ".extend.inlet"));
   if (settings.extend_outlet > 0)
-    stations.push_back(extended(stations.back(), to_outlet, settings.extend_outlet, "outlet"));
+    stations.push_back(extended(stations.back(), to_outlet, settings.extend_outlet, settings.field + ".extend.outlet"));
   return {std::move(stations), settings.extend_inlet > 0, settings.extend_outlet > 0};
 }
 
@@ -186,14 +186,14 @@ Points cut(const Lines& lines, double u, const Vec3& normal) {
 }  // namespace
 
 std::vector<CrossSection> cross_sections(const SweepSettings& settings) {
-  if (settings.along < 1) throw input_error("mesh.along: {}: must be at least 1", settings.along);
+  if (settings.along < 1) throw input_error("{}.along: {}: must be at least 1", settings.field, settings.along);
   const Lines lines = lines_through(settings);
   const CutNormals normals(lines, settings.angle_origin);
   std::vector<CrossSection> sections;
   for (const double u : equal_distances(lines, settings.along)) {
     const Vec3 normal = normals.at(u);
     const PolarCurve curve(cut(lines, u, normal), normal, settings.angle_origin,
-                           fmt::format("mesh: cut {}", sections.size()));
+                           fmt::format("{}: cut {}", settings.field, sections.size()));
     sections.push_back({curve.frame().centre, curve.frame().normal, curve.sample(settings.disc.around)});
   }
   return sections;

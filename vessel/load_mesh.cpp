@@ -62,6 +62,7 @@ VesselMesh swept(const SweptCase& given, const UnitSystem& units, const Where& w
   settings.along = given.along;
   settings.layers = given.layers;
   settings.regions = regions_of(given.regions);
+  settings.field = named(where, "mesh.swept");
   settings.regions_field = named(where, "mesh.swept.regions");
   return sweep(settings);
 }

@@ -15,14 +15,15 @@ namespace tether {
 struct SweepSettings {
   std::vector<Points>
       sections;  ///< at least two closed planar polygons, inlet to outlet; planes may be oblique to the vessel
-  Vec3 angle_origin{1, 0, 0};  ///< direction of angle zero, projected on each cross-section
-  double extend_inlet = 0;     ///< straight extension beyond the first section, measured on the axis [length]
-  double extend_outlet = 0;    ///< the same beyond the last
-  double wall_thickness = 0;   ///< [length]
-  int along = 20;              ///< intervals along the vessel
-  int layers = 2;              ///< prisms through the wall
-  DiscSettings disc;           ///< how a cross-section of the lumen is filled
-  std::string regions_field = "mesh.swept.regions";  ///< for messages, with its line if known
+  Vec3 angle_origin{1, 0, 0};        ///< direction of angle zero, projected on each cross-section
+  double extend_inlet = 0;           ///< straight extension beyond the first section, measured on the axis [length]
+  double extend_outlet = 0;          ///< the same beyond the last
+  double wall_thickness = 0;         ///< [length]
+  int along = 20;                    ///< intervals along the vessel
+  int layers = 2;                    ///< prisms through the wall
+  DiscSettings disc;                 ///< how a cross-section of the lumen is filled
+  std::string field = "mesh.swept";  ///< for messages, with its line if known
+  std::string regions_field = "mesh.swept.regions";  ///< the same
   std::vector<WallRegion> regions;                   ///< of the outer wall, first match wins; none: one region "wall"
 };
 

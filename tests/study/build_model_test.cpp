@@ -63,6 +63,31 @@ TEST(BuildModel, WritesAModelThatRuns) {
   EXPECT_TRUE(fs::exists(folder / "out" / "model" / "mine.txt"));
 }
 
+/// Of measured contours, as configs/descending_aorta/study.yaml has them.
+TEST(BuildModel, MakesAModelThroughContours) {
+  const fs::path folder = test_folder();
+  const fs::path contours = fs::path(TETHER_SOURCE) / "configs/descending_aorta/cine_mr/contours.csv";
+  std::ofstream(folder / "study.yaml") << "name: aorta\ncontours: {file: " << contours.string()
+                                       << ", unit: mm, extend: {inlet: 1 cm, outlet: 1 cm}}\n"
+                                          "openings: {in: {label: 1}, out: {label: 2}}\ninlet: in\n"
+                                          "edges: {longest: 4 mm}\nmodel: {wall: {thickness: 1.5 mm}}\n";
+  const ChildEnd end = built(folder);
+  ASSERT_EQ(end.exit_code, exit_done) << end.errors;
+  const auto summary = read_record<SurfaceSummary>(folder / "out" / "surface.json");
+  ASSERT_EQ(summary.openings.size(), 2U);
+  EXPECT_GT(summary.openings[0].centre.z(), summary.openings[1].centre.z()) << "the first contour is the uppermost";
+  EXPECT_NEAR(summary.branches.at(0).length, 6.8, 0.3);  // the contours' middles are 4.8 cm apart along the vessel
+  const std::string model = (folder / "out" / "model" / "case.yaml").string();
+  const ChildEnd valid = capture({{TETHER_PROGRAM, "validate", model}, {}});
+  EXPECT_EQ(valid.exit_code, exit_done) << valid.errors;
+
+  std::ofstream(folder / "study.yaml", std::ios::app) << "surface: {file: " << contours.string() << ", unit: mm}\n";
+  const ChildEnd both = built(folder);
+  EXPECT_EQ(both.exit_code, exit_input_wrong);
+  EXPECT_NE(both.errors.find("surface: or image or contours must be given, one of them"), std::string::npos)
+      << both.errors;
+}
+
 TEST(BuildModel, LeavesFilesOfOthersAlone) {
   const fs::path folder = study_with("", testing::bent_tube());
   fs::create_directories(folder / "out" / "model");

@@ -19,7 +19,7 @@ struct ImageSummary {
   Vec3 voxels = Vec3::Zero(), voxel = Vec3::Zero();
   double least = 0, greatest = 0, anisotropy = 1, lumen_volume = 0;
   int parts_dropped = 0, iterations = 0;
-  bool stood_still = true;
+  bool stood_still = true, grew_again = false;
   double parts_volume = 0, edge = 0, widest_radius = 0, door_radius = 0, room_radius = 0;
   Vec3 part_place = Vec3::Zero(), widest_place = Vec3::Zero(), door_place = Vec3::Zero(), room_place = Vec3::Zero();
 
@@ -43,6 +43,8 @@ struct ImageSummary {
     field("door_place", self.door_place, "[cm]");
     field("iterations", self.iterations, "of the front; 0 without a level set");
     field("stood_still", self.stood_still, "whether the front did so before the iterations were used up");
+    field("grew_again", self.grew_again,
+          "whether it was ended since it grew faster again: it leaks, or found a vessel that no seed lies in");
     field("edge", self.edge, "change of grey values per cm at which the front stops; 0 without a level set");
   }
 };

@@ -84,29 +84,39 @@ Grey::Pointer empty_image(const Box& box, const Vec3& spacing) {
 }
 
 /// Ends a front once what it encloses, averaged over some steps, does not change any more: single steps go to and fro.
+/// So it does where it grows faster again after it had all but stood still: it has found a way through the wall.
 class Stillness {
  public:
-  explicit Stillness(Front& front) : front_(front) {}
+  Stillness(Front& front, bool& grew_again) : front_(front), grew_again_(grew_again) {}
   void operator()(const itk::EventObject&) {
     const Grey& height = *front_.GetOutput();
     const float* first = height.GetBufferPointer();
     sum_ += static_cast<double>(std::count_if(first, first + height.GetLargestPossibleRegion().GetNumberOfPixels(),
                                               [](float value) { return value < 0; }));
     if (front_.GetElapsedIterations() % window != 0) return;
-    const double mean = sum_ / window;
-    if (std::abs(mean - before_) < 5e-4 * mean + few) front_.SetNumberOfIterations(front_.GetElapsedIterations());
+    const double mean = sum_ / window, change = mean - before_;
+    least_ = std::min(least_, std::max(change, few));
+    grew_again_ = least_ < slow * mean && change > faster * least_;
+    if (grew_again_ || std::abs(change) < still * mean + few)
+      front_.SetNumberOfIterations(front_.GetElapsedIterations());
     before_ = mean, sum_ = 0;
   }
 
  private:
-  static constexpr int window = 20, few = 5;  // steps; voxels
+  static constexpr int window = 20;      // steps
+  static constexpr double few = 5;       // voxels
+  static constexpr double still = 1e-3;  // a vessel of five voxels that is being filled grows more than that
+  static constexpr double slow = 5e-3, faster = 1.5;  // leaks of the benchmark's chests; what is filled grows evenly
   Front& front_;
-  double sum_ = 0, before_ = 0;
+  bool& grew_again_;
+  double sum_ = 0, before_ = 0, least_ = infinite;
 };
 
 /// Where it is pushed outward by how even the image is, and drawn to where it is least even. `step`: of a voxel, at
 /// most.
-Front::Pointer moved(Grey* start, Grey* evenness, double outward, double step, const LevelSetCase& how) {
+/// `grew_again`: whether that ended it.
+Front::Pointer moved(Grey* start, Grey* evenness, double outward, double step, const LevelSetCase& how,
+                     bool& grew_again) {
   constexpr double attraction = 3;  // holds the front at an edge against a push of 1: (M.21)
   const auto front = Front::New();
   front->SetInput(start);
@@ -118,7 +128,7 @@ Front::Pointer moved(Grey* start, Grey* evenness, double outward, double step, c
   front->SetMaximumRMSError(0);
   front->SetNumberOfIterations(static_cast<unsigned>(how.iterations));
   dynamic_cast<itk::LevelSetFunction<Grey>&>(*front->GetSegmentationFunction()).SetMaximumPropagationTimeStep(step);
-  front->AddObserver(itk::IterationEvent(), Stillness(*front));
+  front->AddObserver(itk::IterationEvent(), Stillness(*front, grew_again));
   front->Update();
   return front;
 }
@@ -145,12 +155,13 @@ Settled settled_in(const Box& box, const Ground& ground, const LevelSetCase& how
     evenness->GetBufferPointer()[voxel.number] =
         ground.barred[voxel.of_image] ? 0 : static_cast<float>(1 / (1 + steepness * steepness));  // (M.21)
   });
-  const auto grown = moved(start, evenness, 1, 1.0 / 6, how);
-  const auto front = moved(grown->GetOutput(), evenness, 0, 0.08, how);
-  Settled result{false, {image, 0, true, ground.edge}};
+  Settled result{false, {image, 0, true, false, ground.edge}};
+  bool settled_again = false;  // it shrinks
+  const auto grown = moved(start, evenness, 1, 1.0 / 6, how, result.found.grew_again);
+  const auto front = moved(grown->GetOutput(), evenness, 0, 0.08, how, settled_again);
   const auto steps = static_cast<int>(grown->GetElapsedIterations());
   result.found.iterations = steps + static_cast<int>(front->GetElapsedIterations());
-  result.found.stood_still = steps < how.iterations;
+  result.found.stood_still = steps < how.iterations && !result.found.grew_again;
   std::vector<float>& field = result.found.field.values;
   std::fill(field.begin(), field.end(), -1.0F);
   const float* height = front->GetOutput()->GetBufferPointer();
@@ -183,17 +194,16 @@ std::vector<char> barred_in(const ImageVolume& smooth, const LumenImageCase& how
   return barred;
 }
 
-/// The border of a basin becomes an edge as steep as the wall's, what is within is barred.
-void bar_basin(Ground& ground, ImageVolume basin) {
+/// The border of a basin becomes an edge as steep as the wall's. What is within is not barred: that would be a place
+/// more uneven than any border, and draw the front across it.
+void add_border(Ground& ground, ImageVolume basin) {
   for (std::size_t n = 0; n < basin.values.size(); ++n)
     if (basin.values[n] > 0) ground.inside[n] = 0;
   smooth_field(basin, 1);
   const ImageVolume border = gradient_magnitude(basin);
   const float most = *std::max_element(border.values.begin(), border.values.end());
-  for (std::size_t n = 0; n < basin.values.size(); ++n) {
+  for (std::size_t n = 0; n < basin.values.size(); ++n)
     ground.steepness.values[n] = std::hypot(ground.steepness.values[n], border.values[n] / most);
-    ground.barred[n] = ground.barred[n] || basin.values[n] > 0.95F;
-  }
 }
 
 Ground ground_of(const ImageVolume& image, const LumenImageCase& how, const std::vector<std::size_t>& seeds,
@@ -219,7 +229,7 @@ Ground ground_of(const ImageVolume& image, const LumenImageCase& how, const std:
   sought.edge = ground.edge;
   ground.inside = flooded(smooth, ground.steepness, sought, seeds, kept_out);
   for (float& value : ground.steepness.values) value /= static_cast<float>(ground.edge);
-  if (!neighbours.empty()) bar_basin(ground, std::move(basin));
+  if (!neighbours.empty()) add_border(ground, std::move(basin));
   return ground;
 }
 

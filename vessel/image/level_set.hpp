@@ -10,7 +10,8 @@ struct LevelSet {
   ImageVolume field;  ///< positive in the lumen
   int iterations = 0;
   bool stood_still = true;
-  double edge = 0;  ///< change of grey values at the wall [per cm]
+  bool grew_again = false;  ///< it was ended, for it grew faster again after it had all but stood still
+  double edge = 0;          ///< change of grey values at the wall [per cm]
 };
 
 /// The geodesic active contour of Caselles, Kimmel and Sapiro (1997) from the seeds outward (M.21), not into stops,

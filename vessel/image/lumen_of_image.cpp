@@ -118,6 +118,7 @@ LumenOfImage lumen_of(const ImageVolume& image, const LumenImageCase& how) {
     LevelSet front = level_set(image, how, seeds, voxels_at(image, how.neighbours, how, "image.neighbours"));
     field = std::move(front.field);
     summary.iterations = front.iterations, summary.stood_still = front.stood_still, summary.edge = front.edge;
+    summary.grew_again = front.grew_again;
   } else if (how.threshold) {
     field = threshold_field(image, how, summary);
   } else {
@@ -159,9 +160,12 @@ std::string text_of(const ImageSummary& s) {
       s.lumen_volume);
   text += fmt::format("  widest at {}, radius {:.3g} cm\n", text_of_place(s.widest_place), s.widest_radius);
   if (s.iterations > 0)
-    text += fmt::format("  {} {} iterations, at a change of {:.3g} per cm\n",
-                        s.stood_still ? "the front stood still after" : "look at it: the front did not stand still in",
-                        s.iterations, s.edge);
+    text +=
+        fmt::format("  {} {} iterations, at a change of {:.3g} per cm\n",
+                    s.stood_still  ? "the front stood still after"
+                    : s.grew_again ? "look at it: the front leaks or found a vessel without a seed, and was ended in"
+                                   : "look at it: the front did not stand still in",
+                    s.iterations, s.edge);
   if (const std::string leak = leak_of(s); !leak.empty()) text += "  look at it: " + leak + "\n";
   if (s.parts_dropped > 0)
     text +=

@@ -9,6 +9,7 @@
 #include "vessel/centreline/find_tree.hpp"
 #include "vessel/image/lumen_of_image.hpp"
 #include "vessel/image/open_image.hpp"
+#include "vessel/study/loft.hpp"
 #include "vessel/study/openings.hpp"
 #include "vessel/study/read_surface.hpp"
 #include "vessel/surface/crossings.hpp"
@@ -19,9 +20,10 @@
 namespace tether {
 namespace {
 
-/// As it is in the file, or in the image, which is kept.
+/// As it is in the file, through contours, or in the image, which is kept.
 RawSurface given_surface(const StudyCase& study, BuiltSurface& built) {
   if (study.surface) return read_surface(*study.surface);
+  if (study.contours) return surface_through(*study.contours, study.where("contours"));
   built.image = open_image(*study.image);
   LumenOfImage lumen = lumen_of(*built.image, *study.image);
   built.summary.image = lumen.summary;

@@ -36,12 +36,9 @@ std::string wrong_width(double radius, const std::string& given) {
 }
 
 void check_unit(const StudyCase& study, double radius) {
-  const bool any_size = study.surface ? study.surface->any_size : study.image->any_size;
-  const std::string& given = study.surface ? study.surface->unit : study.image->unit;
-  const std::string wrong = any_size ? "" : wrong_width(radius, given);
+  const std::string wrong = study.any_size() ? "" : wrong_width(radius, study.unit());
   if (!wrong.empty())
-    throw input_error("{}: {}; {}.any_size: true takes it as it is", study.file().string(), wrong,
-                      study.surface ? "surface" : "image");
+    throw input_error("{}: {}; {}.any_size: true takes it as it is", study.file().string(), wrong, study.source());
 }
 
 }  // namespace tether

@@ -21,6 +21,12 @@ void SurfaceCase::declare(Fields& f) {
   f.flag("any_size", any_size, "do not refuse openings that no vessel has, which mostly mean a wrong unit");
 }
 
+void LoftCase::declare(Fields& f) {
+  ContoursCase::declare(f);
+  f.group("extend", extend, "straight extension beyond the first and last contour, along the axis");
+  f.flag("any_size", any_size, "do not refuse openings that no vessel has, which mostly mean a wrong unit");
+}
+
 void RepairCase::declare(Fields& f) {
   constexpr Range merging{1e-9, 100};  // cells of that size are counted in integers; no vessel is 1 m long
   f.number("merge", merge, dimension::length, merging, "points nearer to each other than this are one");
@@ -57,7 +63,9 @@ void StudyCase::declare(Fields& f) {
   f.text("name", name, "of the study; results go to out/NAME", Need::required);
   f.check(is_file_name(name), "name", std::string(file_name_rule));
   f.group("surface", surface, "of the lumen, as a file; or:");
-  f.group("image", image, "a volume that shows the lumen");
+  f.group("image", image, "a volume that shows the lumen; or:");
+  f.group("contours", contours,
+          "closed ones of the lumen, from inlet to outlet: the first opening has the label 1, the last 2");
   f.group("repair", repair, "what is mended of it");
   f.groups("openings", openings, "the vessel's ends, each by label, near, order or cut", Need::required);
   f.text("inlet", inlet, "the opening that blood enters", Need::required);
@@ -66,7 +74,8 @@ void StudyCase::declare(Fields& f) {
            "between points of centrelines");
   f.group("edges", edges, "of the triangles");
   f.group("model", model, "meshes of the blood and of the wall, and a case that runs; absent: the surface alone");
-  f.check(surface.has_value() != image.has_value(), "surface", "or image must be given, one of them");
+  f.check(surface.has_value() + image.has_value() + contours.has_value() == 1, "surface",
+          "or image or contours must be given, one of them");
   const auto is_opening = [this](const std::string& one) {
     return std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.first == one; });
   };

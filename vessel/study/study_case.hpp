@@ -8,6 +8,7 @@
 
 #include "common/config/fields.hpp"
 #include "vessel/image/image_case.hpp"
+#include "vessel/mesh_case.hpp"
 #include "vessel/model/vessel_model.hpp"
 
 namespace tether {
@@ -17,6 +18,13 @@ struct SurfaceCase {
   std::filesystem::path file;
   std::string unit;
   std::string label_array = "ModelFaceID";
+  bool any_size = false;
+  void declare(Fields& f);
+};
+
+/// Closed contours that the surface goes through.
+struct LoftCase : ContoursCase {
+  ExtendCase extend;
   bool any_size = false;
   void declare(Fields& f);
 };
@@ -51,11 +59,12 @@ struct EdgeCase {
   void declare(Fields& f);
 };
 
-/// From a surface or an image to a model: what the user says of it.
+/// From a surface, an image or contours to a model: what the user says of it.
 struct StudyCase {
   std::string name;
-  std::optional<SurfaceCase> surface;  ///< one of these two
+  std::optional<SurfaceCase> surface;  ///< one of these three
   std::optional<LumenImageCase> image;
+  std::optional<LoftCase> contours;
   RepairCase repair;
   Named<OpeningCase> openings;
   std::string inlet, trunk;
@@ -70,7 +79,11 @@ struct StudyCase {
   /// silent of that too; the field alone if the study is no file.
   std::string where(const std::string& field) const;
 
-  std::filesystem::path file() const { return surface ? surface->file : image->file; }
+  /// Of that one of the three that is given: the name of its section, and what is in it.
+  std::string source() const { return surface ? "surface" : image ? "image" : "contours"; }
+  std::filesystem::path file() const { return surface ? surface->file : image ? image->file : contours->file; }
+  std::string unit() const { return surface ? surface->unit : image ? image->unit : contours->unit; }
+  bool any_size() const { return surface ? surface->any_size : image ? image->any_size : contours->any_size; }
 };
 
 /// Throws InputError with a line for each mistake.
