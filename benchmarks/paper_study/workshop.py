@@ -62,7 +62,9 @@ class Workshop:
         """A case that builds on another one; sections as JSON, which YAML reads."""
         path = self.folder / f"{name}.yaml"
         sections = "".join(f"{key}: {json.dumps(value)}\n" for key, value in nested(fields).items())
-        path.write_text(f"base: {os.path.relpath(base, self.folder)}\nname: {name}\n{sections}")
+        text = f"base: {os.path.relpath(base, self.folder)}\nname: {name}\n{sections}"
+        if not path.exists() or path.read_text() != text:  # one that is written anew ends a run that reads it
+            path.write_text(text)
         return path
 
     def make(self, verb, case, after=(), name=None):
@@ -85,7 +87,10 @@ class Workshop:
         if done.returncode != 0:
             self._note(name, key=key, failed=f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
             raise Failed(name, self.step(name)["failed"])
-        self._note(name, key=key, cpu_seconds=children_cpu() - cpu, wall_seconds=time.time() - begun)
+        took = {"cpu_seconds": children_cpu() - cpu, "wall_seconds": time.time() - begun}
+        if verb in GOES_ON_BY_ITSELF:  # with what it made before it was broken off
+            took = {key: read(folder / RESULTS[verb])["cost"][key] for key in took}
+        self._note(name, key=key, **took)
         if not self.quiet:
             print(f"{verb} {name}: {self.step(name)['cpu_seconds']:.1f} CPU s", flush=True)
         return folder

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/image/chest.hpp"
 #include "tests/image/true_lumen.hpp"
 #include "tests/image/voxelised.hpp"
 #include "tests/study/bent_tube.hpp"
@@ -49,6 +50,44 @@ TEST_P(EachMethod, HalfTheVoxelIsHalfAsFarOff) {
   const double coarse = 0.2 * off(GetParam(), tube, {.voxel = 0.2}, middle).mean;
   const double fine = 0.1 * off(GetParam(), tube, {.voxel = 0.1}, middle).mean;
   EXPECT_GT(std::log2(coarse / fine), 0.8);
+}
+
+/// Beside the bent tube a ball of almost its values, which it touches over 6 mm.
+double ball_beside(const Vec3& x, double) {
+  const Vec3 middle = tube_middle(0.5) + 1.9 * tube_middle(0.5).normalized();
+  return (x - middle).norm() < 1 ? 290 : 50;
+}
+
+LumenImageCase seeded() {
+  LumenImageCase how = by(ImageMethod::level_set);
+  how.seeds = {{"middle", tube_middle(0.5)}};
+  return how;
+}
+
+/// A neighbour that is named bounds the lumen where they touch, and moves its wall nowhere else.
+TEST(LevelSet, ANeighbourIsKeptOutAndMovesNoWall) {
+  const Truth tube = truth_of(bent_tube(96, 132));
+  const ImageVolume image = scan_of(tube.closed, {.voxel = 0.12, .rim = 2.2}, ball_beside);
+  LumenImageCase how = seeded();
+  const Off leaked = off(lumen_of(image, how).surface, tube, 0.12);
+  how.neighbours = {{"ball", tube_middle(0.5) + 2.1 * tube_middle(0.5).normalized()}};
+  const Off bounded = off(lumen_of(image, how).surface, tube, 0.12);
+  EXPECT_GT(leaked.mean, 1) << "else there is nothing to be kept out";
+  EXPECT_LT(bounded.mean, 1.0 / 3);
+  EXPECT_LT(bounded.p95, 1);
+}
+
+/// A front that finds a way through a wall is ended soon, and says so: here along the shell of a spine, which it would
+/// follow into all of the tissue.
+TEST(LevelSet, EndsWhereItGrowsFasterAgain) {
+  const Truth truth = arch(TETHER_SOURCE);
+  LumenImageCase how = by(ImageMethod::level_set);
+  how.seeds = {{"ascending", {14.6, 15.2, 30.1}}};
+  const LumenOfImage found = lumen_of(scan_of(truth.closed, {.voxel = 0.15, .noise = 25}, Chest{.spine = true}), how);
+  EXPECT_FALSE(found.summary.stood_still);
+  EXPECT_TRUE(found.summary.grew_again);
+  EXPECT_LT(off(found.surface, truth, 0.15).p95, 1);
+  EXPECT_NE(text_of(found.summary).find("leaks or found a vessel without a seed"), std::string::npos);
 }
 
 }  // namespace
