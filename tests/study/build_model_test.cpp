@@ -65,7 +65,7 @@ TEST(BuildModel, WritesAModelThatRuns) {
 
 /// Of measured contours, as configs/descending_aorta/study.yaml has them.
 TEST(BuildModel, MakesAModelThroughContours) {
-  const fs::path folder = test_folder();
+  const fs::path& folder = test_folder();
   const fs::path contours = fs::path(TETHER_SOURCE) / "configs/descending_aorta/cine_mr/contours.csv";
   std::ofstream(folder / "study.yaml") << "name: aorta\ncontours: {file: " << contours.string()
                                        << ", unit: mm, extend: {inlet: 1 cm, outlet: 1 cm}}\n"
