@@ -8,7 +8,6 @@
 #include "common/base/error.hpp"
 #include "common/io/record_file.hpp"
 #include "tests/io/temporary_folder.hpp"
-#include "tests/scenarios/case_variant.hpp"
 #include "vessel/study/surface_summary.hpp"
 
 namespace tether {
@@ -23,9 +22,8 @@ ChildEnd told(std::vector<std::string> words) {
 
 TEST(AorticArchScan, RunsFromItsVoxels) {
   const fs::path here = test_folder(), model = here / "model";
-  const fs::path study = case_variant(TETHER_SOURCE "/configs/aortic_arch_scan/study.yaml", here / "study",
-                                      {{"longest: 4 mm", "longest: 5 mm"}});
-  const ChildEnd built = told({"build-model", study.string(), "--output", model.string()});
+  const ChildEnd built =
+      told({"build-model", TETHER_SOURCE "/configs/aortic_arch_scan/study.yaml", "--output", model.string()});
   ASSERT_EQ(built.exit_code, exit_done) << built.errors << built.output;
   const auto summary = read_record<SurfaceSummary>(model / "surface.json");
   ASSERT_TRUE(summary.image);
@@ -35,7 +33,7 @@ TEST(AorticArchScan, RunsFromItsVoxels) {
     EXPECT_EQ(opening.at_image_border, opening.name != "ascending") << opening.name;
   EXPECT_NEAR(summary.openings[0].radius, 1.533, 0.05) << "cm; of data/aortic_arch_adult/regions.csv";
   EXPECT_NEAR(summary.openings[2].radius, 0.529, 0.1)
-      << "cm; the left subclavian, 7 voxels wide: half a voxel narrower by the front";
+      << "cm; the left subclavian, 7 voxels wide: half a voxel narrower by the front (longer edges lose more of it)";
   for (const char* file : {"1_slices.png", "1_read.vtp", "surface.vtp", "model/case.yaml"})
     EXPECT_TRUE(fs::exists(model / file)) << file;
 
