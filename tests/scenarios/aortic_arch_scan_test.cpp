@@ -21,7 +21,8 @@ ChildEnd told(std::vector<std::string> words) {
 }
 
 TEST(AorticArchScan, RunsFromItsVoxels) {
-  const fs::path here = test_folder(), model = here / "model";
+  const fs::path& here = test_folder();
+  const fs::path model = here / "model";
   const ChildEnd built =
       told({"build-model", TETHER_SOURCE "/configs/aortic_arch_scan/study.yaml", "--output", model.string()});
   ASSERT_EQ(built.exit_code, exit_done) << built.errors << built.output;
