@@ -20,6 +20,19 @@ struct Closest {
   bool on_rim = false;   ///< the closest feature belongs to an open edge: x lies beside the surface
 };
 
+/// A triangle and its distance from where a point was [length].
+struct NearTriangle {
+  int triangle;
+  double distance;
+};
+
+/// What is known of the triangles around a point that moves a little from look to look.
+struct Neighbourhood {
+  Vec3 centre = Vec3::Zero();            ///< where the point was when they were sought
+  double reach = 0;                      ///< while it is no farther from there, one of them is the closest [length]
+  std::vector<NearTriangle> triangles;  ///< the closest first; none: nothing is known
+};
+
 /// Signed distances to a triangulated surface: a bounding-box tree finds the closest point, the angle-weighted
 /// pseudonormal of the closest face, edge or vertex gives the sign (O.2).
 /// The surface may be open; its edges must have at most two triangles.
@@ -33,9 +46,8 @@ class SignedSurface {
   Closest closest(const Vec3& x) const;
   /// One for each column; faster than one by one if neighbouring columns are close to each other.
   std::vector<Closest> closest(const Points& x) const;
-  /// The same points again, a little moved: `guesses` holds the triangles that were closest, and gets the new ones. Of
-  /// the wrong size they are not used. The result does not depend on them beyond rounding.
-  std::vector<Closest> closest(const Points& x, std::vector<int>& guesses) const;
+  /// The same points again, a little moved: `known` is made and kept here. What is found does not depend on it.
+  std::vector<Closest> closest(const Points& x, std::vector<Neighbourhood>& known) const;
 
   const TriangleSurface& surface() const;
 

@@ -45,7 +45,7 @@ std::vector<Sample> SurfaceSeries::against(const Points& x, std::size_t frame) c
   TETHER_ASSERT(x.cols() == areas_.size(), "{} points for a lumen of {}", x.cols(), areas_.size());
   const std::vector<bool>& flawed = frames_[frame].flawed;
   FrameTree& kept = tree(frame);
-  const std::vector<Closest> found = kept.surface.closest(x, kept.closest);
+  const std::vector<Closest> found = kept.surface.closest(x, kept.near);
   std::vector<Sample> samples;
   samples.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {

@@ -38,10 +38,10 @@ class SurfaceSeries : public LumenSeries {
  private:
   std::vector<Sample> against(const Points& x, std::size_t frame) const;
   Sample sample_of_node(Eigen::Index node, const Vec3& x) const;
-  /// A frame in use, and the triangle that was closest to each node when it was last asked.
+  /// A frame in use, and what of it is near each node.
   struct FrameTree {
     SignedSurface surface;
-    std::vector<int> closest;
+    std::vector<Neighbourhood> near;
   };
   FrameTree& tree(std::size_t frame) const;
 

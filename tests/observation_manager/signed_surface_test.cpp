@@ -145,20 +145,53 @@ TEST(SignedSurface, GivesTheSameOneByOne) {
     EXPECT_NEAR(surface.closest(Vec3(x.col(i))).distance, found[static_cast<std::size_t>(i)].distance, 1e-15);
 }
 
-/// A wall that moves asks again and again: what was closest before is a guess, a wrong one too.
-TEST(SignedSurface, GuessesChangeNothing) {
-  const SignedSurface surface(cube(4));
-  std::vector<int> guesses;
-  for (int step = 0; step < 5; ++step) {
-    const Points x = random_points(300, 0.5 + 0.4 * step, static_cast<unsigned>(step));
-    const std::vector<Closest> fresh = surface.closest(x), found = surface.closest(x, guesses);
-    ASSERT_EQ(found.size(), fresh.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_NEAR(found[i].distance, fresh[i].distance, 1e-14);
-      EXPECT_LT((found[i].point - fresh[i].point).norm(), 1e-7);
-      EXPECT_EQ(guesses[i], found[i].triangle);
+void expect_the_same(const std::vector<Closest>& one, const std::vector<Closest>& other) {
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].triangle, other[i].triangle) << i;
+    EXPECT_EQ(one[i].distance, other[i].distance) << i;
+    EXPECT_EQ(one[i].point, other[i].point) << i;
+    EXPECT_EQ(one[i].normal, other[i].normal) << i;
+  }
+}
+
+/// A wall that moves asks again and again. What is known from before is exact, bit for bit: a run that goes on from a
+/// checkpoint knows nothing and must find the same. On a cube and its edges several triangles are as close.
+TEST(SignedSurface, WhatIsKnownFromBeforeChangesNothing) {
+  TriangleSurface crumpled = sphere(6);
+  crumpled.points += 0.06 * random_points(static_cast<int>(crumpled.points.cols()), 1, 4);
+  for (const TriangleSurface& shape : {cube(1), cube(4), torus(1.7, 0.6, 40, 20), crumpled}) {
+    const SignedSurface surface(shape);
+    std::vector<Neighbourhood> known;
+    Points x = random_points(300, 1.5, 7);
+    for (unsigned step = 0; step < 60; ++step) {
+      expect_the_same(surface.closest(x, known), surface.closest(x));
+      x += random_points(300, step < 50 ? 0.01 : 1, 8 + step);  // little steps, and some that lead far away
     }
   }
+}
+
+TEST(SignedSurface, KnowsNothingOfOtherPoints) {
+  const SignedSurface surface(torus(1.7, 0.6, 40, 20));
+  std::vector<Neighbourhood> known;
+  surface.closest(random_points(40, 2, 1), known);
+  const Points x = random_points(90, 2, 2);
+  expect_the_same(surface.closest(x, known), surface.closest(x));
+}
+
+/// Steps within the reach ask no tree: it stays where it was made, and grows with the triangles.
+TEST(SignedSurface, ReachesAsFarAsItsTriangles) {
+  std::vector<double> reaches;
+  for (const int n : {20, 40}) {
+    const SignedSurface surface(torus(1.7, 0.6, 2 * n, n));
+    std::vector<Neighbourhood> known;
+    const Points x{{2.25}, {0}, {0}}, moved{{2.25}, {0.001}, {0.001}};
+    surface.closest(x, known);
+    surface.closest(moved, known);
+    EXPECT_EQ(known.front().centre, x.col(0));
+    reaches.push_back(known.front().reach);
+  }
+  EXPECT_NEAR(reaches[0] / reaches[1], 2, 0.5);
 }
 
 }  // namespace
