@@ -1,7 +1,6 @@
 #include "common/mesh/topology.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <numeric>
 
@@ -62,24 +61,46 @@ std::vector<Quadrilateral> boundary_sides(const std::vector<Prism>& prisms) {
   return sides;
 }
 
-std::vector<Edge> open_edges(const std::vector<Triangle>& triangles) {
-  // An edge as one number, for speed: its lower node, its upper one, and in the last bit whether it runs upward.
-  std::vector<std::uint64_t> uses;
-  uses.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-      uses.push_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high) << 1 |
-                     static_cast<std::uint64_t>(t[i] == low));
+std::vector<EdgeUses> edge_uses(const std::vector<Triangle>& triangles) {
+  // Sides by their lower node, counted first; the few of one node are then put in order by the other.
+  struct Side {
+    int high;
+    bool up;
+  };
+  const auto each = [&](auto visit) {
+    for (const Triangle& t : triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+        visit(static_cast<std::size_t>(low), Side{high, t[i] == low});
+      }
+  };
+  std::vector<std::size_t> start;
+  each([&](std::size_t low, const Side&) {
+    if (start.size() < low + 2) start.resize(low + 2, 0);
+    ++start[low + 1];
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<Side> sides(3 * triangles.size());
+  std::vector<std::size_t> next = start;
+  each([&](std::size_t low, const Side& side) { sides[next[low]++] = side; });
+  std::vector<EdgeUses> uses;
+  uses.reserve(sides.size() / 2);
+  for (std::size_t low = 0; low + 1 < start.size(); ++low) {
+    const auto first = sides.begin() + static_cast<std::ptrdiff_t>(start[low]),
+               last = sides.begin() + static_cast<std::ptrdiff_t>(start[low + 1]);
+    std::sort(first, last, [](const Side& a, const Side& b) { return a.high < b.high; });
+    for (auto side = first; side != last; ++side) {
+      if (side == first || side->high != (side - 1)->high) uses.push_back({{static_cast<int>(low), side->high}});
+      ++(side->up ? uses.back().up : uses.back().down);
     }
-  std::sort(uses.begin(), uses.end());
-  std::vector<Edge> open;
-  for (auto first = uses.begin(), last = first; first != uses.end(); first = last) {
-    last = std::find_if(first, uses.end(), [&](std::uint64_t use) { return use >> 1 != *first >> 1; });
-    if (last - first > 1) continue;
-    const auto low = static_cast<int>(*first >> 32), high = static_cast<int>(*first >> 1 & 0x7fffffff);
-    open.push_back((*first & 1) != 0 ? Edge{low, high} : Edge{high, low});
   }
+  return uses;
+}
+
+std::vector<Edge> open_edges(const std::vector<Triangle>& triangles) {
+  std::vector<Edge> open;
+  for (const auto& [edge, up, down] : edge_uses(triangles))
+    if (up + down == 1) open.push_back(up == 1 ? edge : Edge{edge[1], edge[0]});
   return open;
 }
 
@@ -125,10 +146,12 @@ Parts parts_of(int node_count, const std::vector<Element>& elements) {
   for (const Element& element : elements)
     for (const int node : element) sets.join(element[0], node);
   Parts parts;
-  std::map<int, int> number;
-  for (const Element& element : elements)
-    parts.part.push_back(number.emplace(sets.root(element[0]), static_cast<int>(number.size())).first->second);
-  parts.count = static_cast<int>(number.size());
+  std::vector<int> number(static_cast<std::size_t>(node_count), -1);
+  for (const Element& element : elements) {
+    int& part = number[static_cast<std::size_t>(sets.root(element[0]))];
+    if (part < 0) part = parts.count++;
+    parts.part.push_back(part);
+  }
   return parts;
 }
 

@@ -37,6 +37,14 @@ using Quadrilateral = std::array<int, 4>;
 /// Side faces of prisms that no neighbour shares, outward, given around.
 std::vector<Quadrilateral> boundary_sides(const std::vector<Prism>& prisms);
 
+/// An edge from its lower to its higher node, and how many triangles run along it that way and back.
+struct EdgeUses {
+  Edge edge;
+  int up = 0, down = 0;
+};
+/// Each edge once, in ascending order.
+std::vector<EdgeUses> edge_uses(const std::vector<Triangle>& triangles);
+
 /// Edges used by one triangle only, in that triangle's direction.
 std::vector<Edge> open_edges(const std::vector<Triangle>& triangles);
 

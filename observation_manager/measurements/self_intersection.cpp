@@ -30,7 +30,10 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 class Finder {
  public:
   explicit Finder(const TriangleSurface& surface) : surface_(surface) {
-    for (const Triangle& t : surface.triangles) corners_.emplace_back(surface.points(Eigen::all, t));
+    for (const Triangle& t : surface.triangles) {
+      const CornerColumns& corners = corners_.emplace_back(surface.points(Eigen::all, t));
+      normals_.emplace_back((corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)));
+    }
   }
 
   /// Compares triangles whose boxes overlap (Zomorodian and Edelsbrunner 2002, of CGAL).
@@ -70,11 +73,15 @@ class Finder {
   bool edges_cross(std::size_t a, std::size_t b) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const int first = surface_.triangles[a][i], last = surface_.triangles[a][(i + 1) % 3];
-      if (!has_node(b, first) && !has_node(b, last) &&
+      if (!has_node(b, first) && !has_node(b, last) && on_two_sides(first, last, b) &&
           passes_through(surface_.points.col(first), surface_.points.col(last), corners_[b]))
         return true;
     }
     return false;
+  }
+  bool on_two_sides(int one, int other, std::size_t of) const {
+    const auto above = [&](int node) { return normals_[of].dot(surface_.points.col(node) - corners_[of].col(0)); };
+    return above(one) * above(other) < 0;
   }
   bool has_node(std::size_t triangle, int node) const {
     const Triangle& t = surface_.triangles[triangle];
@@ -83,6 +90,7 @@ class Finder {
 
   const TriangleSurface& surface_;
   std::vector<CornerColumns> corners_;
+  std::vector<Vec3> normals_;  ///< of any length
 };
 
 }  // namespace

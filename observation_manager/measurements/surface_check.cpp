@@ -18,19 +18,28 @@
 namespace tether {
 namespace {
 
-/// Only the points that triangles use, equal ones as one.
+/// Only the points that triangles use, equal ones as one, in the order of their use.
 TriangleSurface welded(const TriangleSurface& given) {
-  std::map<std::array<double, 3>, int> number;
-  TriangleSurface surface;
-  for (Triangle t : given.triangles) {
-    for (int& node : t) {
-      const auto x = given.points.col(node);
-      node = number.emplace(std::array{x[0], x[1], x[2]}, static_cast<int>(number.size())).first->second;
-    }
-    surface.triangles.push_back(t);
+  const auto at = [&](int node) { return given.points.data() + 3 * static_cast<std::ptrdiff_t>(node); };
+  std::vector<int> order(static_cast<std::size_t>(given.points.cols()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return std::lexicographical_compare(at(a), at(a) + 3, at(b), at(b) + 3); });
+  std::vector<int> same(order.size());  // one of the equal points
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool like_last = i > 0 && std::equal(at(order[i]), at(order[i]) + 3, at(order[i - 1]));
+    same[static_cast<std::size_t>(order[i])] = like_last ? same[static_cast<std::size_t>(order[i - 1])] : order[i];
   }
-  surface.points.resize(3, static_cast<Eigen::Index>(number.size()));
-  for (const auto& [x, node] : number) surface.points.col(node) = Vec3(x.data());
+  std::vector<int> number(order.size(), -1), used;
+  TriangleSurface surface{Points(3, 0), given.triangles};
+  for (Triangle& t : surface.triangles)
+    for (int& node : t) {
+      const int point = same[static_cast<std::size_t>(node)];
+      int& its = number[static_cast<std::size_t>(point)];
+      if (its < 0) its = static_cast<int>(used.size()), used.push_back(point);
+      node = its;
+    }
+  surface.points = given.points(Eigen::all, used);
   return surface;
 }
 
@@ -43,20 +52,14 @@ bool without_area(const Points& points, const Triangle& t) {
 }
 
 void check_edges(const std::string& name, const TriangleSurface& surface) {
-  std::map<Edge, std::array<int, 2>> uses;  // from low to high node, from high to low
-  for (const Triangle& t : surface.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-      ++uses[{low, high}][t[i] == low ? 0 : 1];
-    }
   int crowded = 0, disagreeing = 0;
   std::string first_crowded, first_disagreeing;
-  for (const auto& [edge, ways] : uses) {
+  for (const auto& [edge, up, down] : edge_uses(surface.triangles)) {
     const auto place = [&, nodes = edge] {
       return coordinates(0.5 * (surface.points.col(nodes[0]) + surface.points.col(nodes[1])));
     };
-    if (ways[0] + ways[1] > 2 && crowded++ == 0) first_crowded = place();
-    if (ways[0] + ways[1] == 2 && ways[0] != 1 && disagreeing++ == 0) first_disagreeing = place();
+    if (up + down > 2 && crowded++ == 0) first_crowded = place();
+    if (up + down == 2 && up != 1 && disagreeing++ == 0) first_disagreeing = place();
   }
   if (crowded > 0)
     throw input_error("{}: {} edges have more than two triangles, the first near {}: not the surface of a lumen", name,

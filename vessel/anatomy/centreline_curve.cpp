@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.hpp"
 
@@ -77,8 +78,10 @@ void CentrelineCurve::sample() {
               step / 6 *
                   (move(u - step).velocity.norm() + 4 * move(u - step / 2).velocity.norm() + move(u).velocity.norm());
     }
+    if (i > 0) longest_step_ = std::max(longest_step_, along - samples_.back().along);
     samples_.push_back({u, along, move(u).centre});
   }
+  longest_step_ *= 1.001;  // of Simpson's rule
 }
 
 double CentrelineCurve::along_of(double u) const {
@@ -114,14 +117,25 @@ double CentrelineCurve::refined(const Vec3& x, double u, double lower, double up
   return u;
 }
 
+/// Of those from `first` on; the last, if there are none. A sample that is farther than the best so far has none that
+/// is closer within as many steps as lie between.
+std::size_t CentrelineCurve::nearest_sample(const Vec3& x, double first) const {
+  const auto begin = std::lower_bound(samples_.begin(), samples_.end() - 1, first,
+                                      [](const Sample& s, double value) { return s.u < value; });
+  auto best = static_cast<std::size_t>(begin - samples_.begin());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = best; i < samples_.size();) {
+    const double distance = (samples_[i].centre - x).norm();
+    if (distance < least) best = i, least = distance;
+    const double steps = (distance - least) / longest_step_;
+    i += steps > 1 ? static_cast<std::size_t>(std::min(steps, static_cast<double>(samples_.size()))) : 1;
+  }
+  return best;
+}
+
 CentrelineCurve::Place CentrelineCurve::nearest(const Vec3& x, double from) const {
   const double first = from > 0 ? u_of(from) : 0;
-  std::size_t best = samples_.size();
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-    if (samples_[i].u >= first &&
-        (best == samples_.size() || (samples_[i].centre - x).squaredNorm() < (samples_[best].centre - x).squaredNorm()))
-      best = i;
-  if (best == samples_.size()) --best;
+  const std::size_t best = nearest_sample(x, first);
   const double lower = std::max(first, samples_[best > 0 ? best - 1 : 0].u),
                upper = std::max(lower, samples_[std::min(best + 1, samples_.size() - 1)].u);
   const double u = refined(x, std::clamp(samples_[best].u, lower, upper), lower, upper);

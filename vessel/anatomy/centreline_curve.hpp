@@ -35,6 +35,7 @@ class CentrelineCurve {
   };
   Motion move(double u) const;
   double radius(double u) const;
+  std::size_t nearest_sample(const Vec3& x, double first) const;
   double refined(const Vec3& x, double u, double lower, double upper) const;
   double u_of(double along) const;
   double along_of(double u) const;
@@ -44,6 +45,7 @@ class CentrelineCurve {
   std::vector<double> u_, radii_;
   Points knots_, second_;  ///< second derivatives at the knots
   std::vector<Sample> samples_;
+  double longest_step_ = 0;  ///< between samples [length]
 };
 
 }  // namespace tether

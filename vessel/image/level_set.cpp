@@ -10,6 +10,7 @@
 #include "common/base/error.hpp"
 #include "vessel/image/basins.hpp"
 #include "vessel/image/edge_map.hpp"
+#include "vessel/image/half_way.hpp"
 #include "vessel/image/smooth_field.hpp"
 #include "vessel/image/stops.hpp"
 
@@ -138,6 +139,10 @@ struct Ground {
   std::vector<char> inside, barred;
   ImageVolume steepness;  ///< 1 at the wall's edge
   double edge = 0;        ///< [per cm]
+  // what it is settled by
+  ImageVolume grey;             ///< smooth
+  double contrast = 0;          ///< of the wall
+  std::vector<char> of_others;  ///< barred, or in a neighbour's basin
 };
 
 struct Settled {
@@ -219,15 +224,17 @@ Ground ground_of(const ImageVolume& image, const LumenImageCase& how, const std:
   smooth_field(smooth, deviation);
   ground.steepness = gradient_magnitude(smooth);
   ground.edge = how.level_set->edge.value_or(wall_around(smooth, ground.steepness, seeds).edge);
-  std::vector<char> kept_out = ground.barred;
+  ground.of_others = ground.barred;
   ImageVolume basin;
   if (!neighbours.empty()) {
     basin = neighbours_basin(ground.steepness, seeds, neighbours);
-    for (std::size_t n = 0; n < kept_out.size(); ++n) kept_out[n] = kept_out[n] || basin.values[n] > 0;
+    for (std::size_t n = 0; n < basin.values.size(); ++n)
+      ground.of_others[n] = ground.of_others[n] || basin.values[n] > 0;
   }
   WallSeen sought = wall;
   sought.edge = ground.edge;
-  ground.inside = flooded(smooth, ground.steepness, sought, seeds, kept_out);
+  ground.inside = flooded(smooth, ground.steepness, sought, seeds, ground.of_others);
+  ground.grey = std::move(smooth), ground.contrast = wall.contrast;
   for (float& value : ground.steepness.values) value /= static_cast<float>(ground.edge);
   if (!neighbours.empty()) add_border(ground, std::move(basin));
   return ground;
@@ -240,7 +247,10 @@ LevelSet level_set(const ImageVolume& image, const LumenImageCase& how, const st
   const Ground ground = ground_of(image, how, seeds, neighbours);
   for (int margin = 16;; margin *= 4) {
     Settled settled = settled_in(box_around(image, ground.inside, margin), ground, *how.level_set);
-    if (!settled.reaches_side) return std::move(settled.found);
+    if (settled.reaches_side) continue;
+    LevelSet& found = settled.found;
+    move_half_way(found.field, ground.grey, ground.of_others, ground.contrast, ground.edge);
+    return std::move(found);
   }
 }
 

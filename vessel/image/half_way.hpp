@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "vessel/image/image_volume.hpp"
+
+namespace tether {
+
+/// Moves a front to where the image is half way between what lies on its two sides, by at most a voxel: curvature no
+/// longer narrows the lumen (M.22). `field`: positive in the lumen, near the front the distance from it in shortest
+/// sides of a voxel. Not where `kept`, and not where the sides differ by half of the wall's contrast or less.
+/// contrast, edge: of the wall, as values and as their change [per cm].
+void move_half_way(ImageVolume& field, const ImageVolume& image, const std::vector<char>& kept, double contrast,
+                   double edge);
+
+}  // namespace tether
