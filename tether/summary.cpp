@@ -8,9 +8,10 @@ namespace tether {
 namespace {
 
 std::string cost(const RunSummary& s) {
-  return fmt::format("  {} steps in {:.1f} s: {:.3f} s a step; CPU {:.1f} s, memory {:.0f} MB over all processes\n",
-                     s.steps, s.wall_seconds, s.seconds_per_step, s.cpu_seconds.at("total"),
-                     s.peak_memory_mb.at("total"));
+  return fmt::format(
+      "  {} steps in {:.1f} s, {:.1f} of CPU: {:.3f} and {:.3f} s a step; memory {:.0f} MB over all processes\n",
+      s.steps, s.wall_seconds, s.loop_cpu_seconds.at("total"), s.seconds_per_step, s.cpu_seconds_per_step,
+      s.peak_memory_mb.at("total"));
 }
 
 std::string pressure(const std::optional<PressureRange>& p) {

@@ -199,12 +199,13 @@ void check_lumen(const FluidMesh& fluid, const UnitSystem& units, const std::str
         in_mm * likely_factor(in_mm));
 }
 
-void check_thickness(const VesselMesh& vessel, const std::string& where) {
+void check_thickness(const VesselMesh& vessel, const UnitSystem& units, const std::string& where) {
   const double diameter = mean_lumen_diameter(vessel.fluid);
   if (const double thickness = mean_wall_thickness(vessel.wall);
       thickness > 0.5 * diameter || thickness < 1e-3 * diameter)
-    throw input_error("{}: the wall is {:.4g} thick on average, the lumen {:.4g} wide: must be 0.001 to 0.5 of it",
-                      where, thickness, diameter);
+    throw input_error(
+        "{}: the wall is {:.4g} {} thick on average, the lumen {:.4g} {} wide: must be 0.001 to 0.5 of it", where,
+        thickness, units.symbol(dimension::length), diameter, units.symbol(dimension::length));
 }
 
 /// The size first, if there is a lumen: a lumen of 20 m has elements that are flat for its wall's sake, but that is not
@@ -214,7 +215,7 @@ void check(const VesselMesh& vessel, const UnitSystem& units, const std::string&
   check(vessel.fluid);
   check(vessel.wall);
   check_interface(vessel);
-  check_thickness(vessel, where);
+  check_thickness(vessel, units, where);
 }
 
 MeshReport report(const VesselMesh& vessel) {

@@ -142,8 +142,12 @@ OuterSurface outer_surface(const InterfaceSurface& surface, const Points& direct
                            const ExtrusionSettings& settings) {
   const GrowthBase base{surface.points, surface.triangles, directions, rim_planes(surface, rims), settings.layers};
   const VectorXd asked = asked_thickness(surface, settings);
+  const auto share = [](const OuterSurface& outer) { return outer.aim.cwiseQuotient(outer.asked).minCoeff(); };
   try {
-    return grow_outer_surface(base, asked);
+    OuterSurface outer = grow_outer_surface(base, asked);
+    if (share(outer) >= settings.least_share * (1 - 1e-9)) return outer;
+    OuterSurface thicker = grow_outer_surface(base, asked, short_steps);
+    return share(thicker) > share(outer) ? std::move(thicker) : std::move(outer);
   } catch (const PlacedError& error) {
     throw PlacedError(fmt::format("{}: {}", settings.field, error.what()), error.places);
   }

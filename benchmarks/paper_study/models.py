@@ -1,4 +1,5 @@
 """Truth, model and data of the study, and the cases of its figures."""
+import concurrent.futures
 import math
 
 from anatomy import OUTLET, PARTS, SUPPORTED, held, stiffness, vessel
@@ -48,8 +49,10 @@ class Study:
         self.truth = self.shop.case("truth", truth, {"time.step": self.size.truth.step, "output.write_every": 100000, **held(TRUTH)})
         self.truth_run = self.shop.make("simulate", self.truth, after=["fine_mesh", "fine_outlets"])
         self.model = self.shop.case("model", self.beat, {"time.step": self.size.model.step, "output.write_every": 100000, **held(NONE)})
-        self.data = {seed: self.twin(f"data_{seed}", seed) for seed in self.size.seeds}
-        self.between = self.twin("between", 100, first=FRAME_APART / 2)
+        with concurrent.futures.ThreadPoolExecutor(2) as workers:  # each twin is made by one process
+            between = workers.submit(self.twin, "between", 100, first=FRAME_APART / 2)
+            self.data = dict(zip(self.size.seeds, workers.map(lambda seed: self.twin(f"data_{seed}", seed), self.size.seeds)))
+        self.between = between.result()
 
     def twin(self, name, seed, first=0, deviation=NOISE):
         """The model's case with ten frames of the truth, 90 ms apart; all twins share the truth's run."""

@@ -58,7 +58,7 @@ def observed(study, figure):
         runs = {gain: lambda gain=gain, fields=fields: study.direct(f"observed_{gain}_{start}", {**pulled(gain), **supports(BY_HAND), **fields}) for gain in GAINS}
         if start == "right":
             runs[0] = lambda: study.direct("by_hand", supports(BY_HAND))
-        folders = study.shop.those_made(runs)
+        folders = study.shop.those_made(runs, at_once=2)
         rows = [(f"gain {gain} 1/s, {start} start", moments(folder)) for gain, folder in folders.items()]
         table |= {(start, gain): (*whole(folders[gain]), max(v for m in found for v in m.linf.values())) for gain, (_, found) in zip(folders, rows)}
         if rows:
@@ -69,7 +69,7 @@ def observed(study, figure):
 def direct_runs(study, figure, identified):
     """Figure 13. identified: [(name, values by region)]."""
     models = {"no support": ("none", {}), "by hand": ("by_hand", supports(BY_HAND)), **{title: (f"direct_{name}", supports(values)) for name, title, values in identified}}
-    folders = study.shop.those_made({title: lambda name=name, fields=fields: study.direct(name, fields) for title, (name, fields) in models.items()})
+    folders = study.shop.those_made({title: lambda name=name, fields=fields: study.direct(name, fields) for title, (name, fields) in models.items()}, at_once=2)
     rows = {title: moments(folder) for title, folder in folders.items()}
     plots.distances(figure("figure13"), list(rows.items()))
     return {title: (*whole(folders[title]), {region: over_beat(found, region)[0] for region in ERROR_REGIONS}) for title, found in rows.items()}

@@ -1,9 +1,9 @@
 """Makes the study's steps by tether's verbs, each once, in a folder of its own."""
+import concurrent.futures
 import hashlib
 import json
 import os
 import pathlib
-import resource
 import subprocess
 import time
 
@@ -27,9 +27,13 @@ def nested(fields):
     return whole
 
 
-def children_cpu():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+def ended(process):
+    """(exit code, CPU seconds of it and of what it started, what it complained of): of one process, for steps run beside each other."""
+    said = process.stderr.read()
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    process.stderr.close()
+    return process.returncode, used.ru_utime + used.ru_stime, said
 
 
 class Failed(RuntimeError):
@@ -81,13 +85,13 @@ class Workshop:
             raise Failed(name, before["failed"]) if before.get("key") == key and before.get("failed") else NotMade(name)
         goes_on = verb in RESUMED and before.get("key") == key and any((folder / "checkpoint").glob("*"))
         self._note(name, key=key)
-        cpu, begun = children_cpu(), time.time()
+        begun = time.time()
         options = [*(["--resume"] if goes_on else []), *(["--quiet"] if verb in OF_CASES else []), *(["--overwrite"] if verb in OF_CASES and verb not in GOES_ON_BY_ITSELF else [])]
-        done = subprocess.run([PROGRAMS / "tether", verb, case, "--output", folder, *options], capture_output=True, text=True, env={**os.environ, "TETHER_PICTURES": "0"})
-        if done.returncode != 0:
-            self._note(name, key=key, failed=f"{verb} {case}:\n{done.stdout[-2000:]}{done.stderr}")
+        code, cpu, said = ended(subprocess.Popen([PROGRAMS / "tether", verb, case, "--output", folder, *options], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "TETHER_PICTURES": "0"}))
+        if code != 0:
+            self._note(name, key=key, failed=f"{verb} {case}:\n{said[-4000:]}")
             raise Failed(name, self.step(name)["failed"])
-        took = {"cpu_seconds": children_cpu() - cpu, "wall_seconds": time.time() - begun}
+        took = {"cpu_seconds": cpu, "wall_seconds": time.time() - begun}
         if verb in GOES_ON_BY_ITSELF:  # with what it made before it was broken off
             took = {key: read(folder / RESULTS[verb])["cost"][key] for key in took}
         self._note(name, key=key, **took)
@@ -103,12 +107,14 @@ class Workshop:
         file = self.ledger / f"{name}.json"
         return read(file) if file.exists() else {}
 
-    def those_made(self, makers):
-        """Results of functions by key; without those whose steps are not there, or broke off."""
+    def those_made(self, makers, at_once=1):
+        """Results of functions by key; without those whose steps are not there, or broke off. at_once: of them; what is to be timed stands alone."""
+        with concurrent.futures.ThreadPoolExecutor(at_once) as workers:
+            waiting = {key: workers.submit(maker) for key, maker in makers.items()}
         results = {}
-        for key, maker in makers.items():
+        for key, made in waiting.items():
             try:
-                results[key] = maker()
+                results[key] = made.result()
             except NotMade:
                 pass
             except Failed as failed:

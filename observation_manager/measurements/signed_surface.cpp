@@ -198,8 +198,8 @@ struct SignedSurface::Tree {
     known.triangles.clear();
     for (const Near& near : found) known.triangles.push_back({near.triangle, std::sqrt(near.squared)});
     const double gap = known.triangles.back().distance - known.triangles.front().distance;
-    known.reach = found.size() > kept_triangles ? std::max(0.0, gap / 2 - rounding)
-                                                : std::numeric_limits<double>::infinity();
+    known.reach =
+        found.size() > kept_triangles ? std::max(0.0, gap / 2 - rounding) : std::numeric_limits<double>::infinity();
     return described(x, found.front());
   }
 

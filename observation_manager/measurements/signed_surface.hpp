@@ -28,8 +28,8 @@ struct NearTriangle {
 
 /// What is known of the triangles around a point that moves a little from look to look.
 struct Neighbourhood {
-  Vec3 centre = Vec3::Zero();            ///< where the point was when they were sought
-  double reach = 0;                      ///< while it is no farther from there, one of them is the closest [length]
+  Vec3 centre = Vec3::Zero();           ///< where the point was when they were sought
+  double reach = 0;                     ///< while it is no farther from there, one of them is the closest [length]
   std::vector<NearTriangle> triangles;  ///< the closest first; none: nothing is known
 };
 

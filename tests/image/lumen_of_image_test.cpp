@@ -52,6 +52,20 @@ TEST_P(EachMethod, HalfTheVoxelIsHalfAsFarOff) {
   EXPECT_GT(std::log2(coarse / fine), 0.8);
 }
 
+/// A front is drawn inward by its curvature, a narrow vessel's most; what it leaves is moved to the wall.
+TEST(LevelSet, ATubeSixVoxelsWideIsNoNarrower) {
+  const Off found = off(ImageMethod::level_set, truth_of(bent_tube(96, 132)), {.voxel = 0.33}, tube_middle(0.5));
+  EXPECT_NEAR(found.bias, 0, 0.2) << "voxels";
+}
+
+/// Walls that face thick slices are as many voxels wide as others: they hold a front as well.
+TEST(LevelSet, DoesNotLeakThroughThickSlices) {
+  const Truth truth = arch(TETHER_SOURCE);
+  const Off found = off(ImageMethod::level_set, truth, {.voxel = 0.12, .shape = {1, 1, 3}}, {14.6, 15.2, 30.1});
+  EXPECT_LT(found.mean, 1.0 / 3);
+  EXPECT_LT(found.p95, 1);
+}
+
 /// Beside the bent tube a ball of almost its values, which it touches over 6 mm.
 double ball_beside(const Vec3& x, double) {
   const Vec3 middle = tube_middle(0.5) + 1.9 * tube_middle(0.5).normalized();

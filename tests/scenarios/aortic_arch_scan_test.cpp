@@ -33,8 +33,8 @@ TEST(AorticArchScan, RunsFromItsVoxels) {
   for (const BuiltOpening& opening : summary.openings)
     EXPECT_EQ(opening.at_image_border, opening.name != "ascending") << opening.name;
   EXPECT_NEAR(summary.openings[0].radius, 1.533, 0.05) << "cm; of data/aortic_arch_adult/regions.csv";
-  EXPECT_NEAR(summary.openings[2].radius, 0.529, 0.1)
-      << "cm; the left subclavian, 7 voxels wide: half a voxel narrower by the front (longer edges lose more of it)";
+  EXPECT_NEAR(summary.openings[2].radius, 0.529, 0.075)
+      << "cm; the left subclavian, 7 voxels wide: half a voxel (edges of 4 mm across it lose most of that)";
   for (const char* file : {"1_slices.png", "1_read.vtp", "surface.vtp", "model/case.yaml"})
     EXPECT_TRUE(fs::exists(model / file)) << file;
 

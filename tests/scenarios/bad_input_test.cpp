@@ -232,7 +232,7 @@ const Mistake mistakes[] = {
     {"NegativeThickness", In::the_case, "wall_thickness: 0.2", "wall_thickness: -0.2",
      "case.yaml:9: mesh.swept.wall_thickness: -0.2 cm: must be positive (of the imaged wall)"},
     {"WallThickerThanLumen", In::the_case, "wall_thickness: 0.2", "wall_thickness: 3",
-     "case.yaml:4: mesh: the wall is 2.898 thick on average, the lumen 3.864 wide: must be 0.001 to 0.5 of it"},
+     "case.yaml:4: mesh: the wall is 2.898 cm thick on average, the lumen 3.864 cm wide: must be 0.001 to 0.5 of it"},
     {"NoSuchColumn", In::the_case, "value: q", "value: flow",
      "case.yaml:18: fluid.inlets.inlet.flow.value: flow: inflow.csv has no column 'flow'; its columns are t, q"},
     {"CellIsNoNumber", In::the_curve, "100", "much", "inflow.csv:3: q: 'much' is not a number"},

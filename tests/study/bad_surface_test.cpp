@@ -227,6 +227,16 @@ const Refused refused[] = {
 INSTANTIATE_TEST_SUITE_P(BadSurface, RefusedSurface, ::testing::ValuesIn(refused),
                          [](const auto& info) { return std::string(info.param.name); });
 
+/// In the plane of its rim, with a third side that what closes the rim has, too.
+TEST(BadSurface, ATriangleThatSticksOutOfARimIsLeftOut) {
+  const BuiltSurface built = build_surface(spoilt("sticks_out", [](RawSurface& s) {
+    const Vec3 middle = testing::tube_middle(0), beside = (s.points.col(0) + s.points.col(1)) / 2;
+    add(s, {0, 1, add_point(s, middle + 1.05 * (beside - middle))});
+  }));
+  EXPECT_NEAR(built.summary.surface.volume, testing::tube_volume(), 0.02 * testing::tube_volume());
+  EXPECT_EQ(built.surface.openings.size(), 2U);
+}
+
 TEST(BadSurface, AMoebiusStripIsRefused) {
   bool placed = false;
   EXPECT_NE(refusal(spoilt("moebius",

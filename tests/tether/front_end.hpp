@@ -20,7 +20,8 @@ inline RunSummary summary_of_two_steps() {
   RunSummary s;
   s.steps = 2;
   s.wall_seconds = 1.25, s.seconds_per_step = 0.625;
-  s.cpu_seconds["total"] = 2.5, s.peak_memory_mb["total"] = 99.6;
+  s.cpu_seconds["total"] = 2.5, s.loop_cpu_seconds["total"] = 2, s.cpu_seconds_per_step = 1,
+  s.peak_memory_mb["total"] = 99.6;
   s.pressure.emplace();
   s.pressure->min_mmhg = 0.75, s.pressure->max_mmhg = 1.5;
   s.max_displacement_mm = 2;

@@ -14,7 +14,7 @@ TEST_F(FrontEnd, SimulatesDrawsAndSaysWhereToLook) {
   EXPECT_EQ(end.exit_code, 0) << end.errors;
   EXPECT_EQ(end.output, R"(tube: A tube
 2 steps of 0.1 s, results in results
-  2 steps in 1.2 s: 0.625 s a step; CPU 2.5 s, memory 100 MB over all processes
+  2 steps in 1.2 s, 2.0 of CPU: 0.625 and 1.000 s a step; memory 100 MB over all processes
   pressure       0.8 .. 1.5 mmHg
   displacement   at most 2 mm
   coupling       2.50 evaluations a step, at most 3 (iqn_ils)

@@ -20,9 +20,8 @@ namespace {
 constexpr double poor = 0.3, sound = 0.2, folded = 0.1;
 constexpr double thin = 0.8;             ///< of the asked thickness: below it the neighbourhood is improved
 constexpr double thickness_weight = 50;  ///< an error of a tenth weighs as a prism half as good
-constexpr double less = 0.75;            ///< of the aim where there is no room, at a time
 constexpr double steepest = 0.5;         ///< the aim's change over the way, where it was made less
-constexpr int rings_around = 3, most_rounds = 8, most_softenings = 12;
+constexpr int rings_around = 3, most_softenings = 12;
 
 using Marks = std::vector<char>;
 
@@ -34,9 +33,10 @@ Mat3 corners_of(const Points& points, const Triangle& t) {
 class Growth {
  public:
   /// least: det T that all prisms shall have.
-  Growth(const GrowthBase& base, const VectorXd& asked, double least)
+  Growth(const GrowthBase& base, const VectorXd& asked, const GrowthSteps& steps, double least)
       : base_(base),
         asked_(asked),
+        steps_(steps),
         least_(least),
         aim_(asked),
         locator_(base.points, base.triangles),
@@ -44,7 +44,7 @@ class Growth {
         moved_(static_cast<std::size_t>(base.points.cols()), 0) {}
 
   OuterSurface grown() {
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < steps_.most; ++round) {
       improve();
       const std::vector<int> bad = unfit();
       if (bad.empty()) return result();
@@ -180,8 +180,8 @@ class Growth {
         marked[static_cast<std::size_t>(node)] = 1;
     for (int node = 0; node < base_.points.cols(); ++node)
       if (marked[static_cast<std::size_t>(node)]) {
-        if (less * aim_[node] < least_share * asked_[node]) refuse(node);
-        aim_[node] *= less;
+        if (steps_.left * aim_[node] < least_share * asked_[node]) refuse(node);
+        aim_[node] *= steps_.left;
       }
     flatten();
     for (int node = 0; node < base_.points.cols(); ++node)
@@ -224,6 +224,7 @@ class Growth {
 
   const GrowthBase& base_;
   const VectorXd& asked_;
+  GrowthSteps steps_;
   double least_;
   VectorXd aim_;
   TriangleLocator locator_;
@@ -233,11 +234,11 @@ class Growth {
 
 }  // namespace
 
-OuterSurface grow_outer_surface(const GrowthBase& base, const VectorXd& asked) {
+OuterSurface grow_outer_surface(const GrowthBase& base, const VectorXd& asked, const GrowthSteps& steps) {
   try {
-    return Growth(base, asked, sound).grown();
+    return Growth(base, asked, steps, sound).grown();
   } catch (const PlacedError&) {
-    return Growth(base, asked, folded).grown();
+    return Growth(base, asked, steps, folded).grown();
   }
 }
 

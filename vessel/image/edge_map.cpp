@@ -50,6 +50,7 @@ void see_wall(const Ray& ray, std::vector<double>& edges, std::vector<double>& c
 
 ImageVolume gradient_magnitude(const ImageVolume& image) {
   ImageVolume result = image;
+  const double side = image.spacing.minCoeff();
   const std::array<std::size_t, 3> stride{1, image.at(0, 1, 0), image.at(0, 0, 1)};
   for (std::size_t n = 0; n < image.values.size(); ++n) {
     const std::array<int, 3> voxel = image.voxel(n);
@@ -58,8 +59,7 @@ ImageVolume gradient_magnitude(const ImageVolume& image) {
       const std::size_t low = voxel[axis] > 0 ? n - stride[axis] : n;
       const std::size_t high = voxel[axis] + 1 < image.count[axis] ? n + stride[axis] : n;
       const std::size_t voxels_apart = (high - low) / stride[axis];
-      const double way = image.spacing[static_cast<int>(axis)] * static_cast<double>(voxels_apart);
-      const double slope = (image.values[high] - image.values[low]) / way;
+      const double slope = (image.values[high] - image.values[low]) / (side * static_cast<double>(voxels_apart));
       square += slope * slope;
     }
     result.values[n] = static_cast<float>(std::sqrt(square));

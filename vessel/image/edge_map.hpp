@@ -4,7 +4,9 @@
 
 namespace tether {
 
-/// How fast values change, by central differences; one-sided at the border [per cm].
+/// How fast values change, by central differences; one-sided at the border [per cm]. All sides of a voxel count as its
+/// shortest: blur and smoothing are as many voxels along each axis, and an edge is then as steep whichever way it
+/// faces.
 ImageVolume gradient_magnitude(const ImageVolume& image);
 
 /// What rays from the seeds find at the lumen's wall: lower quartiles over the rays, since the wall that a front must

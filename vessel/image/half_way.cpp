@@ -7,10 +7,10 @@
 namespace tether {
 namespace {
 
-// All in shortest sides of a voxel.
+// All in voxels, whatever their sides.
 constexpr double from_wall = 1.5;  ///< what is nearer to it is blurred with the other side
-constexpr double of_side = 3;      ///< what is farther is not the wall's surroundings any more
-constexpr double around = 4;       ///< of a voxel, where its two sides are looked for
+constexpr double of_side = 3;      ///< what is farther is not the wall's surroundings any more, in both alike
+constexpr int around = 4;          ///< of a voxel, where its two sides are looked for
 constexpr double most_moved = 1;
 
 /// Values of voxels around one.
@@ -33,12 +33,10 @@ struct Sides {
 class Surroundings {
  public:
   explicit Surroundings(const ImageVolume& image) : image_(image) {
-    const Vec3 sides = image.spacing / image.spacing.minCoeff();
-    const auto reach = [&](Eigen::Index axis) { return static_cast<int>(around / sides[axis]); };
-    for (int k = -reach(2); k <= reach(2); ++k)
-      for (int j = -reach(1); j <= reach(1); ++j)
-        for (int i = -reach(0); i <= reach(0); ++i)
-          if (Vec3(i, j, k).cwiseProduct(sides).norm() <= around) steps_.push_back({i, j, k});
+    for (int k = -around; k <= around; ++k)
+      for (int j = -around; j <= around; ++j)
+        for (int i = -around; i <= around; ++i)
+          if (i * i + j * j + k * k <= around * around) steps_.push_back({i, j, k});
   }
   /// front: positive in the lumen, a distance from it.
   Sides of(std::size_t n, const std::vector<float>& front) const {
@@ -48,7 +46,7 @@ class Surroundings {
       const std::optional<std::size_t> other = beside(voxel, step);
       if (!other) continue;
       const double distance = front[*other];
-      if (std::abs(distance) < from_wall || distance <= -of_side) continue;
+      if (std::abs(distance) < from_wall || std::abs(distance) >= of_side) continue;
       (distance > 0 ? sides.lumen : sides.outside).add(image_.values[*other]);
     }
     return sides;
@@ -71,7 +69,7 @@ class Surroundings {
 
 void move_half_way(ImageVolume& field, const ImageVolume& image, const std::vector<char>& kept, double contrast,
                    double edge) {
-  constexpr int passes = 2;  // the sides of a front that lies inward have some of the lumen
+  constexpr int passes = 2;  // a front that lies inward takes some of the lumen for what is outside
   const Surroundings surroundings(image);
   const double width = contrast / (edge * image.spacing.minCoeff());
   const std::vector<float> front = field.values;

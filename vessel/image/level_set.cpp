@@ -69,17 +69,14 @@ void for_each(const Box& box, const ImageVolume& image, Visit visit) {
       }
 }
 
-/// In units of the shortest side of a voxel, so that weights do not depend on the image's size.
-Grey::Pointer empty_image(const Box& box, const Vec3& spacing) {
+/// Its voxels are cubes of side 1, whatever the image's are: weights do not depend on the image's size, and walls, some
+/// voxels wide along each axis, hold a front alike whichever way they face.
+Grey::Pointer empty_image(const Box& box) {
   const auto image = Grey::New();
   Grey::SizeType size;
-  Grey::SpacingType voxel;
-  for (unsigned axis = 0; axis < 3; ++axis) {
+  for (unsigned axis = 0; axis < 3; ++axis)
     size[axis] = static_cast<itk::SizeValueType>(box.high[axis] - box.low[axis]) + 1;
-    voxel[axis] = spacing[axis] / spacing.minCoeff();
-  }
   image->SetRegions(size);
-  image->SetSpacing(voxel);
   image->Allocate();
   return image;
 }
@@ -140,7 +137,7 @@ struct Ground {
   ImageVolume steepness;  ///< 1 at the wall's edge
   double edge = 0;        ///< [per cm]
   // what it is settled by
-  ImageVolume grey;             ///< smooth
+  ImageVolume grey;             ///< less smooth than what it is moved by
   double contrast = 0;          ///< of the wall
   std::vector<char> of_others;  ///< barred, or in a neighbour's basin
 };
@@ -153,7 +150,7 @@ struct Settled {
 /// The front in a box: grown with a push outward until it stands still, then settled without, by small steps.
 Settled settled_in(const Box& box, const Ground& ground, const LevelSetCase& how) {
   const ImageVolume& image = ground.steepness;
-  const auto start = empty_image(box, image.spacing), evenness = empty_image(box, image.spacing);
+  const auto start = empty_image(box), evenness = empty_image(box);
   for_each(box, image, [&](const BoxVoxel& voxel) {
     const double steepness = 2 * image.values[voxel.of_image];
     start->GetBufferPointer()[voxel.number] = ground.inside[voxel.of_image] ? -0.5F : 0.5F;
@@ -234,7 +231,10 @@ Ground ground_of(const ImageVolume& image, const LumenImageCase& how, const std:
   WallSeen sought = wall;
   sought.edge = ground.edge;
   ground.inside = flooded(smooth, ground.steepness, sought, seeds, ground.of_others);
-  ground.grey = std::move(smooth), ground.contrast = wall.contrast;
+  ground.contrast = wall.contrast;
+  ground.grey = image;
+  clamp_values(ground.grey, wall);
+  smooth_field(ground.grey, how.smoothing.value_or(smoothing_of_grey));
   for (float& value : ground.steepness.values) value /= static_cast<float>(ground.edge);
   if (!neighbours.empty()) add_border(ground, std::move(basin));
   return ground;

@@ -14,10 +14,8 @@
 namespace tether {
 namespace {
 
-// The least that leaves a tube's surface smooth to a tenth of a voxel: of a mask's steps, of noise a tenth of the
-// contrast.
-constexpr double smoothing_of_labels = 1, smoothing_of_grey = 0.7;  // [voxels]
-constexpr double noted_anisotropy = 3;  // slices thicker than that hide how a vessel of some voxels' width goes on
+constexpr double smoothing_of_labels = 1;  ///< the least that leaves of a mask's steps a tenth of a voxel [voxels]
+constexpr double noted_anisotropy = 3;     // slices thicker than that hide how a vessel of some voxels' width goes on
 
 /// 1/2 in the lumen, -1/2 outside.
 ImageVolume label_field(const ImageVolume& image) {

@@ -125,7 +125,7 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
         wall.points, wall.outside.front().triangles,
         rules_of(study.regions, &anatomy, units, [](const std::string& name) { return "model.regions." + name; }),
         &anatomy);
-  check(model.mesh, units);
+  check(model.mesh, units, "model.wall");
   model.quality = quality_of(model, units);
   return model;
 }

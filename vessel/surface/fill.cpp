@@ -16,7 +16,7 @@ void fill(RawSurface& surface, const Rim& rim, int face_id) {
   // In the plane of the rim: through a Delaunay tetrahedralisation each run made other triangles.
   CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
       loop, std::back_inserter(patch), CGAL::parameters::use_2d_constrained_delaunay_triangulation(true));
-  if (patch.empty())
+  if (patch.size() != rim.nodes.size() - 2)
     throw PlacedError("the hole at " + text_of_place(rim.plane.origin) + " cannot be closed", {rim.plane.origin});
   for (const auto& t : patch) {  // against the loop's sense, which is the border's
     surface.triangles.push_back({rim.nodes[t.first], rim.nodes[t.third], rim.nodes[t.second]});

@@ -89,6 +89,24 @@ std::vector<Rim> open_labels(RawSurface& surface, const std::vector<int>& ids) {
   return rims;
 }
 
+namespace {
+
+/// Triangles with two sides on a rim lie in its plane, once that is flat: they are no part of the wall, and their third
+/// side may be an edge of what closes the rim.
+void drop_ears(RawSurface& surface) {
+  for (bool found = true; found;) {
+    std::vector<int> open_sides(surface.triangles.size(), 0);
+    for (const auto& [edge, uses] : edges_of(surface.triangles))
+      if (uses.size() == 1) ++open_sides[static_cast<std::size_t>(uses.front().triangle)];
+    std::vector<bool> keep;
+    for (const int count : open_sides) keep.push_back(count < 2);
+    found = std::find(keep.begin(), keep.end(), false) != keep.end();
+    if (found) surface = kept(surface, keep);
+  }
+}
+
+}  // namespace
+
 void flatten_rims(Repaired& state) {
   RepairNote moved{RepairKind::rims_flattened}, cut{RepairKind::rims_cut};
   for (const Rim& rim : rims_of(state.surface)) {
@@ -118,6 +136,7 @@ void flatten_rims(Repaired& state) {
       break;
     }
   }
+  drop_ears(state.surface);
   for (const RepairNote& note : {moved, cut})
     if (note.count > 0) state.notes.push_back(note);
 }
