@@ -41,7 +41,7 @@ def values_by_region(folder):
 def four_parameters(study, figure):
     """Figure 11: the paper's two priors with its weights, the same with the noise as it is, and two wide priors of our own."""
     fields = {**{prior: four(prior) for prior in PRIORS}, **{f"{prior}_weighed": four(prior, **PAPER_WEIGHTS) for prior in ("light", "by_hand")}}
-    folders = study.shop.those_made({prior: lambda prior=prior: study.identified(f"four_{prior}", fields[prior]) for prior in fields})
+    folders = study.shop.those_made({prior: lambda prior=prior: study.identified(f"four_{prior}", fields[prior]) for prior in fields}, at_once=2)
     thetas = {name: theta(value) for name, value in TRUE_OF_FOUR.items()}
     titles = {"light_weighed": "prior theta = 0, the paper's weights", "by_hand_weighed": "prior by hand, the paper's weights", "wide": "wide prior, noise as it is"}
     plots.evolutions(figure("figure11"), [(title, *evolution(folders[p]), thetas) for p, title in titles.items() if p in folders])
@@ -55,7 +55,7 @@ def seeds(study):
         fields = four("wide", **({} if observe == "every_step" else {"identification.observe": observe}))
         return found(study.identified(name if first else f"{name}_seed_{seed}", fields, seed), TRUE_OF_FOUR)
 
-    return {observe: study.shop.those_made({seed: lambda seed=seed: of(seed, observe) for seed in study.size.seeds}) for observe in ("every_step", "frames")}
+    return {observe: study.shop.those_made({seed: lambda seed=seed: of(seed, observe) for seed in study.size.seeds}, at_once=2) for observe in ("every_step", "frames")}
 
 
 def eleven_parameters(study, figure, earlier):
@@ -105,10 +105,11 @@ def joint(study):
 def between_frames(study):
     """Corrected between frames too, or at the frames only: with the study's data, and with hardly an error but the voxels'."""
     at_frames = four("wide", 0, **{"identification.observe": "frames"})
-    quiet = lambda name, fields: study.shop.make("identify", study.shop.case(name, study.twin("data_quiet", study.size.seeds[0], deviation="0.01 mm"), fields), after=["data_quiet"])
+    data = study.twin("data_quiet", study.size.seeds[0], deviation="0.01 mm")
+    quiet = lambda name, fields: study.shop.make("identify", study.shop.case(name, data, fields), after=["data_quiet"])
     runs = {("the study's data", "every_step"): lambda: study.identified("joint_0_right", four("wide", 0)), ("the study's data", "frames"): lambda: study.identified("frames", at_frames),
             ("errors of 0.01 mm beside the voxels'", "every_step"): lambda: quiet("quiet_every_step", four("wide", 0)), ("errors of 0.01 mm beside the voxels'", "frames"): lambda: quiet("quiet_frames", at_frames)}
-    return {key: found(folder, TRUE_OF_FOUR) for key, folder in study.shop.those_made(runs).items()}
+    return {key: found(folder, TRUE_OF_FOUR) for key, folder in study.shop.those_made(runs, at_once=2).items()}
 
 
 def explained(study):

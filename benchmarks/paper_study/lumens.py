@@ -52,10 +52,16 @@ def off_the_curves(folder, regions):
 
 
 def measured(folder, frame):
-    """The same of a twin's surface."""
-    piece = xml.etree.ElementTree.parse(folder / f"data/lumen_{frame:02}.vtp").getroot().find(".//Piece")
-    numbers = lambda path: numpy.array(piece.find(path).text.split(), dtype=float)
-    return numbers("Points/DataArray").reshape(-1, 3), numbers("Polys/DataArray[@Name='connectivity']").astype(int).reshape(-1, 3)
+    """The same of a twin's surface: numbers lie behind the text, each array with its length before it."""
+    head, _, numbers = (folder / f"data/lumen_{frame:02}.vtp").read_bytes().partition(b'<AppendedData encoding="raw">\n_')
+    arrays = {a.get("Name"): a for a in xml.etree.ElementTree.fromstring(head + b"</VTKFile>").iter("DataArray")}
+
+    def values(name, kind):
+        start = int(arrays[name].get("offset"))
+        size = int.from_bytes(numbers[start:start + 8], "little")
+        return numpy.frombuffer(numbers[start + 8:start + 8 + size], kind).reshape(-1, 3)
+
+    return values("points", "<f4").astype(float), values("connectivity", "<i4").astype(int)
 
 
 def cut(points, triangles, origin, normal, reach):

@@ -34,7 +34,7 @@ def whole(size, study, parts, missing):
             ("springs [dyn/cm3]: spine, vicinity, elsewhere, outlet ring", *(", ".join(f"{v[r]:g}" for r in ("spine_1", "vicinity_1", "arch", "outlet")) for v in (TRUTH, NONE)))]) +
         f"Data: ten frames {FRAME_APART * 1e3:.1f} ms apart from the first of the beat on, voxels of {' x '.join(map(str, study.size.voxel))} mm, blurred by 0.4 mm, segmented, with errors of {NOISE} that are alike over 5 mm; nine others, half way between them, judge: nothing is fitted to them. "
         f"The paper's noise is about 1 mm, but its weight `w` takes a frame for 180 cm2 x 180 independent errors per cm2 (32,400); by their correlation length they are 115 here ([K.5](../../docs/equations.md#k-identification)).\n\n"
-        f"One beat of 0.8955 s from the imaged state, whose outlets begin in their periodic state. Cost of what is on this page: {shop.cpu_seconds():.0f} CPU s of all processes, on a machine that others used as well; {shop.cpu_seconds() / 120:.0f} minutes of two cores.\n" +
+        f"One beat of 0.8955 s from the imaged state, whose outlets begin in their periodic state. Cost of what is on this page: {shop.cpu_seconds():.0f} CPU s of all processes; {shop.wall_seconds() / 60:.0f} minutes on two cores.\n" +
         (f"\nNot made in this size: {', '.join(missing)}, and rows that are absent below.\n" if missing else "") + broken(shop.broken) + "".join(parts.values()))
 
 

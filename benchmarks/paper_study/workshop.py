@@ -60,6 +60,7 @@ class Workshop:
         self.ledger = folder / "steps"  # a file for each
         self.ledger.mkdir(parents=True, exist_ok=True)
         self.used = []  # names of this study's steps, kept or made
+        self.begun = time.time()
         self.broken = {}  # the last line that a step said which broke off, by its name
 
     def case(self, name, base, fields):
@@ -98,6 +99,16 @@ class Workshop:
         if not self.quiet:
             print(f"{verb} {name}: {self.step(name)['cpu_seconds']:.1f} CPU s", flush=True)
         return folder
+
+    def wall_seconds(self):
+        """Of this command and of those before it that made steps in this folder."""
+        file = self.folder / "wall_seconds.json"
+        before = read(file) if file.exists() else 0.0
+        if not self.makes:
+            return before
+        file.write_text(json.dumps(before + time.time() - self.begun))
+        self.begun = time.time()
+        return read(file)
 
     def cpu_seconds(self):
         """Of all steps of this study."""

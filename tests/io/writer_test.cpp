@@ -4,6 +4,7 @@
 
 #include "common/base/error.hpp"
 #include "common/io/pvd.hpp"
+#include "common/io/vtp_writer.hpp"
 #include "common/io/vtu_writer.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "vessel/mesh_file.hpp"
@@ -43,6 +44,22 @@ TEST(VtuWriter, FailuresAreErrors) {
   EXPECT_THROW(
       write_vtu(folder / "x.vtu", tube.fluid.points, cells_of(tube.fluid), {Field::scalars("p", VectorXd::Zero(3))}),
       InternalError);
+}
+
+/// A surface keeps its order, its labels, and seven digits of its coordinates.
+TEST(VtpWriter, FileIsReadBackByVtk) {
+  const TemporaryFolder folder;
+  Points points(3, 4);
+  points << 0, 0.1, 0, 0,  //
+      0, 0, 1. / 3, 0,     //
+      0, 0, 0, 12345.678;
+  const std::vector<Triangle> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  write_vtp(folder / "closed.vtp", points, triangles, {3, 3, 3, 5});
+  const MeshFile closed = read_mesh_file(folder / "closed.vtp");
+  EXPECT_EQ(closed.points, points.cast<float>().cast<double>());
+  EXPECT_EQ(closed.triangles, triangles);
+  EXPECT_EQ(closed.triangle_labels.at("ModelFaceID"), (std::vector<std::int64_t>{3, 3, 3, 5}));
+  EXPECT_THROW(write_vtp("/no/such/folder/x.vtp", points, triangles), RunError);
 }
 
 TEST(PvdSeries, GrowsAndIsCutOnResuming) {

@@ -3,6 +3,7 @@
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 
@@ -38,6 +39,38 @@ class RadiusAt {
   using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
   CgalMesh mesh_;
   const std::vector<double>& radius_;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
+};
+
+/// The lumen's wall as it was given. CGAL projects what it remeshes onto what it was called with: each further pass, of
+/// another part, lays its nodes onto the facets of the pass before, and a round vessel becomes thinner.
+class GivenWall {
+ public:
+  explicit GivenWall(CgalMesh mesh) : mesh_(std::move(mesh)) {
+    const FaceNumbers ids = ids_of(mesh_);
+    std::vector<CgalMesh::Face_index> wall;
+    for (const auto face : mesh_.faces())
+      if (ids[face] == 0) wall.push_back(face);
+    tree_.insert(wall.begin(), wall.end(), mesh_);
+  }
+  /// Lays nodes that came to lie inside the wall onto it, but those of rims. Those outside stay: where two vessels part
+  /// they round the edge, and a wall needs that to have room there.
+  void take_back(CgalMesh& mesh) const {
+    const FaceNumbers ids = ids_of(mesh);
+    std::vector<std::pair<CgalMesh::Vertex_index, Kernel::Point_3>> moves;
+    for (const auto v : mesh.vertices()) {
+      const auto around = mesh.faces_around_target(mesh.halfedge(v));
+      if (std::any_of(around.begin(), around.end(), [&](CgalMesh::Face_index face) { return ids[face] != 0; }))
+        continue;
+      const Kernel::Point_3 place = tree_.closest_point(mesh.point(v));
+      if (PMP::compute_vertex_normal(v, mesh) * (place - mesh.point(v)) > 0) moves.emplace_back(v, place);
+    }
+    for (const auto& [v, place] : moves) mesh.point(v) = place;
+  }
+
+ private:
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
+  CgalMesh mesh_;
   CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
 };
 
@@ -168,12 +201,14 @@ void remove_slivers(CgalMesh& mesh, double edge) {
 
 LabelledSurface remeshed(const LabelledSurface& surface, const EdgeLength& length, const std::vector<double>& radius) {
   CgalMesh mesh = cgal_mesh({surface.points, surface.triangles, surface.label});
+  const GivenWall given(mesh);
   try {
     if (length.per_radius > 0)
       mesh = remeshed_by_radius(mesh, length, radius, CapAt(surface));
     else
       remesh_part(mesh, {mesh.faces().begin(), mesh.faces().end()}, length.most);
     remove_slivers(mesh, length.per_radius > 0 ? length.least : length.most);
+    if (length.per_radius > 0) given.take_back(mesh);
   } catch (const CGAL::Failure_exception& failure) {
     throw input_error(
         "no triangles with edges of these lengths can be made (CGAL: {}): try other edges, or "
