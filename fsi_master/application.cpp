@@ -87,7 +87,7 @@ std::vector<std::string> notices_of(const CoupledCodes& codes, const RunPlan& pl
       all.push_back(fmt::format("{} ({}) announces no state: this run cannot be resumed, nor used for identification",
                                 partner.role(), hello.program));
   }
-  if (plan.initial && !plan.resume) all.push_back(plan.initial->notice);
+  if (plan.initial) all.push_back(plan.initial->notice);
   if (!plan.quiet)
     for (const std::string& notice : all) fmt::print("{}\n", notice);
   return all;

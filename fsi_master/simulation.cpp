@@ -73,6 +73,9 @@ void Simulation::begin() {
   count_costs(false);
   coupled_otherwise_ = checkpoint.coupling != plan_.coupling;
   saved_step_ = first_step_ = checkpoint.step;
+  if (plan_.last_step < first_step_)
+    fmt::print(stderr, "nothing is left to do: the run went on to {:.6g} s, and time.end is {:.6g} s\n",
+               plan_.time_at(first_step_), plan_.time_at(plan_.last_step));
   plan_.last_step = std::max(plan_.last_step, first_step_);
 }
 

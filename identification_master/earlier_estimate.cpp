@@ -17,9 +17,17 @@ bool is_covariance(const MatrixXd& matrix) {
   return matrix.size() == 0 || variances.minCoeff() >= -digits * variances.maxCoeff();
 }
 
+Estimate estimate_in(const std::filesystem::path& file) {
+  try {
+    return read_record<Estimate>(file);
+  } catch (const InputError& error) {
+    throw input_error("identification.prior_from: must be the estimate.json of an identification: {}", error.what());
+  }
+}
+
 }  // namespace
 
-EarlierEstimate::EarlierEstimate(const std::filesystem::path& file) : told_(read_record<Estimate>(file)) {
+EarlierEstimate::EarlierEstimate(const std::filesystem::path& file) : told_(estimate_in(file)) {
   if (!told_.corrected)
     throw input_error("{}: is of an identification that corrected nothing (observe: never)", file.string());
   const auto count = std::ssize(told_.parameters);

@@ -107,8 +107,11 @@ class Builder {
     if (given_.part_of.empty()) return earlier.find(made_.name);
     if (const auto mother = earlier.find(given_.part_of)) return mother;
     const std::vector<std::string> known = earlier.names();
-    throw input_error("{}: identification.prior_from has no parameter {}{}", where("part_of"), given_.part_of,
-                      known.empty() ? "" : "; it has " + listed(known));
+    if (known.empty())
+      throw input_error("{}: {}: is of an earlier identification: give its estimate.json as identification.prior_from",
+                        where("part_of"), given_.part_of);
+    throw input_error("{}: identification.prior_from has no parameter {}; it has {}", where("part_of"), given_.part_of,
+                      listed(known));
   }
   /// From what an earlier identification knew of it, or of the whole that it is a part of. (K.9)
   void begin_from(const EstimatedParameter& mother, double variance) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -24,7 +25,8 @@ constexpr std::array plots{
     Plot{"displacements.png", "Displacement of points", "point.", ".displacement_length", dimension::length, "mm"},
     Plot{"largest_displacement.png", "Largest displacement of the lumen", "interface.max_displacement", "",
          dimension::length, "mm"},
-    Plot{"support_forces.png", "Force of the support on the wall", "solid.support.", "", dimension::force, "N"},
+    Plot{"support_forces.png", "Magnitude of the support's force on the wall", "solid.support.", ".force_x",
+         dimension::force, "N"},
     Plot{"coupling.png", "Coupling: evaluations a step", "coupling.evaluations", "", dimension::none, ""},
 };
 
@@ -49,15 +51,34 @@ double offset(const Plot& plot, const UnitSystem& units, double image_pressure) 
   return plot.dimension == dimension::pressure ? units.to_mmhg(image_pressure) : 0.0;
 }
 
+/// The column's value in gnuplot's words; of the x component of a vector its magnitude.
+std::string value_of(const CsvTable& table, std::size_t column) {
+  const std::string& name = table.columns()[column];
+  if (!name.ends_with("_x")) return fmt::format("${}", column + 1);
+  const auto number = [&](const char* axis) {
+    const auto found =
+        std::find(table.columns().begin(), table.columns().end(), name.substr(0, name.size() - 1) + axis);
+    return found - table.columns().begin() + 1;
+  };
+  return fmt::format("sqrt(${}**2 + ${}**2 + ${}**2)", column + 1, number("y"), number("z"));
+}
+
+/// Colours are eight; behind them the lines are dashed.
+std::string look_of(int line) {
+  constexpr int colours = 8;
+  return fmt::format("linewidth 2 linecolor {} dashtype {}", line % colours + 1, line / colours + 1);
+}
+
 std::string lines_of(const Plot& plot, const CsvTable& table, const UnitSystem& units, double image_pressure) {
   const std::string unit = plot.dimension == dimension::none ? "" : units.symbol(plot.dimension);
   std::string lines;
+  int count = 0;
   for (std::size_t i = 0; i < table.columns().size(); ++i) {
     const auto name = label(plot, table.columns()[i]);
     if (!name || table.units()[i] != unit) continue;
-    lines += fmt::format("{}'timeseries.csv' using 1:(${}*{} + {}) with lines linewidth 2 title {}",
-                         lines.empty() ? "plot " : ", \\\n     ", i + 1, factor(plot, units),
-                         offset(plot, units, image_pressure), gnuplot_text(*name));
+    lines += fmt::format("{}'timeseries.csv' using 1:({}*{} + {}) with lines {} title {}",
+                         lines.empty() ? "plot " : ", \\\n     ", value_of(table, i), factor(plot, units),
+                         offset(plot, units, image_pressure), look_of(count++), gnuplot_text(*name));
   }
   return lines;
 }

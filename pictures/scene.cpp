@@ -8,6 +8,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkDoubleArray.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPlane.h>
@@ -103,6 +104,21 @@ Place place_of(vtkPointSet* mesh) {
   return place;
 }
 
+/// A colour for each of the names, which neighbours do not share: hues a golden section apart, light and dark in turn.
+vtkSmartPointer<vtkColorTransferFunction> colours_of_names(std::size_t count) {
+  constexpr double golden = 0.618034, half = 0.499;
+  const auto table = vtkSmartPointer<vtkColorTransferFunction>::New();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = static_cast<double>(i);
+    const double hue = std::fmod(0.6 + golden * at, 1), value = i % 2 == 0 ? 0.95 : 0.65;
+    double rgb[3];
+    vtkMath::HSVToRGB(hue, 0.65, value, &rgb[0], &rgb[1], &rgb[2]);
+    table->AddRGBPoint(at - half, rgb[0], rgb[1], rgb[2]);
+    table->AddRGBPoint(at + half, rgb[0], rgb[1], rgb[2]);
+  }
+  return table;
+}
+
 vtkSmartPointer<vtkColorTransferFunction> colours(const Scene& scene, vtkPointSet* mesh) {
   double range[2];
   vtkDataArray* shown = mesh->GetPointData()->GetArray("shown");
@@ -171,6 +187,7 @@ void add_scale(vtkRenderer* renderer, vtkColorTransferFunction* table, const Sce
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.3g");
   bar->SetUnconstrainedFontSize(true);
+  bar->SetVerticalTitleSeparation(scene.width / 75);  // the topmost number stands as high as the bar's end
   for (vtkTextProperty* text :
        {bar->GetTitleTextProperty(), bar->GetLabelTextProperty(), bar->GetAnnotationTextProperty()}) {
     text->SetColor(0, 0, 0);
@@ -222,7 +239,7 @@ void draw(const Scene& scene, const std::filesystem::path& png) {
   add_shown(mesh, scene);
   mesh = displaced(mesh, scene);
   const Place place = place_of(mesh);
-  const auto table = colours(scene, mesh);
+  const auto table = scene.names.empty() ? colours(scene, mesh) : colours_of_names(scene.names.size());
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(8);

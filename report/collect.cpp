@@ -107,6 +107,7 @@ class Collector {
                  {"wall", nullptr},
                  {"provenance", nullptr},
                  {"warnings", Json::array()},
+                 {"remarks", Json::array()},
                  {"notes", Json::array()}};
   }
 
@@ -215,6 +216,7 @@ class Collector {
     const Json estimate = result<Estimate>(folder / "estimate.json");
     if (estimate.is_null()) return;
     if (name.empty()) introduce("estimate", estimate);
+    take_remarks(estimate.at("notices"));
     dated_.emplace_back(titled("The identification", label), folder / "estimate.json");
     std::vector<std::string> names;
     for (const Json& parameter : estimate.at("parameters")) names.push_back(parameter.at("name"));
@@ -292,7 +294,15 @@ class Collector {
     const Json facts = facts_of(result<RunSummary>(folder / "summary.json"));
     if (facts.is_null()) return;
     json["runs"].push_back({{"label", label}, {"finished", date_of(folder / "summary.json")}, {"summary", facts}});
+    take_remarks(facts.at("notices"));
     for (const Json& file : facts.at("made_from").at("files")) recorded_[file.at("field")].insert(file.at("content"));
+  }
+
+  /// Of several runs of one case, each once.
+  void take_remarks(const Json& notices) {
+    Json& all = document_["remarks"];
+    for (const Json& notice : notices)
+      if (std::find(all.begin(), all.end(), notice) == all.end()) all.push_back(notice);
   }
 
   /// A result as its schema has it; null if there is none. Throws InputError if it is another one.

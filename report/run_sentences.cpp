@@ -27,10 +27,18 @@ std::string rest(const HeldBySurroundings& held) {
       100 * held.share, held.largest, held.region);
 }
 
+std::string pulled(const RunSummary& run, const ObserverWork& observer) {
+  return fmt::format(
+      "no evidence for the model: an observer (gain {:g} 1/s) pulled the wall toward the data in {} of {} steps, by at "
+      "most {:.2g} mm in one",
+      observer.gain, observer.corrections, run.steps, observer.largest_correction_mm);
+}
+
 }  // namespace
 
 std::vector<std::string> sentences_of(const RunSummary& run) {
   std::vector<std::string> all{whole(run)};
+  if (run.observer) all.push_back(pulled(run, *run.observer));
   if (run.periodicity && !run.periodicity->beats.empty()) all.push_back(beats(*run.periodicity));
   if (run.rest && run.rest->held) all.push_back(rest(*run.rest->held));
   all.push_back(

@@ -49,7 +49,7 @@ Comparison comparison_of(const MeasuredCase& measured, const FinishedRun& run, c
                          const fs::path& output) {
   const CsvTable table(output / "timeseries.csv", TableOf::tether);
   Comparison comparison = compare(
-      measured.data, measured.surface.region_names,
+      measured.data, measured.data.regions,
       {motion, [&](const Trace& trace) { return trace_of(table, trace, measured.file); }, velocity_of(run, measured),
        measured.data.others.empty() ? FinishedMotion{} : StoredRun(output).motion()},
       measured.file.units());

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "vessel/coordinates.hpp"
 #include "vessel/polar_curve.hpp"
 #include "vessel/sweep.hpp"
 
@@ -192,8 +193,9 @@ std::vector<CrossSection> cross_sections(const SweepSettings& settings) {
   std::vector<CrossSection> sections;
   for (const double u : equal_distances(lines, settings.along)) {
     const Vec3 normal = normals.at(u);
-    const PolarCurve curve(cut(lines, u, normal), normal, settings.angle_origin,
-                           fmt::format("{}: cut {}", settings.field, sections.size()));
+    const PolarCurve curve(
+        cut(lines, u, normal), normal, settings.angle_origin,
+        fmt::format("{}: the section at {}", settings.field, coordinates(lines.point(lines.axis(), u))));
     sections.push_back({curve.frame().centre, curve.frame().normal, curve.sample(settings.disc.around)});
   }
   return sections;

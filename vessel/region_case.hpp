@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+
 #include "common/base/units.hpp"
 #include "common/config/fields.hpp"
 #include "vessel/anatomy/region_rule.hpp"
@@ -12,6 +13,7 @@ namespace tether {
 struct ObjectCase {
   std::vector<double> point;
   std::filesystem::path file;
+  std::string object;  ///< of several in the file; empty: the file is one
   void declare(Fields& f);
 };
 
@@ -50,5 +52,10 @@ struct GeometricRegionCase {
 std::vector<RegionRule> rules_of(const Named<GeometricRegionCase>& regions, const Anatomy* anatomy,
                                  const UnitSystem& units,
                                  const std::function<std::string(const std::string& name)>& where);
+
+/// Writes the curves of files into one, each under a name of its own, and returns the regions that find them there. No
+/// file is written where none is named. Throws InputError for a file that is wrong, RunError if it cannot be written.
+Named<GeometricRegionCase> with_objects_in(const std::filesystem::path& file, Named<GeometricRegionCase> regions,
+                                           const UnitSystem& units);
 
 }  // namespace tether

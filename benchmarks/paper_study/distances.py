@@ -1,4 +1,4 @@
-"""Distances of a compared run by error region (figure 7, right): each is one or several support regions."""
+"""Distances of a compared run by error region (figure 7, right)."""
 import dataclasses
 import math
 
@@ -15,15 +15,6 @@ class Moment:
     linf: dict
 
 
-def joined(groups, regions):
-    """Root mean square over the area of several regions, and the largest distance."""
-    parts = [g for g in groups if g["region"] in regions and g["samples"] > 0]
-    area = sum(g["extent"] for g in parts)
-    if area == 0:
-        return math.nan, math.nan
-    return MM * math.sqrt(sum(g["extent"] * g["l2"] ** 2 for g in parts) / area), MM * max(g["linf"] for g in parts)
-
-
 def source_of(folder, name):
     return next(s for s in read(folder / "comparison.json")["sources"] if s["name"] == name)
 
@@ -32,9 +23,9 @@ def moments(folder, apparent=False):
     """At each of the ten frames. apparent: of the imaged lumen, in place of the run's."""
     found = []
     for moment in source_of(folder, "twin")["moments"]:
-        groups = [{**g["apparent"], "region": g["region"]} if apparent else g for g in moment["groups"]]
-        each = {name: joined(groups, parts) for name, parts in ERROR_REGIONS.items()}
-        found.append(Moment(moment["time"], {n: v[0] for n, v in each.items()}, {n: v[1] for n, v in each.items()}))
+        groups = {g["region"]: g["apparent"] if apparent else g for g in moment["groups"] if g["region"]}
+        of = lambda key: {region: MM * groups[region][key] for region in ERROR_REGIONS}
+        found.append(Moment(moment["time"], of("l2"), of("linf")))
     return found
 
 

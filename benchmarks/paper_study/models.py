@@ -2,7 +2,7 @@
 import concurrent.futures
 import math
 
-from anatomy import OUTLET, PARTS, SUPPORTED, held, stiffness, vessel
+from anatomy import ERROR_REGIONS, OUTLET, PARTS, SUPPORTED, held, stiffness, vessel
 from workshop import read
 
 LIGHT = 1e4  # dyn/cm3: the paper's theta = 0, k = LIGHT 2^theta
@@ -71,7 +71,8 @@ class Study:
         0.85 s, for a source may not be held out as a whole."""
         seed = seed or self.size.seeds[0]
         source = {"file": str(self.between.parent / "data/lumen.csv"), "unit": "cm", "held_out": list(range(9)), "noise": {"deviation": NOISE, "correlation_length": "5 mm"}}
-        case = self.shop.case(name, self.data[seed], {"observations.surfaces.between": source, **fields})
+        told_for = {region: {"of": parts} for region, parts in ERROR_REGIONS.items()}
+        case = self.shop.case(name, self.data[seed], {"observations.surfaces.between": source, "observations.regions": told_for, **fields})
         self.shop.make("simulate", case, after=[f"data_{seed}", "between"])
         return self.shop.make("compare", case, after=[name], name=name)
 

@@ -7,11 +7,11 @@
 
 namespace tether {
 
-Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunResults& run,
+Comparison compare(const Observations& data, const ErrorRegions& regions, const RunResults& run,
                    const UnitSystem& units) {
   Comparison comparison;
   comparison.units = units;
-  for (const auto& source : data.lumen) comparison.sources.push_back(compare(*source, region_names, run.motion));
+  for (const auto& source : data.lumen) comparison.sources.push_back(compare(*source, regions, run.motion));
   for (const Trace& trace : data.traces) comparison.traces.push_back(compare(trace, run.trace(trace)));
   Eigen::Index first = 0;
   for (const VelocitySeries& series : data.velocities) {

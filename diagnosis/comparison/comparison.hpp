@@ -35,7 +35,7 @@ struct RunResults {
 };
 
 /// Compares everything. What has the form of distances, of values over time or of velocities is told as such.
-Comparison compare(const Observations& data, const std::vector<std::string>& region_names, const RunResults& run,
+Comparison compare(const Observations& data, const ErrorRegions& regions, const RunResults& run,
                    const UnitSystem& units = UnitSystem::cgs());
 
 /// What a person should know first, one sentence each: that the run is no evidence, where and when it fails.

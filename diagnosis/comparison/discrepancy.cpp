@@ -10,10 +10,10 @@ namespace {
 /// Samples by contour and region. The places of the groups of a source are the same in all moments.
 class Grouped {
  public:
-  Grouped(const LumenSeries& data, std::size_t regions) {
+  Grouped(const LumenSeries& data, const ErrorRegions& regions) : regions_(&regions) {
     const int series = data.series_names().size() > 1 ? static_cast<int>(data.series_names().size()) : 0;
     for (int s = -1; s < series; ++s)
-      for (int r = -1; r < static_cast<int>(regions); ++r) groups_[{s, r}];
+      for (int r = -1; r < static_cast<int>(regions.names.size()); ++r) groups_[{s, r}];
   }
   void add(const std::vector<Sample>& model, const std::vector<Sample>& apparent) {
     for (auto& [place, both] : groups_) {
@@ -35,10 +35,12 @@ class Grouped {
   struct Both {
     Distances model, apparent;
   };
-  static bool holds(const Place& place, const Sample& sample) {
-    return (place.first < 0 || place.first == sample.series) && (place.second < 0 || place.second == sample.region);
+  bool holds(const Place& place, const Sample& sample) const {
+    return (place.first < 0 || place.first == sample.series) &&
+           (place.second < 0 || place.second == regions_->of(sample.region));
   }
 
+  const ErrorRegions* regions_;
   std::map<Place, Both> groups_;
 };
 
@@ -96,20 +98,20 @@ std::vector<Moment> moments_of(const LumenSeries& data, const RunMotion& run, st
 
 }  // namespace
 
-SourceDiscrepancy compare(const LumenSeries& data, const std::vector<std::string>& region_names, const RunMotion& run) {
+SourceDiscrepancy compare(const LumenSeries& data, const ErrorRegions& regions, const RunMotion& run) {
   SourceDiscrepancy result;
   result.name = data.settings().name;
   result.kind = data.kind().name;
   result.dimension = data.sample_dimension();
   result.noise = data.settings().noise;
   result.series = data.series_names();
-  result.regions = region_names;
+  result.regions = regions.names;
   result.notes = told(data.notes());
   result.moments = moments_of(data, run, result.outside);
-  Grouped training(data, region_names.size()), held_out = training;
+  Grouped training(data, regions), held_out = training;
   for (Moment& moment : result.moments) {
     const Points lumen = run.positions(moment.time);
-    Grouped now(data, region_names.size());
+    Grouped now(data, regions);
     std::vector<Sample> against_image;
     for (const Frame& frame : moment.frames) {
       const std::vector<Sample> model = data.observe(lumen, frame), apparent = data.observe(run.imaged, frame);

@@ -6,13 +6,14 @@
 #include "diagnosis/comparison/registration.hpp"
 #include "diagnosis/comparison/run_motion.hpp"
 #include "diagnosis/comparison/statistics.hpp"
+#include "observation_manager/measurements/error_regions.hpp"
 
 namespace tether {
 
 /// The samples of one region of the wall and one contour, or of all of them.
 struct Group {
   int series = -1;             ///< number of the contour within its source; -1: all, and for surfaces
-  int region = -1;             ///< number of the region; -1: all
+  int region = -1;             ///< number of the error region; -1: all
   Statistics model, apparent;  ///< of the run's lumen; of the imaged lumen, which shows the data's own motion
   double effective = 0;        ///< number of independent observations (D.2)
 };
@@ -30,8 +31,8 @@ struct SourceDiscrepancy {
   std::string name, kind;
   int dimension = 2;  ///< 2: surfaces, statistics over areas; 1: contours, over lengths
   Noise noise;
-  std::vector<std::string> series, regions;
-  std::vector<Moment> moments;  ///< in the order of the run's times
+  std::vector<std::string> series, regions;  ///< error regions
+  std::vector<Moment> moments;               ///< in the order of the run's times
   std::vector<Group> training,
       held_out;                    ///< over all moments of the kind; an effective number with a correlation time only
   std::vector<std::string> notes;  ///< what was found and done on loading the data
@@ -41,7 +42,7 @@ struct SourceDiscrepancy {
 };
 
 /// Compares the lumen of a run with every frame of a source, held-out ones too.
-SourceDiscrepancy compare(const LumenSeries& data, const std::vector<std::string>& region_names, const RunMotion& run);
+SourceDiscrepancy compare(const LumenSeries& data, const ErrorRegions& regions, const RunMotion& run);
 
 /// Of the region, all series together; null if it is not there.
 const Group* group_of_region(const Moment& moment, int region);

@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "common/linalg/symmetric_eigen.hpp"
+
 namespace tether {
 namespace {
 
@@ -69,12 +71,11 @@ void Whitening::add_groups(const Evidence& evidence, const EffectProblem& proble
     const VectorXd weight = problem.independent(own).cwiseSqrt();
     MatrixXd together = (1 - nugget) * correlation(evidence, noise, own, own);
     together.diagonal().setOnes();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> waves(weight.asDiagonal() * together * weight.asDiagonal());
-    const VectorXd& variances = waves.eigenvalues();
+    const auto [variances, waves] = symmetric_eigen(weight.asDiagonal() * together * weight.asDiagonal());
     const Index kept = (variances.array() > finest * variances.maxCoeff()).count();
     group.variance = variances.tail(kept) / variances.maxCoeff();
-    group.modes = variances.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
-                  waves.eigenvectors().rightCols(kept).transpose() * weight.asDiagonal() / noise.deviation;
+    group.modes = variances.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() * waves.rightCols(kept).transpose() *
+                  weight.asDiagonal() / noise.deviation;
     count_ += kept;
     groups_.push_back(std::move(group));
   }

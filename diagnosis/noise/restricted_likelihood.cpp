@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "common/linalg/symmetric_eigen.hpp"
+
 namespace tether {
 namespace {
 
@@ -79,9 +81,9 @@ RestrictedLikelihood::Slice RestrictedLikelihood::slice(CorrelationShape shape, 
   Slice slice;
   slice.shared_ = shared_;
   for (const NoiseField& field : fields_) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> waves(correlation(field.places, shape, length));
-    const auto turn = waves.eigenvectors().transpose();
-    Slice::Turned turned{waves.eigenvalues().cwiseMax(0), turn * field.free, {}};
+    const SymmetricEigen waves = symmetric_eigen(correlation(field.places, shape, length));
+    const auto turn = waves.vectors.transpose();
+    Slice::Turned turned{waves.values.cwiseMax(0), turn * field.free, {}};
     for (const NoiseFrame& frame : field.frames) {
       MatrixXd both(frame.values.size(), shared_ + 1);
       if (shared_ > 0) both.leftCols(shared_) = frame.shared;

@@ -37,16 +37,22 @@ void LumenDataCase::declare(Fields& f) {
   f.group("noise", noise, "errors of the distances");
 }
 
+void ErrorRegionCase::declare(Fields& f) {
+  f.texts("of", of, "regions of the wall; those of no name here count for the whole wall only");
+  f.check(!of.empty(), "of", "must name at least one region of the wall");
+}
+
 ObservationsCase::ObservationsCase() {
   for (const MeasurementKind* kind : measurement_kinds()) sections_.push_back(kind->section());
 }
 
-ObservationsCase::ObservationsCase(const ObservationsCase& other) {
+ObservationsCase::ObservationsCase(const ObservationsCase& other) : regions(other.regions) {
   for (const auto& section : other.sections_) sections_.push_back(section->copy());
 }
 
 void ObservationsCase::declare(Fields& f) {
   for (const auto& section : sections_) section->declare(f);
+  f.groups("regions", regions, "for which a comparison tells distances, by name; absent: those of the wall");
 }
 
 StatedErrors ObservationsCase::errors_of(const std::string& field) const {

@@ -37,9 +37,17 @@ struct LumenDataCase {
   StatedErrors stated_errors() const { return {&correction, time_shift, left_out}; }
 };
 
+/// A part of the wall for which distances are told: some of its regions together.
+struct ErrorRegionCase {
+  std::vector<std::string> of;
+  void declare(Fields& f);
+};
+
 /// What was measured: for each kind its sources.
 class ObservationsCase {
  public:
+  Named<ErrorRegionCase> regions;  ///< none: those of the wall
+
   ObservationsCase();
   ObservationsCase(const ObservationsCase& other);
   ObservationsCase(ObservationsCase&&) = default;

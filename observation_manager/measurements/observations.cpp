@@ -74,7 +74,8 @@ std::uint64_t Observations::content() const {
 }
 
 Observations load_observations(const ObservationsCase& given, const LumenSurface& lumen, const CaseFile& file) {
-  Observations result{load_flow_observations(given, file), {}, {}};
+  Observations result{
+      load_flow_observations(given, file), {}, {}, error_regions(given.regions, lumen.region_names, file)};
   for (const auto& section : given.sections()) {
     if (section->kind().load_on_lumen != nullptr) section->kind().load_on_lumen(*section, lumen, file, result);
     for (const LumenKind& known : lumen_kinds())

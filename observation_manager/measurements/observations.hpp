@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "observation_manager/measurements/error_regions.hpp"
 #include "observation_manager/measurements/flow_observations.hpp"
 #include "observation_manager/measurements/lumen_series.hpp"
 
@@ -11,6 +12,7 @@ namespace tether {
 struct Observations : FlowObservations {
   std::vector<std::unique_ptr<LumenSeries>> lumen;
   std::vector<std::string> flow_notes;  ///< what was found of the velocities
+  ErrorRegions regions;                 ///< for which distances are told
 
   /// Every source, of whatever kind: those of `lumen`, then those of the blood. Its order is that of their numbers.
   std::vector<const Measurement*> all() const;

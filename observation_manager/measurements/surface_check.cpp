@@ -167,7 +167,9 @@ void note_holes(const TriangleSurface& surface, const std::vector<std::vector<in
       length += (surface.points.col(hole[i]) - surface.points.col(hole[(i + 1) % hole.size()])).norm();
     lengths += fmt::format("{}{:.3g}", lengths.empty() ? "" : ", ", length);
   }
-  notes.push_back(fmt::format("{} open rims, {} long; beside them nothing is observed", holes.size(), lengths));
+  notes.push_back(
+      fmt::format("{} open rims, around them {} (in the case's unit of length); beside them nothing is observed",
+                  holes.size(), lengths));
 }
 
 std::vector<bool> crossing_triangles(const std::string& name, const TriangleSurface& surface,

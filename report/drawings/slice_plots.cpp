@@ -50,10 +50,11 @@ std::string flat(const Lines& lines, const SlicePlane& plane, const UnitSystem& 
   return text;
 }
 
-std::string samples_of(const SliceView& view, int region, const UnitSystem& units, Extent& shown) {
+std::string samples_of(const SliceView& view, const ErrorRegions& regions, int region, const UnitSystem& units,
+                       Extent& shown) {
   std::string text;
   for (const Sample& sample : view.samples)
-    if (sample.region == region) text += row_of(sample.position, view.plane, units, shown);
+    if (regions.of(sample.region) == region) text += row_of(sample.position, view.plane, units, shown);
   return text;
 }
 
@@ -69,8 +70,7 @@ struct SlicePanel {
   }
 };
 
-SlicePanel panel_of(SliceView view, const std::string& suffix, const std::vector<std::string>& regions,
-                    const UnitSystem& units) {
+SlicePanel panel_of(SliceView view, const std::string& suffix, const ErrorRegions& regions, const UnitSystem& units) {
   SlicePanel panel;
   view.plane = turned(view.plane);
   panel.line("imaged" + suffix, flat(view.imaged, view.plane, units, panel.shown),
@@ -79,10 +79,10 @@ SlicePanel panel_of(SliceView view, const std::string& suffix, const std::vector
              "lines linewidth 2 linecolor '#000000' title 'data'");
   panel.line("model" + suffix, flat(view.model, view.plane, units, panel.shown),
              "lines linewidth 2 linecolor '#d55e00' title 'model'");
-  for (int r = 0; r < static_cast<int>(regions.size()); ++r)
-    panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, r, units, panel.shown),
+  for (int r = 0; r < static_cast<int>(regions.names.size()); ++r)
+    panel.line(fmt::format("region{}_{}", r, suffix), samples_of(view, regions, r, units, panel.shown),
                fmt::format("points pointtype 7 pointsize 0.8 linecolor {} title {}", r + 2,
-                           gnuplot_text(regions[static_cast<std::size_t>(r)])));
+                           gnuplot_text(regions.names[static_cast<std::size_t>(r)])));
   if (!panel.plot.empty())
     panel.plot =
         fmt::format("set xlabel '{}'\nset ylabel '{}'\n{}", along(view.plane.e1), along(view.plane.e2), panel.plot);
@@ -98,7 +98,7 @@ std::map<std::string, std::vector<SlicePanel>> panels_of(const SourceDiscrepancy
   for (const Moment* moment : moments)
     for (const SliceView& view : slices_at(*moment, data, drawn.lumen, drawn.run)) {
       auto& of_slice = panels[view.name];
-      SlicePanel panel = panel_of(view, std::to_string(of_slice.size()), source.regions, drawn.comparison.units);
+      SlicePanel panel = panel_of(view, std::to_string(of_slice.size()), drawn.data.regions, drawn.comparison.units);
       const char* which = moments.size() == 1    ? "farthest off, largest lumen"
                           : moment == moments[0] ? "farthest off"
                                                  : "largest lumen";

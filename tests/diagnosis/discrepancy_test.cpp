@@ -42,6 +42,25 @@ TEST(Discrepancy, OfAShiftedRunIsTheShift) {
   }
 }
 
+/// What two regions have together one part of both has; a region of no part counts for the whole only.
+TEST(Discrepancy, IsToldForPartsOfSeveralRegions) {
+  const RunMotion run = beating_run(1, {0.05, 0, 0});
+  ErrorRegions both, right_only;
+  both.names = {"both"}, both.parts = {0, 0};
+  right_only.names = {"right half"}, right_only.parts = {0, -1};
+  const SourceDiscrepancy apart = compare(beating_surfaces(), regions, run),
+                          together = compare(beating_surfaces(), both, run),
+                          alone = compare(beating_surfaces(), right_only, run);
+  EXPECT_EQ(together.regions, std::vector<std::string>{"both"});
+  for (std::size_t m = 0; m < apart.moments.size(); ++m) {
+    const Moment &each = apart.moments[m], &one = together.moments[m], &half = alone.moments[m];
+    ASSERT_EQ(one.groups.size(), 2U);
+    EXPECT_EQ(group_of_region(one, 0)->model.rms, group_of_region(each, -1)->model.rms);
+    EXPECT_EQ(group_of_region(half, 0)->model.rms, group_of_region(each, 0)->model.rms);
+    EXPECT_EQ(group_of_region(half, -1)->model.rms, group_of_region(each, -1)->model.rms);
+  }
+}
+
 TEST(Discrepancy, TakesTheLastPeriodOfARun) {
   RunMotion run = beating_run(3.3);
   std::vector<double> asked;

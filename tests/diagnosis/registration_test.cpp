@@ -46,13 +46,13 @@ EffectProblem problem_of(const Observations& data) {
 TEST(Registration, FindsHowDataAreDisplacedAndTurned) {
   const Vec3 by(0.08, -0.05, 0), turn(0.03, 0.02, 0);
   const Observations data = moved_data(by, turn);
-  const auto found = compare(*data.lumen[0], {"right", "left"}, beating_run(1)).registration;
+  const auto found = compare(*data.lumen[0], std::vector<std::string>{"right", "left"}, beating_run(1)).registration;
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->stands_out());
   EXPECT_LT((found->motion.displacement - by).norm(), 0.05 * by.norm());
   EXPECT_LT((found->motion.rotation - turn).norm(), 0.05 * turn.norm());
   EXPECT_LT(found->after, 0.1 * found->before);
-  const Comparison comparison = compare(data, {"right", "left"}, {beating_run(1), {}, {}});
+  const Comparison comparison = compare(data, std::vector<std::string>{"right", "left"}, {beating_run(1), {}, {}});
   EXPECT_NE(sentences_of(comparison).front().find("CHECK THE REGISTRATION"), std::string::npos);
 }
 
@@ -60,7 +60,7 @@ TEST(Registration, IsNoNewsOfDataThatBeatElsewhereOrLieRight) {
   const Observations data = moved_data({0, 0, 0}, {0, 0, 0});
   RunMotion run = beating_run(1, Vec3(0.2, 0, 0));  // the model moves aside: of the data that says nothing
   run.imaged = tube_at(0).points;
-  const auto found = compare(*data.lumen[0], {"right", "left"}, run).registration;
+  const auto found = compare(*data.lumen[0], std::vector<std::string>{"right", "left"}, run).registration;
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->stands_out());
 }

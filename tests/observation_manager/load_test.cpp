@@ -107,6 +107,24 @@ TEST_F(Load, MasksRegionsAndBands) {
             "case.yaml:5: observations.surfaces.ct: masked regions and bands leave no place of the lumen to observe");
 }
 
+TEST_F(Load, JoinsRegionsForWhichDistancesAreTold) {
+  folder.file("a.stl", stl_text(vessel(1.1)));
+  model.region_names = {"spine_1", "rest", "spine_2"};
+  const std::string surface = "  surfaces: {ct: {file: a.stl, unit: cm}}\n";
+  const ErrorRegions each = load(surface).regions;
+  EXPECT_EQ(each.names, model.region_names);
+  EXPECT_EQ(each.parts, (std::vector<int>{0, 1, 2}));
+  const ErrorRegions joined = load(surface + "  regions: {spine: {of: [spine_1, spine_2]}}\n").regions;
+  EXPECT_EQ(joined.names, std::vector<std::string>{"spine"});
+  EXPECT_EQ(joined.parts, (std::vector<int>{0, -1, 0}));
+  EXPECT_EQ(joined.of(-1), -1);
+  EXPECT_EQ(
+      message(surface + "  regions: {spine: {of: [spine_3]}}\n"),
+      "case.yaml:6: observations.regions.spine.of: the wall has no region 'spine_3'; it has spine_1, rest, spine_2");
+  EXPECT_EQ(message(surface + "  regions: {a: {of: [rest]}, b: {of: [rest]}}\n"),
+            "case.yaml:6: observations.regions.b.of: rest belongs to a already");
+}
+
 TEST_F(Load, RefusesBadSurfaces) {
   folder.file("a.stl", stl_text(vessel(1.1)));
   folder.file("mm.stl", stl_text(vessel(1.1, 10)));

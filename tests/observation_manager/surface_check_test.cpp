@@ -130,8 +130,9 @@ TEST(SurfaceCheck, LeavesOutLoosePieces) {
 }
 
 TEST(SurfaceCheck, StatesHoles) {
-  EXPECT_EQ(checked_surface("a.stl", tube(64, 8, 3, [](double) { return 1.0; })).notes,
-            Notes{"2 open rims, 6.28, 6.28 long; beside them nothing is observed"});
+  EXPECT_EQ(
+      checked_surface("a.stl", tube(64, 8, 3, [](double) { return 1.0; })).notes,
+      Notes{"2 open rims, around them 6.28, 6.28 (in the case's unit of length); beside them nothing is observed"});
 }
 
 TEST(SurfaceCheck, ObservesNothingWhereFewTrianglesCross) {

@@ -112,6 +112,18 @@ TEST(Loft, SaysWhichFieldAndSectionIsWrong) {
   };
   EXPECT_NE(refusal_of(loft_of(tube_contours(1))).find("study.yaml:2: contours: 1 cross-sections: at least two"),
             std::string::npos);
+  const auto swapped = test_folder() / "swapped.csv";
+  std::ofstream in_disorder(swapped);
+  in_disorder << "section,point,x,y,z\n";
+  for (const int at : {0, 2, 1, 3})
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 12;
+      in_disorder << at << ',' << i << ',' << 10 * std::cos(angle) << ',' << 10 * std::sin(angle) << ',' << 30 * at
+                  << '\n';
+    }
+  in_disorder.close();
+  EXPECT_EQ(refusal_of(loft_of(swapped)),
+            "study.yaml:2: contours: contour 3 lies back toward contour 1: they must stand in order along the vessel");
   const auto file = test_folder() / "oblique.csv";
   std::ofstream out(file);
   out << "section,point,x,y,z\n";

@@ -13,7 +13,8 @@
 namespace tether {
 namespace model_test {
 
-VolumeCase study_of_regions() {
+/// bone: a file with a line toward which the sector of the region `spine` looks, in mm.
+VolumeCase study_of_regions(const std::filesystem::path& bone) {
   VolumeCase study;
   study.wall.thickness.thickness = 0.2;
   ThicknessCase thin;
@@ -23,15 +24,18 @@ VolumeCase study_of_regions() {
   branch.branches = {"branch"};
   sector.branches = {"trunk"};
   sector.angle = {-30, 30};
-  sector.angle_origin = {-1, 0, 0};
+  sector.toward = ObjectCase{{}, bone, ""};
   study.regions = {{"branch", branch}, {"spine", sector}, {"rest", {}}};
   return study;
 }
 
 TEST(VesselModel, IsBuiltFromASurfaceAndReadBackByACase) {
+  const TemporaryFolder folder;
+  const VolumeCase study =
+      study_of_regions(folder.file("bone.csv", "x [mm], y [mm], z [mm]\n-40, 0, -100\n-40, 0, 200\n"));
   const LabelledSurface surface = closed_bifurcation(0.3);
   const CentrelineTree tree = bifurcation(0.4).tree;
-  const VesselModel model = build_model(surface, tree, study_of_regions(), UnitSystem::cgs());
+  const VesselModel model = build_model(surface, tree, study, UnitSystem::cgs());
   EXPECT_EQ(model.mesh.fluid.points.leftCols(surface.points.cols()), surface.points);
   EXPECT_EQ(model.mesh.fluid.inlets.at(0).name, "inlet");
   EXPECT_EQ(model.mesh.fluid.outlets.size(), 2u);
@@ -46,8 +50,8 @@ TEST(VesselModel, IsBuiltFromASurfaceAndReadBackByACase) {
   ASSERT_EQ(q.regions.size(), 3u);
   EXPECT_EQ(q.regions[1].name, "spine");
 
-  const TemporaryFolder folder;
-  write_model(folder.path() / "model", "arch_model", model, tree, study_of_regions(), UnitSystem::cgs());
+  write_model(folder.path() / "model", "arch_model", model, tree, study, UnitSystem::cgs());
+  std::filesystem::remove(folder / "bone.csv");  // what the model needs is in its folder
   std::ifstream text(folder / "model/case.yaml");
   const std::string content((std::istreambuf_iterator<char>(text)), {});
   EXPECT_EQ(content.find(folder.path().string()), std::string::npos);  // it can be moved
@@ -75,6 +79,25 @@ TEST(VesselModel, IsBuiltFromASurfaceAndReadBackByACase) {
   std::filesystem::remove(folder / "model/mine.txt");
   remove_model(folder / "model");
   EXPECT_FALSE(std::filesystem::exists(folder / "model"));
+}
+
+TEST(VesselModel, PartsOfADividedRegionNeedNamesOfTheirOwn) {
+  const Anatomy anatomy(bifurcation(0.4).tree);
+  GeometricRegionCase single, divided;
+  single.branches = {"branch"};
+  divided.divide = 2;
+  const auto where = [](const std::string& name) { return "regions." + name; };
+  const auto rules = [&](const Named<GeometricRegionCase>& regions) {
+    return rules_of(regions, &anatomy, UnitSystem::cgs(), where);
+  };
+  EXPECT_EQ(rules({{"y_1", single}, {"x", divided}}).size(), 3U);
+  try {
+    rules({{"x_1", single}, {"x", divided}});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "regions.x: two regions would be called x_1: the parts of a divided one have its name and a number");
+  }
 }
 
 TEST(VesselModel, WhatCannotBeFilledIsToldWithItsPlace) {

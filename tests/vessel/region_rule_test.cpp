@@ -130,6 +130,17 @@ TEST(RegionRules, MistakesAreToldWithTheirPlace) {
   rule.box = InBox{{5, 5, 5}, {6, 6, 6}};
   EXPECT_NE(fault(rule).find("regions.spine: holds no triangle"), std::string::npos) << fault(rule);
   rule = named("spine");
+  rule.branches = {"branch"};
+  rule.along = AlongBranch{"branch", 0, 1e-3};
+  EXPECT_NE(fault(rule).find("takes all of it; its wall lies between "), std::string::npos) << fault(rule);
+  EXPECT_NE(fault(rule).find(" along branch"), std::string::npos) << fault(rule);
+  rule = named("spine");
+  rule.near = {{Vec3(1630, 2280, 2200), 1.5}};
+  EXPECT_NE(fault(rule).find("regions.spine: its point or curve lies 3"), std::string::npos) << fault(rule);
+  EXPECT_NE(fault(rule).find("is it in another unit?"), std::string::npos) << fault(rule);
+  rule = named("spine");
+  rule.angle = AngleAbout{"trunk", -10, 10, {}, Vec3(1630, 2280, 2200)};
+  EXPECT_NE(fault(rule).find("is it in another unit?"), std::string::npos) << fault(rule);
   rule.angle = AngleAbout{"trunk", -10, 10, {0, 0, 1}, Points(3, 0)};
   EXPECT_NE(fault(rule).find("angle zero is not known near ("), std::string::npos) << fault(rule);
 }

@@ -12,17 +12,6 @@ namespace tether {
 
 namespace {
 
-/// The point of a curve nearest to x.
-Vec3 nearest_of(const Points& curve, const Vec3& x) {
-  Vec3 best = curve.col(0);
-  for (Eigen::Index i = 1; i < curve.cols(); ++i) {
-    const Vec3 from = curve.col(i - 1), way = curve.col(i) - from;
-    const double length = way.squaredNorm(), t = length > 0 ? std::clamp((x - from).dot(way) / length, 0.0, 1.0) : 0;
-    if (const Vec3 here = from + t * way; (here - x).norm() < (best - x).norm()) best = here;
-  }
-  return best;
-}
-
 /// Where angle zero is at a place of a line, in its cross-section.
 Vec3 zero_direction(const AngleAbout& about, const CentrelineCurve::Place& at) {
   const Vec3 wanted = about.toward.cols() > 0 ? Vec3(nearest_of(about.toward, at.centre) - at.centre) : about.direction;
@@ -51,6 +40,16 @@ AnyOf combined(const std::vector<AnyOf>& conditions) {
 }
 
 }  // namespace
+
+Vec3 nearest_of(const Points& curve, const Vec3& x) {
+  Vec3 best = curve.col(0);
+  for (Eigen::Index i = 1; i < curve.cols(); ++i) {
+    const Vec3 from = curve.col(i - 1), way = curve.col(i) - from;
+    const double length = way.squaredNorm(), t = length > 0 ? std::clamp((x - from).dot(way) / length, 0.0, 1.0) : 0;
+    if (const Vec3 here = from + t * way; (here - x).norm() < (best - x).norm()) best = here;
+  }
+  return best;
+}
 
 Geodesics geodesics_of(const TriangleLocator& surface, const RegionRule& rule) {
   Geodesics geodesics;

@@ -10,6 +10,9 @@
 
 namespace tether {
 
+/// The point of a curve, or of a point alone, nearest to x.
+Vec3 nearest_of(const Points& curve, const Vec3& x);
+
 /// Functions of places [length]; the condition holds where all are at most zero.
 using AllOf = std::vector<VectorXd>;
 /// ... where that is so for one of several.

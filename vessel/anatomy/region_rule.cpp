@@ -1,8 +1,11 @@
 #include "vessel/anatomy/region_rule.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.hpp"
+#include "common/mesh/mesh.hpp"
 #include "common/mesh/surface.hpp"
 #include "vessel/anatomy/conditions.hpp"
 #include "vessel/anatomy/cut.hpp"
@@ -45,13 +48,31 @@ auto said_of(const RegionRule& rule, auto work) {
   }
 }
 
+/// Throws InputError if a point or curve lies farther from the vessel than that is long.
+void require_at_hand(const Points& object, const Points& vessel) {
+  const Vec3 low = vessel.rowwise().minCoeff(), high = vessel.rowwise().maxCoeff();
+  const Vec3 nearest = nearest_of(object, (low + high) / 2);
+  const double off = (nearest - nearest.cwiseMax(low).cwiseMin(high)).norm(), length = (high - low).norm();
+  if (off > length)
+    throw input_error("its point or curve lies {:.3g} from the vessel, which is {:.3g} long: is it in another unit?",
+                      off, length);
+}
+
+void require_objects_at_hand(const RegionRule& rule, const Points& vessel) {
+  for (const NearCurve& near : rule.near) require_at_hand(near.curve, vessel);
+  if (rule.angle && rule.angle->toward.cols() > 0) require_at_hand(rule.angle->toward, vessel);
+}
+
 /// What each rule has of triangles between places at which the rules' functions are known.
 class Division {
  public:
   Division(const TriangleLocator& surface, const std::vector<RegionRule>& rules, const Anatomy* anatomy)
       : rules_(rules), anatomy_(anatomy) {
     for (const RegionRule& rule : rules)
-      geodesics_.push_back(said_of(rule, [&] { return geodesics_of(surface, rule); }));
+      geodesics_.push_back(said_of(rule, [&] {
+        require_objects_at_hand(rule, surface.points());
+        return geodesics_of(surface, rule);
+      }));
   }
 
   /// Parts in the coordinates of the small triangles.
@@ -101,6 +122,30 @@ void add_parts(std::vector<std::vector<TrianglePart>>& to, const std::vector<std
       to[rule].push_back({whole, places.barycentric(Eigen::all, part.of) * part.corners});
 }
 
+/// Where along the line of `along` the wall of the rule's branches lies: "its wall lies between 1.2 and 3.1 along
+/// left_carotid". Empty without `along`.
+std::string reach_along(const RegionRule& rule, const Points& points, const std::vector<Triangle>& triangles,
+                        const Anatomy* anatomy) {
+  if (!rule.along) return "";
+  const SurfacePlaces places = nodes_as_places(points, triangles);
+  RegionRule of_branches;
+  of_branches.branches = rule.branches;
+  const AnyOf ways = RuleFunctions(places, triangles, anatomy).ways(of_branches, {});
+  const auto holds = [&](int node) {
+    return std::any_of(ways.begin(), ways.end(), [&](const AllOf& all) {
+      return std::all_of(all.begin(), all.end(), [&](const VectorXd& f) { return f[node] <= 0; });
+    });
+  };
+  const std::size_t line = rule.along->branch.empty() ? 0 : anatomy->index(rule.along->branch);
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const int node : nodes_of(triangles))
+    if (holds(node)) {
+      const double along = anatomy->curve(line).nearest(points.col(node)).along;
+      least = std::min(least, along), most = std::max(most, along);
+    }
+  return fmt::format("; its wall lies between {:.3g} and {:.3g} along {}", least, most, anatomy->name(line));
+}
+
 }  // namespace
 
 std::vector<RegionRule> divided_along(const RegionRule& rule, int count, const Anatomy& anatomy) {
@@ -144,8 +189,8 @@ std::vector<Patch> divide_by_rules(const Points& points, const std::vector<Trian
       throw input_error(
           "{}: holds no triangle of the outer wall: its limits are too narrow for this mesh, or an earlier region "
           "takes "
-          "all of it",
-          named(rules[i]));
+          "all of it{}",
+          named(rules[i]), reach_along(rules[i], points, triangles, anatomy));
   return patches;
 }
 

@@ -38,9 +38,11 @@ int centre_at(const VoronoiGraph& graph, const Opening& opening, const std::stri
     if (best < 0 || cost < best_cost) best = static_cast<int>(i), best_cost = cost;
   }
   if (best < 0)
-    throw PlacedError(fmt::format("no centreline begins at opening '{}' at {}: the surface is too coarse there", name,
-                                  text_of_place(opening.centre)),
-                      {opening.centre});
+    throw PlacedError(
+        fmt::format("no centreline begins at opening '{}' at {}: its triangles are too large or too long there: "
+                    "give a surface with smaller ones",
+                    name, text_of_place(opening.centre)),
+        {opening.centre});
   return best;
 }
 

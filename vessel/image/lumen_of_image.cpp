@@ -73,9 +73,12 @@ void check_seeds(const ImageVolume& image, const ImageVolume& field, const Lumen
                  const std::vector<std::size_t>& seeds) {
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (!(field.values[seeds[i]] > 0))
-      throw input_error("{}: {} lies outside the lumen: the voxel there has the value {:g}",
+      throw input_error("{}: {} lies outside the lumen: the voxel there has the value {:g}{}",
                         how.at("image.seeds." + how.seeds[i].first), text_of_place(how.seeds[i].second),
-                        image.values[seeds[i]]);
+                        image.values[seeds[i]],
+                        how.level_set ? "; if it is the vessel's, the level set lost it: one a few voxels wide is "
+                                        "kept by a threshold"
+                                      : "");
 }
 
 ImageSummary summary_of(const ImageVolume& image, const LumenImageCase& how) {
@@ -152,10 +155,12 @@ std::string leak_of(const ImageSummary& s) {
 }
 
 std::string text_of(const ImageSummary& s) {
+  // of a label map only whether a voxel has the label was read
+  const std::string values =
+      s.method == ImageMethod::label ? "" : fmt::format(", values {:g} to {:g}", s.least, s.greatest);
   std::string text = fmt::format(
-      "  image: {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} cm, values {:g} to {:g}; lumen by {}, {:.4g} cm3\n",
-      s.voxels[0], s.voxels[1], s.voxels[2], s.voxel[0], s.voxel[1], s.voxel[2], s.least, s.greatest, word_of(s.method),
-      s.lumen_volume);
+      "  image: {} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} cm{}; lumen by {}, {:.4g} cm3\n", s.voxels[0],
+      s.voxels[1], s.voxels[2], s.voxel[0], s.voxel[1], s.voxel[2], values, word_of(s.method), s.lumen_volume);
   text += fmt::format("  widest at {}, radius {:.3g} cm\n", text_of_place(s.widest_place), s.widest_radius);
   if (s.iterations > 0)
     text +=

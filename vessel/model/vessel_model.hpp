@@ -32,12 +32,13 @@ VesselModel build_model(const LabelledSurface& surface, const CentrelineTree& tr
                         const UnitSystem& units);
 
 /// What write_model writes; the case last.
-inline constexpr std::array model_files{"quality.json",   "lumen.vtu",      "lumen_faces.vtu", "wall.vtu",
-                                        "wall_faces.vtu", "centreline.csv", "flow.csv",        "case.yaml"};
+inline constexpr std::array model_files{"quality.json", "lumen.vtu",      "lumen_faces.vtu",
+                                        "wall.vtu",     "wall_faces.vtu", "centreline.csv",
+                                        "objects.csv",  "flow.csv",       "case.yaml"};
 
 /// Writes FOLDER/lumen.vtu, lumen_faces.vtu, wall.vtu (with the arrays asked_thickness and thickness), wall_faces.vtu,
-/// centreline.csv, quality.json, and case.yaml with flow.csv: a case of that name that runs (see `ready_case`). Throws
-/// RunError.
+/// centreline.csv, objects.csv (curves that regions refer to), quality.json, and case.yaml with flow.csv: a case of
+/// that name that runs (see `ready_case`). Throws RunError.
 void write_model(const std::filesystem::path& folder, const std::string& name, const VesselModel& model,
                  const CentrelineTree& tree, const VolumeCase& study, const UnitSystem& units);
 

@@ -65,7 +65,8 @@ std::string mesh_section(MeshCase mesh, const fs::path& folder) {
   return text;
 }
 
-MeshCase write_meshes(const fs::path& folder, const VesselModel& model, const VolumeCase& study) {
+MeshCase write_meshes(const fs::path& folder, const VesselModel& model, const VolumeCase& study,
+                      const UnitSystem& units) {
   const auto& [fluid, wall] = model.mesh;
   MeshCase mesh;
   mesh.source = "files";
@@ -80,7 +81,7 @@ MeshCase write_meshes(const fs::path& folder, const VesselModel& model, const Vo
   files.outside = wall_faces.add(wall.outside);
   files.rings = wall_faces.add(wall.rings);
   files.centreline = folder / "centreline.csv";
-  files.regions = study.regions;
+  files.regions = with_objects_in(folder / "objects.csv", study.regions, units);
   lumen_faces.write();
   wall_faces.write();
   write_vtu(files.fluid, fluid.points, cells_of(fluid), {});
@@ -98,7 +99,7 @@ void write_model(const fs::path& folder, const std::string& name, const VesselMo
   fs::create_directories(place);
   write_centreline(place / "centreline.csv", tree, units.symbol(dimension::length));
   write_record(place / "quality.json", model.quality);
-  const MeshCase mesh = write_meshes(place, model, study);
+  const MeshCase mesh = write_meshes(place, model, study, units);
   const std::string section = mesh_section(mesh, place);
   write_text(place / "case.yaml", ready_case(name, model, section, units));
   write_text(place / "flow.csv", ready_flow(model, units));

@@ -42,6 +42,8 @@ std::vector<FrameFile> frames_of(const FramesCase& given) {
     if (frames[i].time <= frames[i - 1].time)
       throw input_error("{}: the time {} s of {} does not come after {} s", table.where(i), frames[i].time,
                         shortened(files[i]), frames[i - 1].time);
+  if (frames.size() < 2)
+    throw input_error("{}: lists {} frame: a motion needs at least two", given.file.string(), frames.size());
   return frames;
 }
 

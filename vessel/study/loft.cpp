@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/placed_error.hpp"
 #include "vessel/contours.hpp"
 #include "vessel/sweep.hpp"
 
@@ -68,6 +69,16 @@ RawSurface through(const std::vector<CrossSection>& sections) {
   return surface;
 }
 
+/// A vessel turns between one contour and the next by less than a right angle.
+void require_order(const Points& middles, const std::string& field) {
+  for (Eigen::Index i = 2; i < middles.cols(); ++i)
+    if ((middles.col(i) - middles.col(i - 1)).dot(middles.col(i - 1) - middles.col(i - 2)) < 0)
+      throw PlacedError(
+          fmt::format("{}: contour {} lies back toward contour {}: they must stand in order along the vessel", field,
+                      i + 1, i - 1),
+          {middles.col(i)});
+}
+
 }  // namespace
 
 RawSurface surface_through(const LoftCase& given, const std::string& field) {
@@ -80,6 +91,7 @@ RawSurface surface_through(const LoftCase& given, const std::string& field) {
   settings.disc.around = points_around;
   if (settings.sections.size() > 1) {
     const Points middles = middles_of(settings.sections);
+    require_order(middles, field);
     settings.angle_origin = direction_across(middles);
     settings.along = intervals_along(settings, middles);
   }

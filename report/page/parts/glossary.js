@@ -10,6 +10,10 @@ const glossary = [
     "noise, σ",
     "Standard deviation of a single measured distance, as the case states it. Distances in σ say how many times the noise they are.",
   ],
+  [
+    "sigma, in sentences",
+    "Of a mean over a region and a span of time: how many of its own standard deviations it is off. These are far smaller than that of a single distance.",
+  ],
   ["held-out frames", "Images that were kept away from the model. An improvement there is not one of fitting."],
   [
     "z",

@@ -24,9 +24,17 @@ function sentencesOf(report) {
   return report.estimates.length ? estimateSentences(report.estimates[0].estimate) : [];
 }
 
-function moreSentences(sentences) {
+function folded(title, sentences) {
   if (!sentences.length) return null;
-  return element("details", {}, element("summary", {}, `${sentences.length} more`), furtherSentences(sentences));
+  return element("details", {}, element("summary", {}, title), furtherSentences(sentences));
+}
+
+/** Of a run alone or an identification they are few, and what one must know before one believes it. */
+function remarks(report) {
+  const title = report.remarks.length === 1 ? "1 remark of the programs" : `${report.remarks.length} remarks of the programs`;
+  const part = folded(title, report.remarks);
+  if (part && !report.runs.length) part.open = true;
+  return part;
 }
 
 export function head(report) {
@@ -38,8 +46,9 @@ export function head(report) {
     element("span", { class: `chip ${colour}` }, chip),
     ...headline(report, sentences[0] || "Results"),
     furtherSentences(sentences.slice(1, 5)),
-    moreSentences(sentences.slice(5)),
+    folded(`${sentences.length - 5} more`, sentences.slice(5)),
     ...report.warnings.map((warning) => element("p", { class: "warning" }, warning)),
+    remarks(report),
     tiles(report),
   ].filter(Boolean);
 }

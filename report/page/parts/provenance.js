@@ -93,6 +93,23 @@ function costTexts(cost) {
   ];
 }
 
+/** A file that several fields name stands there once. */
+function fileRows(files) {
+  const rows = new Map();
+  for (const f of files) {
+    const row = rows.get(f.name) || { ...f, fields: [], changed: false };
+    row.fields.push(f.field);
+    row.changed ||= f.changed;
+    rows.set(f.name, row);
+  }
+  return [...rows.values()].map((f) => [
+    f.name,
+    f.fields.length > 3 ? `${f.fields[0]} and ${f.fields.length - 1} others` : f.fields.join(", "),
+    sizeText(f.bytes),
+    f.changed ? `${f.modified}: changed since it was read for the run` : f.modified,
+  ]);
+}
+
 /** By what, when and at what cost. */
 function madeText(report) {
   const { version, commit, date } = report.made;
@@ -124,12 +141,7 @@ export function provenanceSection(report) {
     dataNotes(report),
     tableOf(
       ["file", "named by", "size", "last change"],
-      p.files.map((f) => [
-        f.name,
-        f.field,
-        sizeText(f.bytes),
-        f.changed ? `${f.modified}: changed since it was read for the run` : f.modified,
-      ]),
+      fileRows(p.files),
     ),
     p.seeds.length
       ? element("p", {}, "Seeds of random numbers: ", p.seeds.map((s) => `${s.field} = ${s.value}`).join(", "))
