@@ -25,7 +25,7 @@ constexpr std::array plots{
     Plot{"displacements.png", "Displacement of points", "point.", ".displacement_length", dimension::length, "mm"},
     Plot{"largest_displacement.png", "Largest displacement of the lumen", "interface.max_displacement", "",
          dimension::length, "mm"},
-    Plot{"support_forces.png", "Magnitude of the support's force on the wall", "solid.support.", ".force_x",
+    Plot{"support_forces.png", "Magnitude of the force of the support on the wall", "solid.support.", ".force_x",
          dimension::force, "N"},
     Plot{"coupling.png", "Coupling: evaluations a step", "coupling.evaluations", "", dimension::none, ""},
 };

@@ -24,7 +24,7 @@ def moments(folder, apparent=False):
     found = []
     for moment in source_of(folder, "twin")["moments"]:
         groups = {g["region"]: g["apparent"] if apparent else g for g in moment["groups"] if g["region"]}
-        of = lambda key: {region: MM * groups[region][key] for region in ERROR_REGIONS}
+        of = lambda key: {region: MM * groups[region][key] if groups[region]["samples"] > 0 else math.nan for region in ERROR_REGIONS}
         found.append(Moment(moment["time"], of("l2"), of("linf")))
     return found
 

@@ -195,7 +195,8 @@ def amount(effect):
     return f"{effect['name']}{' at ' + effect['where'] if effect['where'] else ''}: {a['value']:.3g} ({a['lower']:.3g} .. {a['upper']:.3g}) {a['unit']}"
 
 
-def explanation(of):
+def explanation(of, voxel):
+    seen = (0.4 ** 2 + sum(v * v for v in voxel) / 36) / 100  # variances of the blur, and of a place in a voxel, mean of the three axes
     models = [(m["number"], "; ".join(map(amount, m["added"])) or "as given", "yes" if m["accepted"] else f"no: {m['reason']}", *(f"{10 * m[kind]['l2']:.3f}, {m[kind]['in_noise']:.2f}" for kind in ("training", "held_out"))) for m in of["models"]]
-    return ("\n## What the paper could not: what is missing?\n\n`tether explain` on the same data from the model without support, two of the ten frames held out; candidates: springs and dampers, contact, a stiffer wall, inputs and errors of the data. Missing in truth: springs of 1e6 behind the spine and of 1e5 in its vicinity, and of 1e6 at the outlet's ring.\n\nVerdict: **" + of["verdict"] + "**\n\n" + "".join(f"> {s}\n" for s in of["sentences"]) +
+    return ("\n## What the paper could not: what is missing?\n\n`tether explain` on the same data from the model without support, two of the ten frames held out; candidates: springs and dampers, contact, a stiffer wall, inputs and errors of the data. Missing in truth: springs of 1e6 behind the spine and of 1e5 in its vicinity, and of 1e6 at the outlet's ring. What blur and voxels make is in the data: a variance of some " + f"{seen:.4f} cm2.\n\n" + "Verdict: **" + of["verdict"] + "**\n\n" + "".join(f"> {s}\n" for s in of["sentences"]) +
             table(("model", "with", "kept", "frames used [mm, noises]", "held out"), models) + f"{of['cost']['cpu_seconds']:.0f} CPU s.\n")

@@ -183,7 +183,8 @@ TEST_F(Inherited, WhatDoesNotFitIsNamed) {
   };
   expect("    b: {of: [solid.b.stiffness], part_of: other, deviation: 1}\n" + prior, "has no parameter other; it has");
   expect("    b: {of: [solid.b.stiffness], part_of: a}\n" + prior, "deviation: must be given: how far a part");
-  expect("    b: {of: [solid.b.stiffness], part_of: a, deviation: 1}\n", "has no parameter a");
+  expect("    b: {of: [solid.b.stiffness], part_of: a, deviation: 1}\n",
+         "part_of: a: is of an earlier identification: give its estimate.json");
   expect("    a: {of: [solid.a.stiffness], mean: 3}\n" + prior, "mean: must be absent");
   expect("    a: {of: [solid.a.stiffness], transform: log, deviation: 1}\n" + prior, "was the log2 of one in");
   expect("    a: {of: [solid.a.stiffness], upper: 1e5}\n" + prior, "is not between the bounds");

@@ -134,11 +134,13 @@ TEST_F(TrackRing, MistakesNameTheFrame) {
   RingTrackCase twice = on_axis;
   EXPECT_NE(fault(twice).find("frames.csv:3: the time 0 s of frame_1.stl does not come after 0 s"), std::string::npos)
       << fault(twice);
-  std::ofstream(folder / "frames.csv") << "file,time [s]\nlost.stl,0\n";
+  std::ofstream(folder / "frames.csv") << "file,time [s]\nlost.stl,0\nframe_1.stl,1\n";
   EXPECT_NE(fault(twice).find("lost.stl"), std::string::npos) << fault(twice);
   std::ofstream(folder / "lines.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 1 2\nf 3 3 4\n";
-  std::ofstream(folder / "frames.csv") << "file,time [s]\nlines.obj,0\n";
+  std::ofstream(folder / "frames.csv") << "file,time [s]\nlines.obj,0\nframe_1.stl,1\n";
   EXPECT_NE(fault(twice).find("lines.obj: all its triangles are without area"), std::string::npos) << fault(twice);
+  std::ofstream(folder / "frames.csv") << "file,time [s]\nframe_0.stl,0\n";
+  EXPECT_NE(fault(twice).find("frames.csv: lists 1 frame: a motion needs at least two"), std::string::npos) << fault(twice);
 }
 
 TEST_F(TrackRing, TimesStandInOrderAndHaveAUnit) {

@@ -1,4 +1,5 @@
 """benchmarks/paper_study: what it keeps, and what it computes of results; no run is made."""
+import json
 import math
 import os
 import pathlib
@@ -61,13 +62,17 @@ class KeptSteps(unittest.TestCase):
 
 
 class Computed(unittest.TestCase):
-    def test_distances_of_regions_are_joined_by_area(self):
-        group = lambda region, extent, l2, linf: {"region": region, "samples": 5, "extent": extent, "l2": l2, "linf": linf}
-        groups = [group("spine_1", 1, 0.1, 0.2), group("spine_2", 3, 0.3, 0.5), group("arch", 9, 9, 9), {"region": "spine_3", "samples": 0}]
-        rms, largest = distances.joined(groups, ["spine_1", "spine_2", "spine_3"])
-        self.assertAlmostEqual(rms, 10 * math.sqrt((0.01 + 3 * 0.09) / 4))
-        self.assertAlmostEqual(largest, 5)
-        self.assertTrue(math.isnan(distances.joined(groups, ["opposite"])[0]))
+    def test_distances_are_in_mm_and_absent_where_nothing_was_measured(self):
+        seen = lambda l2: {"samples": 5, "l2": l2, "linf": 2 * l2}
+        group = lambda region, l2, apparent: {"region": region, **seen(l2), "apparent": seen(apparent)}
+        groups = [group(None, 9, 9), group("spine", 0.1, 0.3), *(group(r, 0.2, 0.4) for r in distances.ERROR_REGIONS if r not in ("spine", "arch")),
+                  {"region": "arch", "samples": 0, "apparent": {"samples": 0}}]
+        with tempfile.TemporaryDirectory() as folder:
+            record = {"sources": [{"name": "twin", "moments": [{"time": 0.1, "groups": groups}]}]}
+            (pathlib.Path(folder) / "comparison.json").write_text(json.dumps(record))
+            (found,), (apparent,) = distances.moments(pathlib.Path(folder)), distances.moments(pathlib.Path(folder), apparent=True)
+        self.assertEqual((found.time, found.l2["spine"], found.linf["spine"], apparent.l2["spine"]), (0.1, 1, 2, 3))
+        self.assertTrue(math.isnan(found.l2["arch"]) and math.isnan(apparent.linf["arch"]))
 
     def test_a_plane_cuts_a_tube_in_a_circle(self):
         angles = numpy.linspace(0, 2 * math.pi, 48, endpoint=False)
