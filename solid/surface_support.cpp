@@ -95,9 +95,10 @@ void SurfaceSupport::add(const SupportStep& step, VectorXd& force, SparseMatrix*
       const Vec3 shapes = face.shapes.col(point);
       for (int a = 0; a < 3; ++a)
         force.segment<3>(3 * face.nodes[static_cast<std::size_t>(a)]) += face.area / 3 * shapes[a] * response.traction;
-      add_products(shapes, face.area / 3,
-                   step.advance * response.stiffness + response.damping + acceleration_by_velocity * response.inertia,
-                   block);
+      if (tangent != nullptr)
+        add_products(shapes, face.area / 3,
+                     step.advance * response.stiffness + response.damping + acceleration_by_velocity * response.inertia,
+                     block);
     }
     if (tangent != nullptr) scatter_.add(*tangent, k, block.data());
   }

@@ -140,7 +140,8 @@ TEST_F(TrackRing, MistakesNameTheFrame) {
   std::ofstream(folder / "frames.csv") << "file,time [s]\nlines.obj,0\nframe_1.stl,1\n";
   EXPECT_NE(fault(twice).find("lines.obj: all its triangles are without area"), std::string::npos) << fault(twice);
   std::ofstream(folder / "frames.csv") << "file,time [s]\nframe_0.stl,0\n";
-  EXPECT_NE(fault(twice).find("frames.csv: lists 1 frame: a motion needs at least two"), std::string::npos) << fault(twice);
+  EXPECT_NE(fault(twice).find("frames.csv: lists 1 frame: a motion needs at least two"), std::string::npos)
+      << fault(twice);
 }
 
 TEST_F(TrackRing, TimesStandInOrderAndHaveAUnit) {
