@@ -2,25 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "common/io/vtk_xml.hpp"
 
 namespace tether {
 
 namespace {
 
-/// Cells of so many nodes as `ends` says, the nodes one after the other.
-void add_cells(VtkXml& text, const char* section, const std::vector<int>& nodes, const std::vector<int>& ends) {
-  text.line(fmt::format("<{}>", section));
-  text.array("connectivity", 1, nodes);
-  text.array("offsets", 1, ends);
-  text.line(fmt::format("</{}>", section));
-}
+/// Cells of one kind: the nodes of each, one after the other, and where each ends.
+struct CellList {
+  std::string_view kind;  ///< Lines, Polys
+  std::vector<int> nodes, ends;
+  void end() { ends.push_back(static_cast<int>(nodes.size())); }
+};
 
+/// A named array of PointData or CellData; none if it is empty.
 template <class Number>
-void add_points(VtkXml& text, const std::vector<Number>& coordinates) {
+struct Data {
+  const char* section;
+  const std::string& name;
+  const std::vector<Number>& values;
+};
+
+template <class Coordinate, class Number>
+void write_poly_data(const std::filesystem::path& path, const std::vector<Coordinate>& points, const CellList& cells,
+                     const Data<Number>& data) {
+  const auto count = [&](std::string_view kind) { return cells.kind == kind ? cells.ends.size() : 0; };
+  VtkXml text("PolyData");
+  text.line(fmt::format(
+      R"(<Piece NumberOfPoints="{}" NumberOfVerts="0" NumberOfLines="{}" NumberOfStrips="0" NumberOfPolys="{}">)",
+      points.size() / 3, count("Lines"), count("Polys")));
   text.line("<Points>");
-  text.array("points", 3, coordinates);
+  text.array("points", 3, points);
   text.line("</Points>");
+  if (!data.values.empty()) {
+    text.line(fmt::format("<{}>", data.section));
+    text.array(data.name, 1, data.values);
+    text.line(fmt::format("</{}>", data.section));
+  }
+  text.line(fmt::format("<{}>", cells.kind));
+  text.array("connectivity", 1, cells.nodes);
+  text.array("offsets", 1, cells.ends);
+  text.line(fmt::format("</{}>\n</Piece>", cells.kind));
+  text.save(path);
 }
 
 }  // namespace
@@ -36,48 +61,24 @@ void write_vtp(const std::filesystem::path& path, const Points& points, const st
 void write_vtp(const std::filesystem::path& path, const std::vector<Points>& lines, const std::string& name,
                const std::vector<double>& values) {
   std::vector<double> coordinates;
-  std::vector<int> nodes, ends;
+  CellList cells{"Lines", {}, {}};
   for (const Points& line : lines) {
     coordinates.insert(coordinates.end(), line.data(), line.data() + line.size());
-    for (Eigen::Index i = 0; i < line.cols(); ++i) nodes.push_back(static_cast<int>(nodes.size()));
-    ends.push_back(static_cast<int>(nodes.size()));
+    for (Eigen::Index i = 0; i < line.cols(); ++i) cells.nodes.push_back(static_cast<int>(cells.nodes.size()));
+    cells.end();
   }
-  VtkXml text("PolyData");
-  text.line(fmt::format(
-      R"(<Piece NumberOfPoints="{}" NumberOfLines="{}" NumberOfVerts="0" NumberOfStrips="0" NumberOfPolys="0">)",
-      nodes.size(), lines.size()));
-  add_points(text, coordinates);
-  if (!name.empty()) {
-    text.line("<PointData>");
-    text.array(name, 1, values);
-    text.line("</PointData>");
-  }
-  add_cells(text, "Lines", nodes, ends);
-  text.line("</Piece>");
-  text.save(path);
+  write_poly_data(path, coordinates, cells, Data<double>{"PointData", name, values});
 }
 
 void write_vtp(const std::filesystem::path& path, const Points& points, const std::vector<Triangle>& triangles,
                const std::vector<int>& labels) {
-  std::vector<float> coordinates(points.data(), points.data() + points.size());
-  std::vector<int> nodes, ends;
+  const std::vector<float> coordinates(points.data(), points.data() + points.size());
+  CellList cells{"Polys", {}, {}};
   for (const Triangle& triangle : triangles) {
-    nodes.insert(nodes.end(), triangle.begin(), triangle.end());
-    ends.push_back(static_cast<int>(nodes.size()));
+    cells.nodes.insert(cells.nodes.end(), triangle.begin(), triangle.end());
+    cells.end();
   }
-  VtkXml text("PolyData");
-  text.line(fmt::format(
-      R"(<Piece NumberOfPoints="{}" NumberOfPolys="{}" NumberOfVerts="0" NumberOfStrips="0" NumberOfLines="0">)",
-      points.cols(), triangles.size()));
-  add_points(text, coordinates);
-  if (!labels.empty()) {
-    text.line("<CellData>");
-    text.array("ModelFaceID", 1, labels);
-    text.line("</CellData>");
-  }
-  add_cells(text, "Polys", nodes, ends);
-  text.line("</Piece>");
-  text.save(path);
+  write_poly_data(path, coordinates, cells, Data<int>{"CellData", "ModelFaceID", labels});
 }
 
 }  // namespace tether

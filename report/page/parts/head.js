@@ -31,7 +31,8 @@ function folded(title, sentences) {
 
 /** Of a run alone or an identification they are few, and what one must know before one believes it. */
 function remarks(report) {
-  const title = report.remarks.length === 1 ? "1 remark of the programs" : `${report.remarks.length} remarks of the programs`;
+  const title =
+    report.remarks.length === 1 ? "1 remark of the programs" : `${report.remarks.length} remarks of the programs`;
   const part = folded(title, report.remarks);
   if (part && !report.runs.length) part.open = true;
   return part;

@@ -99,7 +99,7 @@ function fileRows(files) {
   for (const f of files) {
     const row = rows.get(f.name) || { ...f, fields: [], changed: false };
     row.fields.push(f.field);
-    row.changed ||= f.changed;
+    row.changed = row.changed || f.changed;
     rows.set(f.name, row);
   }
   return [...rows.values()].map((f) => [
@@ -139,10 +139,7 @@ export function provenanceSection(report) {
     element("p", {}, made.join(" · ")),
     element("h3", {}, "Data"),
     dataNotes(report),
-    tableOf(
-      ["file", "named by", "size", "last change"],
-      fileRows(p.files),
-    ),
+    tableOf(["file", "named by", "size", "last change"], fileRows(p.files)),
     p.seeds.length
       ? element("p", {}, "Seeds of random numbers: ", p.seeds.map((s) => `${s.field} = ${s.value}`).join(", "))
       : null,
