@@ -24,7 +24,7 @@ void PrintTo(const Made& one, std::ostream* out) {
 class MadeFolderOf : public ::testing::TestWithParam<Made> {
  protected:
   MadeFolderOf() {
-    folder_.file("frames.csv", "file, time [s]\nframe.stl, 0\n");
+    folder_.file("frames.csv", "file, time [s]\nframe.stl, 0\nframe.stl, 1\n");
     folder_.file("ring.yaml", "name: root\nframes: {file: frames.csv, unit: mm}\n");
     for (const char* name : GetParam().own) {
       fs::create_directories((folder_ / "mine" / name).parent_path());
