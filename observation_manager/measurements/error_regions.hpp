@@ -9,7 +9,7 @@ namespace tether {
 struct ErrorRegions {
   ErrorRegions() = default;
   /// Each region of the wall by itself.
-  ErrorRegions(std::vector<std::string> regions_of_wall);  // NOLINT(google-explicit-constructor): the usual case
+  ErrorRegions(std::vector<std::string> regions_of_wall);
 
   /// Number of the part that a region of the wall belongs to; -1: none, or no region.
   int of(int region_of_wall) const;

@@ -123,7 +123,7 @@ void add_parts(std::vector<std::vector<TrianglePart>>& to, const std::vector<std
 }
 
 /// Where along the line of `along` the wall of the rule's branches lies: "its wall lies between 1.2 and 3.1 along
-/// left_carotid". Empty without `along`.
+/// left_carotid". Empty without `along`, or where these branches have no wall.
 std::string reach_along(const RegionRule& rule, const Points& points, const std::vector<Triangle>& triangles,
                         const Anatomy* anatomy) {
   if (!rule.along) return "";
@@ -143,6 +143,7 @@ std::string reach_along(const RegionRule& rule, const Points& points, const std:
       const double along = anatomy->curve(line).nearest(points.col(node)).along;
       least = std::min(least, along), most = std::max(most, along);
     }
+  if (least > most) return "";
   return fmt::format("; its wall lies between {:.3g} and {:.3g} along {}", least, most, anatomy->name(line));
 }
 
